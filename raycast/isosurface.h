@@ -1,0 +1,77 @@
+// Rays against the isosurface.
+//
+// Queries work in *mesh space*: lengths in units of the smallest spacing, the first sample at (0, 0, 0); sample (i, j,
+// k) sits at (i, j, k) * step(), where step() = spacing / smallest spacing. Beyond the box the field is extended by its
+// value at the nearest point of the box, so that every line has values along its whole length and the isosurface has no
+// rim: it goes on outward from the box as straight walls.
+//
+// A line is x(t) = origin + t * direction; t is the caller's own parameter, direction need not have unit length.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "delaunay/base/counters.h"
+#include "delaunay/base/vec3.h"
+#include "raycast/search_options.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// A line parameter at which the extended field equals the isovalue.
+struct Hit {
+  double t = 0;
+  bool falling = false;  // the field falls from above to below the isovalue as t grows
+};
+
+struct Line {
+  Vec3 origin;
+  Vec3 direction;
+  [[nodiscard]] Vec3 at(double t) const { return origin + t * direction; }
+};
+
+class MinMaxKdTree;
+
+class Isosurface {
+ public:
+  // Keeps a reference to the grid. Precondition: no sample equals `isovalue`.
+  Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options);
+  ~Isosurface();
+  Isosurface(const Isosurface&) = delete;
+  Isosurface& operator=(const Isosurface&) = delete;
+
+  [[nodiscard]] double isovalue() const { return isovalue_; }
+  [[nodiscard]] const Vec3& step() const { return step_; }
+  // The volume's box in mesh space; its low corner is the origin.
+  [[nodiscard]] const Box3& box() const { return box_; }
+
+  // Field minus isovalue at p, extended beyond the box.
+  [[nodiscard]] double value(const Vec3& p) const;
+  // Which side: value >= 0. The one tie rule of the project: exactly zero counts as above.
+  [[nodiscard]] bool is_above(const Vec3& p) const { return value(p) >= 0; }
+  // Gradient of the field at p (clamped to the box), with respect to mesh-space coordinates.
+  [[nodiscard]] Vec3 gradient(const Vec3& p) const;
+
+  // All hits with t0 <= t <= t1, ascending, appended to `hits` (which is cleared first). Falling and rising hits
+  // alternate: tangential touches are left out. t0 and t1 may be infinite (the line is then cut where its clamped image
+  // no longer moves).
+  void all_hits(const Line& line, double t0, double t1, std::vector<Hit>& hits, SearchCounters& counters) const;
+
+  // The falling hit nearest to t = 0 with |t| <= reach, searched outward from t = 0 by growing steps (or over the whole
+  // line when options.incremental is off). The caller gives the outward normal (towards lower values) as direction, so
+  // hits on sheets that face the other way are passed over.
+  [[nodiscard]] std::optional<double> nearest_falling_hit(const Line& line, double reach,
+                                                          SearchCounters& counters) const;
+
+ private:
+  const ScalarGrid& grid_;
+  double isovalue_;
+  SearchOptions options_;
+  Vec3 step_;
+  Box3 box_;
+  std::unique_ptr<MinMaxKdTree> tree_;
+};
+
+}  // namespace deliso

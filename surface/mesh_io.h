@@ -1,0 +1,18 @@
+// Triangle meshes in files: PLY (binary little endian or ASCII), OFF, OBJ, STL (binary), chosen by the extension.
+#pragma once
+
+#include <filesystem>
+
+#include "surface/triangle_mesh.h"
+
+namespace deliso {
+
+// Writes whole or not at all (a temporary file beside it, then a rename). Coordinates are doubles (STL: floats).
+// Throws InputError when the extension is unknown or the file cannot be written.
+void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii = false);
+
+// Throws InputError naming file, line or byte, and what was expected. STL corners with equal coordinates become one
+// vertex.
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace deliso

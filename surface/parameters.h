@@ -1,0 +1,61 @@
+// The parameters of the mesher. Defaults are the paper's where it gives them. experiments/config.h holds the table that
+// makes JSON, help text and schema out of these structs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "raycast/search_options.h"
+
+namespace deliso {
+
+enum class Algorithm { kTwoStage, kFull3d };
+enum class Seeding { kComponents, kRandom };
+enum class Boundary { kOpen, kClosed };
+enum class SpacingUse { kUse, kIgnore };
+enum class QueueOrder { kWorstFirst, kFirstInFirstOut, kLargestRadius };
+
+struct InitialParameters {
+  std::int32_t random_points = 0;          // hits of random rays; >= 0
+  Seeding seeding = Seeding::kComponents;  // seeds on every component, or the random points alone
+};
+
+struct Stage1Parameters {
+  double epsilon = 0.2;            // h / r above which a triangle is refined; > 0
+  double rho = 2.0;                // r / l above which a triangle is refined; >= 1
+  double r_min = 0.001;            // no geometric refinement at or below this radius, as a fraction of b; >= 0
+  double size_bound_voxels = 0.3;  // no insertion nearer than this to a vertex, in smallest spacings; >= 0
+};
+
+struct Stage2Parameters {
+  double epsilon1 = 0.1;               // h / r above which a triangle is refined; > 0
+  double epsilon2 = 0.2;               // r / mean pole height above which a triangle is refined; > 0
+  double rho = 2.0;                    // r / l above which a triangle is refined; >= 1
+  double r_min = 0.001;                // no refinement at or below this radius, as a fraction of b; >= 0
+  std::optional<double> max_distance;  // h above which a triangle is refined, in smallest spacings; > 0
+};
+
+struct RepairParameters {
+  std::int32_t max_rounds = 8;  // 0 turns repair off
+};
+
+struct BudgetParameters {
+  std::optional<double> seconds;             // stop refining after this wall-clock time; > 0
+  std::optional<std::int64_t> max_vertices;  // stop refining at this many vertices; >= 4
+};
+
+struct Parameters {
+  Algorithm algorithm = Algorithm::kTwoStage;
+  InitialParameters initial;
+  Stage1Parameters stage1;
+  Stage2Parameters stage2;
+  QueueOrder queue_order = QueueOrder::kWorstFirst;
+  Boundary boundary = Boundary::kOpen;
+  SearchOptions search;
+  SpacingUse spacing = SpacingUse::kUse;
+  bool certify = true;
+  RepairParameters repair;
+  BudgetParameters budget;
+};
+
+}  // namespace deliso
