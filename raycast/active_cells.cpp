@@ -66,10 +66,15 @@ void activate_row(const std::array<const Word*, 4>& rows, std::size_t samples, s
 
 ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
   const Dims& n = grid.dims();
-  const auto lines = [&n](std::size_t a) { return static_cast<std::size_t>(n[a]) / 8 + 1; };
-  lines_x_ = lines(0);
-  lines_y_ = lines(1);
-  words_.assign(8 * lines_x_ * lines_y_ * lines(2), 0);
+  // A coordinate's low two bits tell the place in a brick, the third the brick in a line, the rest the line.
+  std::size_t line_stride = 512;
+  for (std::size_t a = 0; a < 3; ++a) {
+    places_[a].resize(static_cast<std::size_t>(n[a]) + 1);
+    for (std::size_t c = 0; c < places_[a].size(); ++c)
+      places_[a][c] = ((c & 3) << (2 * a)) + (((c >> 2) & 1) << (6 + a)) + (c >> 3) * line_stride;
+    line_stride *= (static_cast<std::size_t>(n[a]) >> 3) + 1;
+  }
+  words_.assign(line_stride / 64, 0);
   const SampleSigns signs(grid, isovalue);
   std::vector<Word> active(signs.words_per_row);
   for (std::int32_t z = 0; z <= n[2]; ++z)
@@ -84,7 +89,9 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
       for (std::int32_t x = 0; x <= n[0]; x += 4) {
         const auto word = static_cast<std::size_t>(x) / kWordBits;
         const Word four = (active[word] >> (static_cast<std::size_t>(x) % kWordBits)) & 15u;
-        if (four != 0) words_[word_index({x, y, z})] |= four << (((y & 3) << 2) | ((z & 3) << 4));
+        if (four == 0) continue;
+        const std::size_t place = place_of({x, y, z});
+        words_[place / kWordBits] |= four << (place % kWordBits);
       }
     }
 }

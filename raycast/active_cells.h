@@ -18,26 +18,21 @@ class ActiveCells {
   // crossed. Precondition: no sample equals `isovalue`.
   ActiveCells(const ScalarGrid& grid, double isovalue);
 
-  // The 64 cells of a cell's brick.
-  [[nodiscard]] std::uint64_t brick(const Cell& cell) const { return words_[word_index(cell)]; }
-  [[nodiscard]] static std::uint64_t bit(const Cell& cell) {
-    return std::uint64_t{1} << ((cell[0] & 3) | ((cell[1] & 3) << 2) | ((cell[2] & 3) << 4));
+  [[nodiscard]] bool is_active(const Cell& cell) const {
+    const std::size_t place = place_of(cell);
+    return ((words_[place / 64] >> (place % 64)) & 1) != 0;
   }
-  [[nodiscard]] bool is_active(const Cell& cell) const { return (brick(cell) & bit(cell)) != 0; }
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
  private:
-  [[nodiscard]] std::size_t word_index(const Cell& cell) const {
-    const auto x = static_cast<std::size_t>(cell[0]);
-    const auto y = static_cast<std::size_t>(cell[1]);
-    const auto z = static_cast<std::size_t>(cell[2]);
-    const std::size_t line = (x >> 3) + lines_x_ * ((y >> 3) + lines_y_ * (z >> 3));
-    return 8 * line + (((x >> 2) & 1) | ((y >> 1) & 2) | (z & 4));
+  // The number of a cell's bit: every coordinate contributes on its own.
+  [[nodiscard]] std::size_t place_of(const Cell& cell) const {
+    return places_[0][static_cast<std::size_t>(cell[0])] + places_[1][static_cast<std::size_t>(cell[1])] +
+           places_[2][static_cast<std::size_t>(cell[2])];
   }
 
-  std::size_t lines_x_ = 0;
-  std::size_t lines_y_ = 0;
+  std::array<std::vector<std::size_t>, 3> places_;
   std::vector<std::uint64_t> words_;
 };
 

@@ -75,24 +75,26 @@ class CellWalk {
       remaining_[a] = step_[a] * (end[a] - start[a]);
       set_next(a);
     }
-    set_exit();
   }
 
   [[nodiscard]] const Cell& cell() const { return cell_; }
   // Where the walk came into the cell and where it will leave it; axis -1 where it starts or ends.
-  [[nodiscard]] const Crossing& entry() const { return entry_; }
-  [[nodiscard]] const Crossing& exit() const { return exit_; }
+  [[nodiscard]] Crossing entry() const { return entry_; }
+  [[nodiscard]] Crossing exit() const {
+    const std::size_t a = next_axis();
+    if (next_[a] == kNever) return {signed_(key_high_), -1, 0};
+    return {clamped(next_[a]), static_cast<std::int32_t>(a), static_cast<double>(plane_after(a, 1))};
+  }
 
   // Goes on to the next cell; false when this was the last.
   bool step() {
-    if (exit_.axis < 0) return false;
-    const auto a = static_cast<std::size_t>(exit_.axis);
-    entry_ = exit_;
-    cell_[a] += step_[a];
-    --remaining_[a];
-    set_next(a);
-    set_exit();
-    return true;
+    // Axis by axis, so that each branch works on fixed registers.
+    if (!precedes(next_[1], 1, next_[0], 0)) {
+      if (!precedes(next_[2], 2, next_[0], 0)) return step_along(0);
+    } else {
+      if (!precedes(next_[2], 2, next_[1], 1)) return step_along(1);
+    }
+    return step_along(2);
   }
 
   // Goes on to the first cell beyond the block, which holds the present cell; false when the walk ends within it. The
@@ -112,14 +114,18 @@ class CellWalk {
   }
   [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return signed_(line_->crossing(a, plane)); }
   void set_next(std::size_t a) { next_[a] = remaining_[a] > 0 ? key(a, plane_after(a, 1)) : kNever; }
-  void set_exit() {
-    const bool y_first = precedes(next_[1], 1, next_[0], 0);
-    const std::size_t xy = y_first ? 1 : 0;
-    const std::size_t a = precedes(next_[2], 2, next_[xy], xy) ? 2 : xy;
-    exit_ = next_[a] < kNever ? crossing(a, next_[a], plane_after(a, 1)) : Crossing{signed_(key_high_), -1, 0};
+  [[nodiscard]] double clamped(double key) const { return signed_(std::min(std::max(key, key_low_), key_high_)); }
+  [[nodiscard]] std::size_t next_axis() const {
+    const std::size_t xy = precedes(next_[1], 1, next_[0], 0) ? 1 : 0;
+    return precedes(next_[2], 2, next_[xy], xy) ? 2 : xy;
   }
-  [[nodiscard]] Crossing crossing(std::size_t a, double key, std::int32_t plane) const {
-    return {signed_(std::clamp(key, key_low_, key_high_)), static_cast<std::int32_t>(a), static_cast<double>(plane)};
+  bool step_along(std::size_t a) {
+    if (next_[a] == kNever) return false;
+    entry_ = {clamped(next_[a]), static_cast<std::int32_t>(a), static_cast<double>(plane_after(a, 1))};
+    cell_[a] += step_[a];
+    --remaining_[a];
+    set_next(a);
+    return true;
   }
   // How many steps along axis b come before the crossing (key, a); at most `most`.
   [[nodiscard]] std::int32_t steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const;
@@ -128,9 +134,8 @@ class CellWalk {
   Cell cell_;
   Cell step_{};
   Cell remaining_{};   // steps still to do
-  AxisValues next_{};  // key of the next crossing
+  AxisValues next_{};  // key of the next crossing, kNever when there is none
   Crossing entry_;
-  Crossing exit_;
   double key_low_;
   double key_high_;
 };
@@ -162,7 +167,7 @@ bool CellWalk<kBackward>::leave(const CellBlock& block) {
     out = a;
   }
   if (out == 3) return false;
-  entry_ = crossing(out, key_out, plane_after(out, count[out]));
+  entry_ = {clamped(key_out), static_cast<std::int32_t>(out), static_cast<double>(plane_after(out, count[out]))};
   // All crossings before it.
   for (std::size_t a = 0; a < 3; ++a)
     if (a != out) count[a] = steps_before(a, std::min(count[a] - 1, remaining_[a]), key_out, out);
@@ -171,7 +176,6 @@ bool CellWalk<kBackward>::leave(const CellBlock& block) {
     remaining_[a] -= count[a];
     set_next(a);
   }
-  set_exit();
   return true;
 }
 

@@ -53,23 +53,20 @@ IndexLine index_line(const Line& line, const Vec3& inverse_step, const Dims& dim
 // face differs, and that is exactly 0 or 1.
 Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValues& end, const Cell& cell,
                       const Cell& base, const Dims& dims) {
-  Vec3 uvw;
-  for (std::size_t a = 0; a < 3; ++a) {
-    double u = 0;
-    if (cell[a] == 0) {
-      u = 0;
-    } else if (cell[a] == dims[a]) {
-      u = 1;
-    } else if (at.axis < 0) {
-      u = std::clamp(end[a] - base[a], 0.0, 1.0);
-    } else if (at.axis == static_cast<std::int32_t>(a)) {
-      u = at.plane - base[a];
-    } else {
-      u = std::clamp(line.base[a] + at.s * line.direction[a] - base[a], 0.0, 1.0);
-    }
-    uvw[a] = u;
+  AxisValues uvw;
+  if (at.axis < 0) {
+    for (std::size_t a = 0; a < 3; ++a) uvw[a] = end[a] - base[a];
+  } else {
+    for (std::size_t a = 0; a < 3; ++a) uvw[a] = line.base[a] + at.s * line.direction[a] - base[a];
+    uvw[static_cast<std::size_t>(at.axis)] = at.plane - base[static_cast<std::size_t>(at.axis)];
   }
-  return uvw;
+  for (std::size_t a = 0; a < 3; ++a) {
+    uvw[a] = std::clamp(uvw[a], 0.0, 1.0);
+    // Outer cells: the coordinate stays that of the box's face.
+    if (cell[a] == 0) uvw[a] = 0;
+    if (cell[a] == dims[a]) uvw[a] = 1;
+  }
+  return {uvw[0], uvw[1], uvw[2]};
 }
 
 // The hits of one cell: sign changes between two parameters of the line.
@@ -157,7 +154,8 @@ struct Isosurface::Segment {
     // Where an infinite line starts and stops to move.
     double moves_from = kNever;
     double moves_to = -kNever;
-    for (std::size_t a = 0; a < 3; ++a) {
+    const bool any_infinite = std::isinf(t0) || std::isinf(t1);
+    for (std::size_t a = 0; any_infinite && a < 3; ++a) {
       if (line.direction[a] == 0) continue;
       const double at_low = line.crossing(a, 0);
       const double at_high = line.crossing(a, dims[a] - 1);
@@ -218,7 +216,7 @@ CellCorners Isosurface::relative_corners(const Vec3& p, Vec3& uvw) const {
 double Isosurface::value(const Vec3& p) const {
   Vec3 uvw;
   const CellCorners corners = relative_corners(p, uvw);
-  return trilinear_value(corners, uvw);
+  return relative_value(corners, uvw);
 }
 
 Vec3 Isosurface::gradient(const Vec3& p) const {

@@ -3,23 +3,24 @@
 namespace deliso {
 
 BernsteinCubic restrict_to_segment(const CellCorners& f, const Vec3& a, const Vec3& b) {
-  // Interpolate along x, then y, then z, each at a (0) and at b (1), in the order of trilinear_value.
-  std::array<double, 8> at_x;
+  // Interpolate along z, then y, then x, each at a (first half) and at b (second half).
+  std::array<double, 8> at_z;
+  for (std::size_t i = 0; i < 4; ++i) at_z[i] = blend(f[i], f[i + 4], a.z);
+  for (std::size_t i = 0; i < 4; ++i) at_z[i + 4] = blend(f[i], f[i + 4], b.z);
+  std::array<double, 8> at_yz;  // bit 0: x, bit 1: z from b, bit 2: y from b
+  for (std::size_t z = 0; z < 8; z += 4)
+    for (std::size_t x = 0; x < 2; ++x) {
+      at_yz[z / 2 + x] = blend(at_z[z + x], at_z[z + x + 2], a.y);
+      at_yz[z / 2 + x + 4] = blend(at_z[z + x], at_z[z + x + 2], b.y);
+    }
+  std::array<double, 4> at_a;  // bit 0: z from b, bit 1: y from b
+  std::array<double, 4> at_b;
   for (std::size_t i = 0; i < 4; ++i) {
-    at_x[i] = interpolate(f[2 * i], f[2 * i + 1], a.x);
-    at_x[i + 4] = interpolate(f[2 * i], f[2 * i + 1], b.x);
+    at_a[i] = blend(at_yz[2 * i], at_yz[2 * i + 1], a.x);
+    at_b[i] = blend(at_yz[2 * i], at_yz[2 * i + 1], b.x);
   }
-  std::array<double, 8> at_xy;
-  for (std::size_t i = 0; i < 4; ++i) {
-    at_xy[i] = interpolate(at_x[2 * i], at_x[2 * i + 1], a.y);
-    at_xy[i + 4] = interpolate(at_x[2 * i], at_x[2 * i + 1], b.y);
-  }
-  std::array<double, 8> g;  // bit 0: x, bit 1: y, bit 2: z from b
-  for (std::size_t i = 0; i < 4; ++i) {
-    g[i] = interpolate(at_xy[2 * i], at_xy[2 * i + 1], a.z);
-    g[i + 4] = interpolate(at_xy[2 * i], at_xy[2 * i + 1], b.z);
-  }
-  return {g[0], (g[1] + g[2] + g[4]) / 3, (g[3] + g[5] + g[6]) / 3, g[7]};
+  constexpr double kThird = 1.0 / 3;
+  return {at_a[0], (at_b[0] + at_a[1] + at_a[2]) * kThird, (at_b[1] + at_b[2] + at_a[3]) * kThird, at_b[3]};
 }
 
 SignChanges voxel_intersection(const CellCorners& relative, const Vec3& a, const Vec3& b, CubicSolver solver,

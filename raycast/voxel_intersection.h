@@ -23,10 +23,22 @@ inline bool holds_isovalue(const CellCorners& relative) {
   return above != 0 && above != 8;
 }
 
+// Interpolation that keeps signs and is exact at both ends.
+inline double blend(double at0, double at1, double t) { return (1 - t) * at0 + t * at1; }
+
+// The field minus the isovalue at a point of the cell. Along z first, then y, then x, like restrict_to_segment.
+inline double relative_value(const CellCorners& f, const Vec3& p) {
+  const double y0x0 = blend(f[0], f[4], p.z);
+  const double y0x1 = blend(f[1], f[5], p.z);
+  const double y1x0 = blend(f[2], f[6], p.z);
+  const double y1x1 = blend(f[3], f[7], p.z);
+  return blend(blend(y0x0, y1x0, p.y), blend(y0x1, y1x1, p.y), p.x);
+}
+
 // The trilinear interpolant along the segment from a to b (both in the cell's parameters, [0, 1]^3) as a cubic in the
 // segment's own parameter. Its blossom takes each coordinate from a or from b on its own, so the Bernstein coefficients
 // are averages of interpolated values at the corners of the box that a and b span. The end coefficients are, bit for
-// bit, trilinear_value(relative, a) and trilinear_value(relative, b); on a face that two cells share, both cells get
+// bit, relative_value(relative, a) and relative_value(relative, b); on a face that two cells share, both cells get
 // the same.
 BernsteinCubic restrict_to_segment(const CellCorners& relative, const Vec3& a, const Vec3& b);
 
