@@ -56,6 +56,13 @@ struct Crossing {
   double plane = 0;
 };
 
+// A cell, and the crossings between which the line is in it; in.s <= out.s.
+struct CellVisit {
+  Cell cell;
+  Crossing in;
+  Crossing out;
+};
+
 // Extended cells from `low` to `high`, inclusive.
 struct CellBlock {
   Cell low{};
@@ -78,8 +85,11 @@ class CellWalk {
   }
 
   [[nodiscard]] const Cell& cell() const { return cell_; }
-  // Where the walk came into the cell and where it will leave it; axis -1 where it starts or ends.
-  [[nodiscard]] Crossing entry() const { return entry_; }
+  // The cell with its crossings. By value: the walk itself can then live in registers.
+  [[nodiscard]] CellVisit visit() const {
+    return kBackward ? CellVisit{cell_, exit(), entry_} : CellVisit{cell_, entry_, exit()};
+  }
+  // Where the walk will leave the cell; axis -1 where it ends.
   [[nodiscard]] Crossing exit() const {
     const std::size_t a = next_axis();
     if (next_[a] == kNever) return {signed_(key_high_), -1, 0};

@@ -53,20 +53,15 @@ IndexLine index_line(const Line& line, const Vec3& inverse_step, const Dims& dim
 // face differs, and that is exactly 0 or 1.
 Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValues& end, const Cell& cell,
                       const Cell& base, const Dims& dims) {
-  AxisValues uvw;
-  if (at.axis < 0) {
-    for (std::size_t a = 0; a < 3; ++a) uvw[a] = end[a] - base[a];
-  } else {
-    for (std::size_t a = 0; a < 3; ++a) uvw[a] = line.base[a] + at.s * line.direction[a] - base[a];
-    uvw[static_cast<std::size_t>(at.axis)] = at.plane - base[static_cast<std::size_t>(at.axis)];
-  }
-  for (std::size_t a = 0; a < 3; ++a) {
-    uvw[a] = std::clamp(uvw[a], 0.0, 1.0);
+  const auto coordinate = [&](std::size_t a) {
+    const double inside = at.axis < 0                               ? end[a]
+                          : at.axis == static_cast<std::int32_t>(a) ? at.plane
+                                                                    : line.base[a] + at.s * line.direction[a];
+    const double u = std::min(std::max(inside - base[a], 0.0), 1.0);
     // Outer cells: the coordinate stays that of the box's face.
-    if (cell[a] == 0) uvw[a] = 0;
-    if (cell[a] == dims[a]) uvw[a] = 1;
-  }
-  return {uvw[0], uvw[1], uvw[2]};
+    return cell[a] == 0 ? 0.0 : cell[a] == dims[a] ? 1.0 : u;
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 // The hits of one cell: sign changes between two parameters of the line.
@@ -83,22 +78,17 @@ struct CellHits {
   }
 };
 
-// A place on the line: a crossing, or the end of a segment at `end` (in index space).
-struct Place {
-  Crossing at;
-  const AxisValues& end;
-};
-
+// The hits in a cell that the line crosses; `low` and `high` are the ends of the segment (in index space).
 CellHits solve_cell(const ScalarGrid& grid, double isovalue, CubicSolver solver, const IndexLine& line,
-                    const Cell& cell, const Place& in, const Place& out) {
-  const Cell base = grid_cell(cell, grid.dims());
+                    const CellVisit& visit, const AxisValues& low, const AxisValues& high) {
+  const Cell base = grid_cell(visit.cell, grid.dims());
   const CellCorners corners = relative_to(grid.cell(base[0], base[1], base[2]), isovalue);
-  const Vec3 a = position_in_cell(line, in.at, in.end, cell, base, grid.dims());
-  const Vec3 b = position_in_cell(line, out.at, out.end, cell, base, grid.dims());
+  const Vec3 a = position_in_cell(line, visit.in, low, visit.cell, base, grid.dims());
+  const Vec3 b = position_in_cell(line, visit.out, high, visit.cell, base, grid.dims());
   CellHits hits;
   hits.changes = voxel_intersection(corners, a, b, solver, hits.starts_above);
-  hits.s_in = in.at.s;
-  hits.s_out = out.at.s;
+  hits.s_in = visit.in.s;
+  hits.s_out = visit.out.s;
   return hits;
 }
 
@@ -231,13 +221,13 @@ void Isosurface::search_cells(const Segment& segment, Solve&& solve) const {
   CellWalk<> walk(segment.line, segment.first, segment.last, segment.s_low, segment.s_high);
   if (active_ != nullptr) {
     do {
-      if (active_->is_active(walk.cell())) solve(walk);
+      if (active_->is_active(walk.cell())) solve(walk.visit());
     } while (walk.step());
     return;
   }
   if (tree_ == nullptr) {
     do {
-      solve(walk);
+      solve(walk.visit());
     } while (walk.step());
     return;
   }
@@ -252,7 +242,7 @@ void Isosurface::search_cells(const Segment& segment, Solve&& solve) const {
     if (level >= lowest) {
       more = walk.leave(tree_->block(level, cell));
     } else {
-      if (cell_holds(grid_, walk.cell(), isovalue_)) solve(walk);
+      if (cell_holds(grid_, walk.cell(), isovalue_)) solve(walk.visit());
       more = walk.step();
     }
     if (!more) return;
@@ -269,10 +259,10 @@ void Isosurface::all_hits(const Line& line, double t0, double t1, std::vector<Hi
   if (!(t0 < t1)) return;
   const Segment segment(*this, line, t0, t1);
   std::uint64_t solves = 0;
-  search_cells(segment, [&](const CellWalk<>& walk) {
+  search_cells(segment, [&](const CellVisit& visit) {
     ++solves;
-    const CellHits found = solve_cell(grid_, isovalue_, options_.solver, segment.line, walk.cell(),
-                                      {walk.entry(), segment.low}, {walk.exit(), segment.high});
+    const CellHits found =
+        solve_cell(grid_, isovalue_, options_.solver, segment.line, visit, segment.low, segment.high);
     for (int i = 0; i < found.changes.count; ++i)
       hits.push_back({std::clamp(found.t(segment.line, i), t0, t1), found.falling(i)});
   });
@@ -286,10 +276,9 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Segment segment(*this, line, -kInfinity, kInfinity);
   Nearest nearest;
-  search_cells(segment, [&](const CellWalk<>& walk) {
+  search_cells(segment, [&](const CellVisit& visit) {
     ++solves;
-    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, segment.line, walk.cell(),
-                                     {walk.entry(), segment.low}, {walk.exit(), segment.high}),
+    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, segment.line, visit, segment.low, segment.high),
                           segment.line);
   });
   return nearest.within(reach);
@@ -312,27 +301,32 @@ std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double 
   CellWalk<false> ahead(line, start, ahead_end, -line.t_origin, kNever);
   CellWalk<true> behind(line, start, behind_end, -line.t_origin, -kNever);
   Nearest nearest;
-  const auto visit = [&](const Cell& cell, const Crossing& in, const Crossing& out) {
-    if (active_ != nullptr ? !active_->is_active(cell)
-                           : options_.min_max_pruning && !cell_holds(grid_, cell, isovalue_))
+  const auto solve = [&](const CellVisit& visit) {
+    if (active_ != nullptr ? !active_->is_active(visit.cell)
+                           : options_.min_max_pruning && !cell_holds(grid_, visit.cell, isovalue_))
       return;
     ++solves;
-    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, line, cell, {in, line.base}, {out, line.base}),
-                          line);
+    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, line, visit, line.base, line.base), line);
   };
-  visit(start, behind.exit(), ahead.exit());
+  Crossing ahead_exit = ahead.exit();
+  Crossing behind_exit = behind.exit();
+  solve({start, behind_exit, ahead_exit});
   // The segment between the walks grows by one cell at a time, at the end nearer to t = 0, until nothing beyond its
   // ends can be nearer than the best hit.
   for (;;) {
-    const double reached_ahead = ahead.exit().s + line.t_origin;
-    const double reached_behind = -(behind.exit().s + line.t_origin);
+    const double reached_ahead = ahead_exit.s + line.t_origin;
+    const double reached_behind = -(behind_exit.s + line.t_origin);
     if (std::min(reached_ahead, reached_behind) > std::min(std::abs(nearest.t), reach)) break;
     if (reached_ahead <= reached_behind) {
       if (!ahead.step()) break;  // this side is never nearer than kNever: both are done
-      visit(ahead.cell(), ahead.entry(), ahead.exit());
+      const Crossing entry = ahead_exit;
+      ahead_exit = ahead.exit();
+      solve({ahead.cell(), entry, ahead_exit});
     } else {
       if (!behind.step()) break;
-      visit(behind.cell(), behind.exit(), behind.entry());
+      const Crossing entry = behind_exit;
+      behind_exit = behind.exit();
+      solve({behind.cell(), behind_exit, entry});
     }
   }
   return nearest.within(reach);

@@ -44,8 +44,8 @@ SearchOptions options_of(const benchmark::State& state) {
   return options;
 }
 
-// Points of the surface with their outward unit normals. Near each other in memory when `sorted`: a random walk over
-// the surface instead of independent points.
+// Points of the surface with their outward unit normals: independent of each other, or (coherent) eight at a time
+// within a few voxels, like the queries of one insertion.
 struct SurfacePoint {
   Vec3 point;
   Vec3 normal;
@@ -57,16 +57,17 @@ std::vector<SurfacePoint> surface_points(const Isosurface& surface, std::size_t 
   std::vector<SurfacePoint> points;
   std::vector<Hit> hits;
   SearchCounters counters;
-  Vec3 from{rng.uniform(0, size.x), rng.uniform(0, size.y), rng.uniform(0, size.z)};
+  const auto anywhere = [&] { return Vec3{rng.uniform(0, size.x), rng.uniform(0, size.y), rng.uniform(0, size.z)}; };
+  const auto near = [&] { return rng.uniform(-2, 2); };
+  Vec3 from = anywhere();
   while (points.size() < count) {
-    if (!coherent || points.empty()) from = {rng.uniform(0, size.x), rng.uniform(0, size.y), rng.uniform(0, size.z)};
     const Vec3 direction{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
     surface.all_hits({from, direction}, -1000, 1000, hits, counters);
     const Hit* nearest = nullptr;
     for (const Hit& hit : hits)
       if (nearest == nullptr || std::abs(hit.t) < std::abs(nearest->t)) nearest = &hit;
     if (nearest == nullptr) {
-      from = {rng.uniform(0, size.x), rng.uniform(0, size.y), rng.uniform(0, size.z)};
+      from = anywhere();
       continue;
     }
     const Vec3 p = Line{from, direction}.at(nearest->t);
@@ -74,7 +75,9 @@ std::vector<SurfacePoint> surface_points(const Isosurface& surface, std::size_t 
     const double length = norm(gradient);
     if (length == 0) continue;
     points.push_back({p, gradient * (-1 / length)});
-    if (coherent) from = p + Vec3{rng.uniform(-4, 4), rng.uniform(-4, 4), rng.uniform(-4, 4)};
+    const bool stay = coherent && points.size() % 8 != 0;
+    if (stay) from = points[points.size() & ~std::size_t{7}].point + Vec3{near(), near(), near()};
+    if (!stay) from = anywhere();
   }
   return points;
 }
