@@ -69,14 +69,14 @@ struct CellBlock {
   Cell high{};
 };
 
-// Steps from cell to cell along a line: towards growing s, or (kBackward) towards falling s, in the exactly reversed
+// Steps from cell to cell along a line: towards growing s, or (Backward) towards falling s, in the exactly reversed
 // order.
-template <bool kBackward = false>
+template <bool Backward = false>
 class CellWalk {
  public:
   // From `start`, entered at parameter s_start, to `end`, which ends at s_end. Crossings are clamped to that range.
   CellWalk(const IndexLine& line, const Cell& start, const Cell& end, double s_start, double s_end)
-      : line_(&line), cell_(start), entry_{s_start, -1, 0}, key_low_(signed_(s_start)), key_high_(signed_(s_end)) {
+      : line_(&line), cell_(start), entry_{s_start, -1, 0}, key_low_(to_key(s_start)), key_high_(to_key(s_end)) {
     for (std::size_t a = 0; a < 3; ++a) {
       step_[a] = end[a] < start[a] ? -1 : 1;
       remaining_[a] = step_[a] * (end[a] - start[a]);
@@ -87,12 +87,12 @@ class CellWalk {
   [[nodiscard]] const Cell& cell() const { return cell_; }
   // The cell with its crossings. By value: the walk itself can then live in registers.
   [[nodiscard]] CellVisit visit() const {
-    return kBackward ? CellVisit{cell_, exit(), entry_} : CellVisit{cell_, entry_, exit()};
+    return Backward ? CellVisit{cell_, exit(), entry_} : CellVisit{cell_, entry_, exit()};
   }
   // Where the walk will leave the cell; axis -1 where it ends.
   [[nodiscard]] Crossing exit() const {
     const std::size_t a = next_axis();
-    if (next_[a] == kNever) return {signed_(key_high_), -1, 0};
+    if (next_[a] == kNever) return {to_key(key_high_), -1, 0};
     return {clamped(next_[a]), static_cast<std::int32_t>(a), static_cast<double>(plane_after(a, 1))};
   }
 
@@ -113,18 +113,18 @@ class CellWalk {
 
  private:
   // Crossings are compared by key: it grows along the walk.
-  static double signed_(double s) { return kBackward ? -s : s; }
+  static double to_key(double s) { return Backward ? -s : s; }
   // Of crossings with equal keys the lower axis comes first, or last when the walk goes backward.
   static bool precedes(double key_a, std::size_t a, double key_b, std::size_t b) {
-    return key_a < key_b || (key_a == key_b && (kBackward ? a > b : a < b));
+    return key_a < key_b || (key_a == key_b && (Backward ? a > b : a < b));
   }
   // The face behind the next `count` cells of an axis, count >= 1.
   [[nodiscard]] std::int32_t plane_after(std::size_t a, std::int32_t count) const {
     return step_[a] > 0 ? cell_[a] + count - 1 : cell_[a] - count;
   }
-  [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return signed_(line_->crossing(a, plane)); }
+  [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return to_key(line_->crossing(a, plane)); }
   void set_next(std::size_t a) { next_[a] = remaining_[a] > 0 ? key(a, plane_after(a, 1)) : kNever; }
-  [[nodiscard]] double clamped(double key) const { return signed_(std::min(std::max(key, key_low_), key_high_)); }
+  [[nodiscard]] double clamped(double key) const { return to_key(std::min(std::max(key, key_low_), key_high_)); }
   [[nodiscard]] std::size_t next_axis() const {
     const std::size_t xy = precedes(next_[1], 1, next_[0], 0) ? 1 : 0;
     return precedes(next_[2], 2, next_[xy], xy) ? 2 : xy;
@@ -150,11 +150,11 @@ class CellWalk {
   double key_high_;
 };
 
-template <bool kBackward>
-std::int32_t CellWalk<kBackward>::steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const {
+template <bool Backward>
+std::int32_t CellWalk<Backward>::steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const {
   if (most == 0) return 0;
   // Guess from the rounded position, then settle by the order of crossings.
-  const double x = line_->base[b] + signed_(key_a) * line_->direction[b];
+  const double x = line_->base[b] + to_key(key_a) * line_->direction[b];
   const double guess = step_[b] > 0 ? std::floor(x) + 1 - cell_[b] : cell_[b] - (std::floor(x) + 1);
   auto count = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(most)));
   while (count < most && precedes(key(b, plane_after(b, count + 1)), b, key_a, a)) ++count;
@@ -162,8 +162,8 @@ std::int32_t CellWalk<kBackward>::steps_before(std::size_t b, std::int32_t most,
   return count;
 }
 
-template <bool kBackward>
-bool CellWalk<kBackward>::leave(const CellBlock& block) {
+template <bool Backward>
+bool CellWalk<Backward>::leave(const CellBlock& block) {
   // The first crossing out of the block.
   Cell count{};  // steps to the first cell beyond
   double key_out = kNever;

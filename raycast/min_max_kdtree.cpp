@@ -1,7 +1,6 @@
 #include "raycast/min_max_kdtree.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "delaunay/base/check.h"
 
@@ -10,9 +9,6 @@ namespace deliso {
 namespace {
 
 std::size_t index_of(std::int32_t value) { return static_cast<std::size_t>(value); }
-
-// Bits needed to write a number that is not negative.
-int bit_width(std::int32_t value) { return 32 - std::countl_zero(static_cast<std::uint32_t>(value)); }
 
 }  // namespace
 
@@ -137,25 +133,6 @@ MinMaxKdTree::MinMaxKdTree(const ScalarGrid& grid, std::int32_t leaf_cells) : di
     };
     low_ = build([](Sample a, Sample b) { return a < b ? a : b; });
     high_ = build([](Sample a, Sample b) { return a > b ? a : b; });
-  });
-}
-
-int MinMaxKdTree::common_level(const Cell& a, const Cell& b) const {
-  int level = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int32_t differing = a[axis] ^ b[axis];
-    if (differing == 0) continue;
-    const int highest = bit_width(differing) - 1;
-    level = std::max(level, static_cast<int>(level_of_bit_[axis][index_of(highest)]));
-  }
-  return level;
-}
-
-std::pair<double, double> MinMaxKdTree::range(int level, const Cell& cell) const {
-  const std::size_t i = node(levels_[index_of(level)], cell);
-  return visit_samples(low_, [&]<class Sample>(const std::vector<Sample>& low) {
-    const auto& high = *std::get_if<std::vector<Sample>>(&high_);
-    return std::pair(static_cast<double>(low[i]), static_cast<double>(high[i]));
   });
 }
 

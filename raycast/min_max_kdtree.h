@@ -8,13 +8,18 @@
 // minima.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "raycast/cell_walk.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
+
+// Bits needed to write a number that is not negative.
+inline int bit_width(std::int32_t value) { return 32 - std::countl_zero(static_cast<std::uint32_t>(value)); }
 
 class MinMaxKdTree {
  public:
@@ -58,5 +63,26 @@ class MinMaxKdTree {
   Samples low_;                                                // smallest sample of every node
   Samples high_;                                               // largest sample of every node
 };
+
+// ---- Inline: one test per node of a search --------------------------------------------------------------------------
+
+inline int MinMaxKdTree::common_level(const Cell& a, const Cell& b) const {
+  int level = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t differing = a[axis] ^ b[axis];
+    if (differing == 0) continue;
+    const auto highest = static_cast<std::size_t>(bit_width(differing) - 1);
+    level = std::max(level, static_cast<int>(level_of_bit_[axis][highest]));
+  }
+  return level;
+}
+
+inline std::pair<double, double> MinMaxKdTree::range(int level, const Cell& cell) const {
+  const std::size_t i = node(levels_[static_cast<std::size_t>(level)], cell);
+  return visit_samples(low_, [&]<class Sample>(const std::vector<Sample>& low) {
+    const auto& high = *std::get_if<std::vector<Sample>>(&high_);
+    return std::pair(static_cast<double>(low[i]), static_cast<double>(high[i]));
+  });
+}
 
 }  // namespace deliso

@@ -36,8 +36,8 @@ INSTANTIATE_TEST_SUITE_P(CubicSolver, BothSolvers, ::testing::Values(bracketed_s
 TEST_P(BothSolvers, FindTheWellSeparatedRootsThatACubicWasMadeFrom) {
   Rng rng(1);
   for (int trial = 0; trial < 20000; ++trial) {
-    std::vector<double> roots;
-    for (int i = 0; i < 3; ++i) roots.push_back(rng.uniform(-1, 2));
+    std::vector<double> roots(3);
+    for (double& root : roots) root = rng.uniform(-1, 2);
     std::sort(roots.begin(), roots.end());
     if (roots[1] - roots[0] < 1e-2 || roots[2] - roots[1] < 1e-2) continue;
     if (std::any_of(roots.begin(), roots.end(), [](double r) { return std::abs(r) < 1e-6 || std::abs(r - 1) < 1e-6; }))

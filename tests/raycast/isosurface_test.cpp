@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "tests/support/raycast_fields.h"
 #include "tests/support/raycast_oracle.h"
+#include "volume/io/nrrd.h"
 
 namespace deliso {
 namespace {
@@ -296,6 +299,35 @@ TEST(Isosurface, LinesFromFarAwayKeepTheirDigits) {
     for (const Hit& hit : hits)
       ASSERT_LT(std::abs(surface.value(far.at(hit.t))), 1e-14 * shift + 1e-9) << describe(far, 0, 0);
   }
+}
+
+TEST(Isosurface, AgreesWithBruteForceOnARealVolume) {
+  const char* directory = std::getenv("DELISO_DATA");
+  if (directory == nullptr) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
+  const auto path = std::filesystem::path(directory) / "fuel.nrrd";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const ScalarGrid grid = read_nrrd(path);
+  SearchOptions options;
+  const Isosurface walk(grid, 70.1, options);
+  options.traversal = Traversal::kKdTree;
+  const Isosurface tree(grid, 70.1, options);
+  const RayOracle oracle(grid, 70.1, walk.step());
+  Rng rng(24);
+  std::size_t found = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Line line = random_line(walk, rng);
+    const RayOracle::Answer expected = oracle.roots(line, -20, 60);
+    const std::vector<Hit> hits = hits_of(walk, line, -20, 60);
+    const std::vector<Hit> by_tree = hits_of(tree, line, -20, 60);
+    ASSERT_EQ(hits.size(), by_tree.size()) << describe(line, -20, 60);
+    for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i].t, by_tree[i].t) << describe(line, -20, 60);
+    if (expected.near_touch) continue;
+    ASSERT_EQ(hits.size(), expected.roots.size()) << describe(line, -20, 60);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      ASSERT_NEAR(hits[i].t, static_cast<double>(expected.roots[i].t), 1e-9) << describe(line, -20, 60);
+    found += hits.size();
+  }
+  EXPECT_GT(found, 200u);
 }
 
 TEST(Isosurface, DegenerateQueriesHaveNoHits) {
