@@ -6,6 +6,7 @@
 
 #include "delaunay/base/check.h"
 #include "raycast/active_cells.h"
+#include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
 #include "raycast/min_max_kdtree.h"
 #include "raycast/voxel_intersection.h"
@@ -46,65 +47,6 @@ IndexLine index_line(const Line& line, const Vec3& inverse_step, const Dims& dim
   result.t_origin = t;
   result.base = axis_values(scaled(line.at(t), inverse_step));
   return result;
-}
-
-// Where a place on the line lies in an extended cell, in the parameters of the grid cell behind it. The place is a
-// crossing, or the end of a segment at `end`. The one formula for both cells of a face: only the coordinate across the
-// face differs, and that is exactly 0 or 1.
-Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValues& end, const Cell& cell,
-                      const Cell& base, const Dims& dims) {
-  const auto coordinate = [&](std::size_t a) {
-    const double inside = at.axis < 0                               ? end[a]
-                          : at.axis == static_cast<std::int32_t>(a) ? at.plane
-                                                                    : line.base[a] + at.s * line.direction[a];
-    const double u = std::min(std::max(inside - base[a], 0.0), 1.0);
-    // Outer cells: the coordinate stays that of the box's face.
-    return cell[a] == 0 ? 0.0 : cell[a] == dims[a] ? 1.0 : u;
-  };
-  return {coordinate(0), coordinate(1), coordinate(2)};
-}
-
-// The hits of one cell: sign changes between two parameters of the line.
-struct CellHits {
-  SignChanges changes;
-  bool starts_above = false;
-  double s_in = 0;
-  double s_out = 0;
-
-  [[nodiscard]] bool falling(int i) const { return starts_above == ((i & 1) == 0); }
-  [[nodiscard]] double t(const IndexLine& line, int i) const {
-    const double s = s_in + changes.at[static_cast<std::size_t>(i)] * (s_out - s_in);
-    return line.t_origin + std::min(s, s_out);
-  }
-};
-
-// The hits in a cell that the line crosses; `low` and `high` are the ends of the segment (in index space).
-CellHits solve_cell(const ScalarGrid& grid, double isovalue, CubicSolver solver, const IndexLine& line,
-                    const CellVisit& visit, const AxisValues& low, const AxisValues& high) {
-  const Cell base = grid_cell(visit.cell, grid.dims());
-  const CellCorners corners = relative_to(grid.cell(base[0], base[1], base[2]), isovalue);
-  const Vec3 a = position_in_cell(line, visit.in, low, visit.cell, base, grid.dims());
-  const Vec3 b = position_in_cell(line, visit.out, high, visit.cell, base, grid.dims());
-  CellHits hits;
-  hits.changes = voxel_intersection(corners, a, b, solver, hits.starts_above);
-  hits.s_in = visit.in.s;
-  hits.s_out = visit.out.s;
-  return hits;
-}
-
-// Does the isovalue lie between samples of an extended cell? An outer one has only those of a face, edge or corner.
-bool cell_holds(const ScalarGrid& grid, const Cell& cell, double isovalue) {
-  const Dims& dims = grid.dims();
-  const Cell base = grid_cell(cell, dims);
-  CellCorners corners = relative_to(grid.cell(base[0], base[1], base[2]), isovalue);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t bit = std::size_t{1} << a;
-    for (std::size_t i = 0; i < 8; ++i) {
-      if (cell[a] == 0 && (i & bit) != 0) corners[i] = corners[i ^ bit];
-      if (cell[a] == dims[a] && (i & bit) == 0) corners[i] = corners[i ^ bit];
-    }
-  }
-  return holds_isovalue(corners);
 }
 
 // The candidate nearest to t = 0; of two at the same distance the one at positive t.
