@@ -24,18 +24,22 @@ using Dims = std::array<std::int32_t, 3>;
 // The eight samples of a voxel cell; corner i + 2j + 4k is the sample at offset (i, j, k).
 using CellCorners = std::array<double, 8>;
 
+// Calls `f` with the vector of samples in its own type; for loops over whole volumes.
+template <class Function>
+decltype(auto) visit_samples(const Samples& samples, Function&& f);
+
 // Samples in x-fastest order. Sample (i, j, k) sits in the world at origin + (i sx, j sy, k sz).
 class ScalarGrid {
  public:
   // Throws InputError when a dimension is below 2, the sample count does not fit dims, a spacing is not positive and
-  // finite, or a sample is NaN or infinite (naming the first).
+  // finite, the box is not finite, or a sample is NaN or infinite (naming the first).
   ScalarGrid(Dims dims, Samples samples, Vec3 spacing = {1, 1, 1}, Vec3 origin = {0, 0, 0});
 
   [[nodiscard]] const Dims& dims() const { return dims_; }
   [[nodiscard]] const Vec3& spacing() const { return spacing_; }
   [[nodiscard]] const Vec3& origin() const { return origin_; }
   [[nodiscard]] const Samples& samples() const { return samples_; }
-  [[nodiscard]] std::size_t sample_count() const;
+  [[nodiscard]] std::size_t sample_count() const { return index(0, 0, dims_[2]); }
   [[nodiscard]] std::size_t index(std::int32_t i, std::int32_t j, std::int32_t k) const {
     return static_cast<std::size_t>(i) +
            static_cast<std::size_t>(dims_[0]) *
@@ -48,8 +52,13 @@ class ScalarGrid {
   [[nodiscard]] std::string type_name() const;
   // Smallest and largest sample.
   [[nodiscard]] std::pair<double, double> range() const { return range_; }
+  // The box of the samples in the world.
+  [[nodiscard]] Box3 box() const;
 
  private:
+  template <class Sample>
+  [[nodiscard]] CellCorners gather(const std::vector<Sample>& samples, std::size_t first) const;
+
   Dims dims_;
   Vec3 spacing_;
   Vec3 origin_;
@@ -58,11 +67,58 @@ class ScalarGrid {
 };
 
 // The same samples with a layer of `value` around them (the origin moves out by one spacing): every isosurface with an
-// isovalue above `value` is then closed. `value` is converted to the grid's type.
+// isovalue above `value` is then closed. `value` is converted to the grid's type: rounded down, then clamped to the
+// type's range. Throws InputError when `value` is NaN or a dimension would leave the range of Dims.
 ScalarGrid padded(const ScalarGrid& grid, double value);
 
 // A regular isovalue: `isovalue` itself unless some sample equals it; then it is lowered by 1 % of the gap to the next
-// lower sample value (or, when there is none, of the gap to the next higher one).
+// lower sample value (or, when there is none, of the gap to the next higher one; or, when all samples are equal, to the
+// next lower double). Never equal to a sample: when a gap is too narrow to hold a double, the next gap below is taken.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
+
+// The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,
+// at eight bytes each, could not be addressed.
+std::size_t checked_sample_count(const Dims& dims);
+
+// ---- Inline: the ray caster reads cells in its innermost loop -------------------------------------------------------
+
+template <class Function>
+decltype(auto) visit_samples(const Samples& samples, Function&& f) {
+  switch (samples.index()) {
+    case 0:
+      return f(*std::get_if<0>(&samples));
+    case 1:
+      return f(*std::get_if<1>(&samples));
+    case 2:
+      return f(*std::get_if<2>(&samples));
+    case 3:
+      return f(*std::get_if<3>(&samples));
+    case 4:
+      return f(*std::get_if<4>(&samples));
+    case 5:
+      return f(*std::get_if<5>(&samples));
+    default:
+      return f(*std::get_if<6>(&samples));
+  }
+}
+
+template <class Sample>
+CellCorners ScalarGrid::gather(const std::vector<Sample>& samples, std::size_t first) const {
+  const auto row = static_cast<std::size_t>(dims_[0]);
+  const Sample* a = samples.data() + first;
+  const Sample* b = a + row * static_cast<std::size_t>(dims_[1]);
+  const auto value = [](Sample sample) { return static_cast<double>(sample); };
+  return {value(a[0]), value(a[1]), value(a[row]), value(a[row + 1]),
+          value(b[0]), value(b[1]), value(b[row]), value(b[row + 1])};
+}
+
+inline double ScalarGrid::at(std::int32_t i, std::int32_t j, std::int32_t k) const {
+  return visit_samples(samples_, [n = index(i, j, k)](const auto& samples) { return static_cast<double>(samples[n]); });
+}
+
+inline CellCorners ScalarGrid::cell(std::int32_t i, std::int32_t j, std::int32_t k) const {
+  return visit_samples(samples_,
+                       [this, first = index(i, j, k)](const auto& samples) { return gather(samples, first); });
+}
 
 }  // namespace deliso

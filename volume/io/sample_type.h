@@ -1,0 +1,49 @@
+// The sample types of volume files: their spellings, sizes and byte orders.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// In the order of the alternatives of Samples.
+enum class SampleType { kU8, kI8, kU16, kI16, kI32, kF32, kF64 };
+
+enum class Endian { kLittle, kBig };
+
+inline constexpr Endian kHostEndian = std::endian::native == std::endian::little ? Endian::kLittle : Endian::kBig;
+static_assert(std::endian::native == std::endian::little || std::endian::native == std::endian::big);
+
+// The type named by any of the spellings of NRRD ("unsigned char", "uint8", "uint8_t", "short int", "float", ...), of
+// the Open SciVis collection ("float32", ...) or of ScalarGrid::type_name ("u8", ...). Case and runs of blanks do not
+// matter.
+std::optional<SampleType> parse_sample_type(std::string_view name);
+
+// The list of supported types for error messages.
+std::string supported_sample_types();
+
+// Bytes of one sample.
+std::size_t sample_size(SampleType type);
+
+// The spelling that files are written with: uint8, int8, uint16, int16, int32, float, double (as in NRRD).
+std::string nrrd_type_name(SampleType type);
+
+// The type of the samples.
+inline SampleType sample_type(const Samples& samples) { return static_cast<SampleType>(samples.index()); }
+
+// An empty vector of the type.
+Samples empty_samples(SampleType type);
+
+// The samples as they lie in memory.
+std::span<const std::byte> sample_bytes(const Samples& samples);
+
+// Reverses the bytes of every sample.
+void swap_bytes(Samples& samples);
+
+}  // namespace deliso

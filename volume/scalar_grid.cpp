@@ -1,0 +1,178 @@
+#include "volume/scalar_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string text(const Dims& dims) {
+  return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]);
+}
+
+std::string text(const Vec3& v) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  return out.str();
+}
+
+template <class Sample>
+[[noreturn]] void fail_not_finite(const std::vector<Sample>& samples, const Dims& dims) {
+  const auto first = std::find_if(samples.begin(), samples.end(), [](Sample s) { return !std::isfinite(s); });
+  const auto n = static_cast<std::size_t>(first - samples.begin());
+  const auto nx = static_cast<std::size_t>(dims[0]);
+  const auto ny = static_cast<std::size_t>(dims[1]);
+  throw InputError("sample (" + std::to_string(n % nx) + ", " + std::to_string(n / nx % ny) + ", " +
+                   std::to_string(n / nx / ny) + ") is " +
+                   (std::isnan(*first) ? "NaN"
+                    : *first > 0       ? "infinite"
+                                       : "minus infinity") +
+                   ": every sample must be a finite number");
+}
+
+template <class Sample>
+std::pair<double, double> finite_range(const std::vector<Sample>& samples, const Dims& dims) {
+  Sample low = samples.front();
+  Sample high = samples.front();
+  bool finite = true;
+  for (const Sample s : samples) {
+    low = s < low ? s : low;
+    high = high < s ? s : high;
+    if constexpr (std::is_floating_point_v<Sample>) finite &= std::abs(s) <= std::numeric_limits<Sample>::max();
+  }
+  if constexpr (std::is_floating_point_v<Sample>)
+    if (!finite) fail_not_finite(samples, dims);
+  return {static_cast<double>(low), static_cast<double>(high)};
+}
+
+// The largest value of the type that is not above `value`, or the smallest of the type when there is none.
+template <class Sample>
+Sample rounded_down(double value) {
+  constexpr Sample kLowest = std::numeric_limits<Sample>::lowest();
+  constexpr Sample kHighest = std::numeric_limits<Sample>::max();
+  if (value <= static_cast<double>(kLowest)) return kLowest;
+  if (value >= static_cast<double>(kHighest)) return kHighest;
+  if constexpr (std::is_integral_v<Sample>) {
+    return static_cast<Sample>(std::floor(value));
+  } else {
+    const auto nearest = static_cast<Sample>(value);
+    return static_cast<double>(nearest) > value ? std::nextafter(nearest, kLowest) : nearest;
+  }
+}
+
+template <class Sample>
+std::vector<Sample> padded_samples(const std::vector<Sample>& samples, const ScalarGrid& grid, const Dims& dims,
+                                   Sample value) {
+  std::vector<Sample> out(checked_sample_count(dims), value);
+  const auto row = static_cast<std::size_t>(dims[0]);
+  for (std::int32_t k = 0; k < grid.dims()[2]; ++k)
+    for (std::int32_t j = 0; j < grid.dims()[1]; ++j) {
+      const Sample* from = samples.data() + grid.index(0, j, k);
+      const std::size_t line =
+          static_cast<std::size_t>(j + 1) + static_cast<std::size_t>(dims[1]) * static_cast<std::size_t>(k + 1);
+      std::copy_n(from, grid.dims()[0], out.data() + line * row + 1);
+    }
+  return out;
+}
+
+// How the samples lie around a value.
+struct Neighbors {
+  bool equal = false;         // some sample equals the value
+  double lower = -kInfinity;  // the largest sample below it
+  double higher = kInfinity;  // the smallest sample above it
+};
+
+Neighbors find_neighbors(const ScalarGrid& grid, double value) {
+  return visit_samples(grid.samples(), [value](const auto& samples) {
+    Neighbors found;
+    for (const auto sample : samples) {
+      const auto s = static_cast<double>(sample);
+      if (s == value) found.equal = true;
+      if (s < value && s > found.lower) found.lower = s;
+      if (s > value && s < found.higher) found.higher = s;
+    }
+    return found;
+  });
+}
+
+}  // namespace
+
+std::size_t checked_sample_count(const Dims& dims) {
+  for (const std::int32_t n : dims)
+    if (n < 2) throw InputError("the volume's dimensions are " + text(dims) + ": each must be at least 2");
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / 2 / sizeof(double);
+  const std::size_t slice = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  if (static_cast<std::size_t>(dims[2]) > kMost / slice)
+    throw InputError("the volume's dimensions are " + text(dims) + ": more samples than memory can address");
+  return slice * static_cast<std::size_t>(dims[2]);
+}
+
+ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
+    : dims_(dims), spacing_(spacing), origin_(origin), samples_(std::move(samples)) {
+  const std::size_t expected = checked_sample_count(dims_);
+  const std::size_t found = visit_samples(samples_, [](const auto& s) { return s.size(); });
+  if (found != expected)
+    throw InputError("the volume has " + std::to_string(found) + " samples, but its dimensions " + text(dims_) +
+                     " need " + std::to_string(expected));
+  if (!is_finite(spacing_) || !(spacing_.x > 0 && spacing_.y > 0 && spacing_.z > 0))
+    throw InputError("the spacing is " + text(spacing_) + ": each must be positive and finite");
+  if (!is_finite(origin_) || !is_finite(box().high))
+    throw InputError("the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
+                     ": the volume's box must be finite");
+  range_ = visit_samples(samples_, [this](const auto& s) { return finite_range(s, dims_); });
+}
+
+std::string ScalarGrid::type_name() const {
+  static constexpr std::array<const char*, 7> kNames{"u8", "i8", "u16", "i16", "i32", "f32", "f64"};
+  return kNames.at(samples_.index());
+}
+
+Box3 ScalarGrid::box() const {
+  const Vec3 last{static_cast<double>(dims_[0] - 1), static_cast<double>(dims_[1] - 1),
+                  static_cast<double>(dims_[2] - 1)};
+  return {origin_, origin_ + scaled(last, spacing_)};
+}
+
+ScalarGrid padded(const ScalarGrid& grid, double value) {
+  if (std::isnan(value)) throw InputError("the value to pad a volume with is NaN: it must be a number");
+  Dims dims = grid.dims();
+  for (std::int32_t& n : dims) {
+    if (n > std::numeric_limits<std::int32_t>::max() - 2)
+      throw InputError("the volume's dimensions are " + text(grid.dims()) + ": too large to pad");
+    n += 2;
+  }
+  Samples samples = visit_samples(grid.samples(), [&]<class Sample>(const std::vector<Sample>& s) {
+    return Samples(padded_samples(s, grid, dims, rounded_down<Sample>(value)));
+  });
+  return {dims, std::move(samples), grid.spacing(), grid.origin() - grid.spacing()};
+}
+
+double regular_isovalue(const ScalarGrid& grid, double isovalue) {
+  Neighbors near = find_neighbors(grid, isovalue);
+  while (near.equal) {
+    // Step down by 1 % of the gap; in a gap of few doubles the step may round to nothing, so try its middle too.
+    const bool has_lower = near.lower > -kInfinity;
+    const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
+    if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
+    for (const double fraction : {0.01, 0.5}) {
+      const double candidate = isovalue - fraction * gap;
+      if (candidate < isovalue && candidate > near.lower) return candidate;
+    }
+    if (!has_lower) return std::nextafter(isovalue, -kInfinity);
+    // The gap holds no double: go on below it.
+    isovalue = near.lower;
+    near = find_neighbors(grid, isovalue);
+  }
+  return isovalue;
+}
+
+}  // namespace deliso
