@@ -74,8 +74,13 @@ Vec3 TextScanner::point() {
 
 void TextScanner::fail(const std::string& what, std::string_view found) const {
   constexpr std::size_t kLongest = 40;  // of a culprit quoted in a message
-  const std::string shown = found.empty() ? "nothing" : "'" + std::string(found.substr(0, kLongest)) + "'";
-  throw InputError(file_ + ", line " + std::to_string(line_) + ": expected " + what + ", found " + shown);
+  std::string message = file_ + ", line " + std::to_string(line_) + ": expected " + what + ", found ";
+  if (found.empty()) {
+    message += "nothing";
+  } else {
+    message.append(1, '\'').append(found.substr(0, kLongest)).append(1, '\'');
+  }
+  throw InputError(message);
 }
 
 void append_point(std::string& text, const Vec3& p) {
