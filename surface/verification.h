@@ -11,6 +11,7 @@
 #include "surface/certificate.h"
 #include "surface/mesh_quality.h"
 #include "surface/self_intersection.h"
+#include "surface/surface_distance.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 
@@ -47,12 +48,7 @@ struct SelfIntersectionCheck {
   SelfIntersections found;
 };
 
-struct DistanceFigure {
-  double max_voxels = 0;
-  double mean_voxels = 0;
-  Vec3 worst;  // where the maximum is, in the world
-};
-
+// In a DistanceFigure `worst` is in the world.
 struct ResidualCheck {
   bool pass = false;        // max <= 1e-3 voxel
   DistanceFigure distance;  // of the referenced vertices to the isosurface
