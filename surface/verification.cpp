@@ -79,9 +79,8 @@ BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshConnectivity&
     const unsigned common = faces_at(box, voxels.points[edge.low]) & faces_at(box, voxels.points[edge.high]);
     check.off_box_edges += common == 0 ? 1 : 0;
   }
-  check.outside_vertices = std::count_if(voxels.points.begin(), voxels.points.end(), [&](const Vec3& p) {
-    return distance(p, box.clamp(p)) > kOnBox;
-  });
+  check.outside_vertices = std::count_if(voxels.points.begin(), voxels.points.end(),
+                                         [&](const Vec3& p) { return distance(p, box.clamp(p)) > kOnBox; });
   check.pass = check.off_box_edges == 0;
   return check;
 }
@@ -142,7 +141,8 @@ std::vector<std::string> list_failures(const Verification& v) {
                        count_of(v.orientation.reversed_components, "reversed components"));
   }
   if (!v.boundary.pass) {
-    failures.push_back("not closed up to the box: " + count_of(v.boundary.off_box_edges, "boundary edges off its faces"));
+    failures.push_back("not closed up to the box: " +
+                       count_of(v.boundary.off_box_edges, "boundary edges off its faces"));
   }
   if (v.topology.verdict != Verdict::kHomeomorphic) {
     failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
@@ -169,8 +169,9 @@ void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isoval
   }
   const auto [lowest, highest] = grid.range();
   if (!(lowest <= isovalue && isovalue <= highest)) {
-    throw InputError("the isovalue is " + std::to_string(isovalue) + ", expected a number in the range of the volume, " +
-                     std::to_string(lowest) + " to " + std::to_string(highest));
+    throw InputError("the isovalue is " + std::to_string(isovalue) +
+                     ", expected a number in the range of the volume, " + std::to_string(lowest) + " to " +
+                     std::to_string(highest));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "surface/certificate.h"
+#include "surface/delaunay_balls.h"
 #include "surface/mesh_quality.h"
 #include "surface/self_intersection.h"
 #include "surface/surface_distance.h"
@@ -66,12 +67,6 @@ struct NormalCheck {
   double fraction_against = 0;
   double min_cosine = 1;  // the smallest of those cosines; at the point of the isosurface next to the centroid
   double mean_cosine = 1;
-};
-
-struct DelaunayBallCheck {
-  bool pass = false;             // every ball is empty, every triangle has one
-  std::int64_t occupied = 0;     // balls that hold another vertex strictly inside
-  std::int64_t without_hit = 0;  // triangles whose dual line has no hit
 };
 
 struct Verification {
