@@ -34,8 +34,7 @@ Json recover_json(const RecoverStats& recover) {
   json["extract_manifold"] = recover.extract_manifold;
   json["approximate_geometry"] = recover.approximate_geometry;
   json["refused_by_size_bound"] = recover.refused_by_size_bound;
-  json["share_restricted"] =
-      recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
+  json["share_restricted"] = recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
   return json;
 }
 
@@ -51,16 +50,10 @@ Json refine_json(const RefineStats& refine) {
 
 // In the order of the pipeline.
 Json stages_json(const MeshingResult& result) {
-  return Json{{"index", stage_json(result.index)},   {"initial", stage_json(result.initial)},
-              {"recover", recover_json(result.recover)}, {"poles", stage_json(result.poles)},
-              {"build", stage_json(result.build)},   {"refine", refine_json(result.refine)},
+  return Json{{"index", stage_json(result.index)},          {"initial", stage_json(result.initial)},
+              {"recover", recover_json(result.recover)},    {"poles", stage_json(result.poles)},
+              {"build", stage_json(result.build)},          {"refine", refine_json(result.refine)},
               {"certify", stage_json(result.certify_stage)}};
-}
-
-Json certificate_json(const Certificate& certificate) {
-  return Json{{"verdict", verdict_name(certificate.verdict)}, {"manifold", certificate.manifold},
-              {"oriented", certificate.oriented},             {"mesh", topology_json(certificate.mesh)},
-              {"isosurface", topology_json(certificate.isosurface)}, {"differences", certificate.differences}};
 }
 
 }  // namespace
@@ -94,6 +87,15 @@ Json topology_json(const std::vector<TopologyCount>& counts) {
   return list;
 }
 
+Json certificate_json(const Certificate& certificate) {
+  return Json{{"verdict", verdict_name(certificate.verdict)},
+              {"manifold", certificate.manifold},
+              {"oriented", certificate.oriented},
+              {"mesh", topology_json(certificate.mesh)},
+              {"isosurface", topology_json(certificate.isosurface)},
+              {"differences", certificate.differences}};
+}
+
 Json quality_json(const MeshQuality& quality) {
   return Json{{"min_angle_degrees", quality.min_angle_degrees},
               {"mean_min_angle_degrees", quality.mean_min_angle_degrees},
@@ -105,10 +107,14 @@ Json quality_json(const MeshQuality& quality) {
 
 std::string verdict_name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kHomeomorphic: return "homeomorphic";
-    case Verdict::kDifferent: return "different";
-    case Verdict::kSingularIsovalue: return "singular_isovalue";
-    case Verdict::kNotChecked: return "not_checked";
+    case Verdict::kHomeomorphic:
+      return "homeomorphic";
+    case Verdict::kDifferent:
+      return "different";
+    case Verdict::kSingularIsovalue:
+      return "singular_isovalue";
+    case Verdict::kNotChecked:
+      return "not_checked";
   }
   return "not_checked";
 }
