@@ -11,19 +11,22 @@
 // the tetrahedron inside.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/rim_edges.h"
+#include "delaunay/static_filter.h"
 #include "delaunay/tetrahedralization.h"
 
 namespace deliso {
 
 class BowyerWatson : public Tetrahedralization {
  public:
-  // All points to come lie in `box` (for the static filters).
+  // All points to come lie in `box` (for the static filters); one outside throws InternalError.
   explicit BowyerWatson(const Box3& box);
 
   // Builds from scratch. Vertex i of the result is points[i] unless it duplicates an earlier point; vertex_of[i], when
@@ -51,9 +54,26 @@ class BowyerWatson : public Tetrahedralization {
   void abandon_cavity();
 
  private:
+  // What the cavity search knows about a tetrahedron.
+  enum Mark : std::uint8_t { kUnknown, kInside, kOutside };
+
+  [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_id) const;
+  void start(const std::array<VertexId, 4>& simplex);
+  std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_id, TetId located);
+  void grow_region(const Vec3& p, VertexId p_id, TetId first);
+  void star_rim(VertexId apex);
+  void clear();
+  void drop_duplicates(std::vector<VertexId>& vertex_of);
+
+  Box3 box_;
+  StaticFilter filter_;
+  std::vector<TetId> free_;         // free slots
+  std::vector<std::uint8_t> mark_;  // Mark of each slot; all kUnknown between insertions
   std::vector<TetId> region_;
   std::vector<FacetId> rim_;
   std::vector<TetId> created_;
+  RimEdges edges_;
+  Vec3 pending_;  // the point of the open cavity
 };
 
 }  // namespace deliso

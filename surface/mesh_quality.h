@@ -12,8 +12,8 @@ namespace deliso {
 // and beyond every ratio of a triangle that doubles can tell from a degenerate one.
 inline constexpr double kDegenerateRadiusEdge = 1e18;
 
-// Degenerate triangles take part: smallest angle 0, largest angle 180 degrees (or, when corners coincide, as the limit
-// of isosceles triangles: 0 and 90), ratio kDegenerateRadiusEdge. An empty mesh has zeros everywhere.
+// Degenerate triangles take part: smallest angle 0, largest angle 180 degrees (90 when corners coincide, the limit of
+// isosceles triangles), ratio kDegenerateRadiusEdge. An empty mesh has zeros everywhere.
 struct MeshQuality {
   double min_angle_degrees = 0;
   double mean_min_angle_degrees = 0;  // mean over triangles of their smallest angle

@@ -24,7 +24,7 @@ struct TrianglePair {
   std::uint32_t first = 0;  // indices of the triangles, first < second
   std::uint32_t second = 0;
   TriangleContact contact = TriangleContact::kNone;
-  Vec3 position;  // a rounded point near the contact
+  Vec3 position;  // the middle of what their bounding boxes have in common
 };
 
 struct SelfIntersections {
