@@ -74,8 +74,14 @@ Vec3 TextScanner::point() {
 
 void TextScanner::fail(const std::string& what, std::string_view found) const {
   constexpr std::size_t kLongest = 40;  // of a culprit quoted in a message
-  const std::string shown = found.empty() ? "nothing" : "'" + std::string(found.substr(0, kLongest)) + "'";
-  throw InputError(file_ + ", line " + std::to_string(line_) + ": expected " + what + ", found " + shown);
+  std::string message = file_;
+  message.append(", line ").append(std::to_string(line_)).append(": expected ").append(what).append(", found ");
+  if (found.empty()) {
+    message.append("nothing");
+  } else {
+    message.append("'").append(found.substr(0, kLongest)).append("'");
+  }
+  throw InputError(message);
 }
 
 void append_point(std::string& text, const Vec3& p) {
