@@ -1,9 +1,7 @@
 #include "volume/exact_topology.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "delaunay/base/check.h"
@@ -12,8 +10,6 @@
 namespace deliso {
 
 namespace {
-
-using Cell = std::array<std::int32_t, 3>;
 
 // Disjoint sets of crossings; the representative of a set is its smallest member.
 class DisjointSets {
@@ -39,160 +35,71 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-// The place of the zero on an edge with end values a and b minus the isovalue, inside (0, 1) whatever the rounding.
-double edge_parameter(double low, double high, double isovalue) {
-  double a = low - isovalue;
-  double length = low - high;
-  if (!std::isfinite(a) || !std::isfinite(length)) {
-    a = low / 2 - isovalue / 2;
-    length = low / 2 - high / 2;
-  }
-  return std::clamp(a / length, std::numeric_limits<double>::min(), 1 - std::numeric_limits<double>::epsilon() / 2);
-}
-
-IsosurfaceTopology empty_result(const ScalarGrid& grid, double isovalue) {
-  IsosurfaceTopology result;
-  result.index = CrossingIndex(grid, isovalue);
-  return result;
-}
-
+// The Euler characteristic of a component is pieces - arcs + crossings, each piece with its own. A piece has as many
+// arcs as crossings on its cell's boundary, and an arc belongs to two cells, or to one when it lies on the box. So
+// twice the Euler characteristic is the sum of (2 piece - crossings of the piece) over the pieces, plus 2 for every
+// crossing, minus 1 for every arc on the box.
 class TopologyBuilder {
  public:
-  TopologyBuilder(const ScalarGrid& grid, double isovalue)
+  TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index)
       : grid_(grid),
         isovalue_(isovalue),
-        dims_(grid.dims()),
-        result_(empty_result(grid, isovalue)),
-        sets_(result_.index.crossing_count()) {}
+        sets_(index.crossing_count()),
+        twice_euler_of_crossing_(index.crossing_count(), 2) {
+    result_.index = std::move(index);
+  }
 
-  IsosurfaceTopology build();
+  IsosurfaceTopology build() {
+    result_.crossings = list_crossings(grid_, isovalue_, result_.index);
+    result_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+      if (is_simple(pattern)) {
+        join_simple_cell(cell, pattern);
+      } else {
+        join_cell(cell, pattern);
+      }
+    });
+    number_components();
+    count_on_box();
+    for (std::size_t i = 0; i < result_.components.size(); ++i) {
+      DELISO_CHECK(twice_euler_[i] % 2 == 0, "half arcs come in pairs");
+      result_.components[i].euler_characteristic = twice_euler_[i] / 2;
+    }
+    return std::move(result_);
+  }
 
  private:
-  void list_crossings();
-  template <class Sample>
-  void list_crossings_in_word(const Sample* samples, std::int32_t w, std::int32_t j, std::int32_t k);
-  void join_cells();
-  void join_cells_in_word(std::int32_t w, std::int32_t j, std::int32_t k);
-  void join_simple_cell(const Cell& cell, std::uint8_t pattern);
-  void join_cell(const Cell& cell, std::uint8_t pattern);
-  [[nodiscard]] std::uint32_t crossing_on(const Cell& cell, int edge) const;
+  [[nodiscard]] std::uint32_t crossing_on(const CellIndex& cell, int edge) const;
+  void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
+  void join_cell(const CellIndex& cell, std::uint8_t pattern);
   void number_components();
-  void count_boundary_loops();
-  template <class Visit>
-  void for_each_outer_face(const Visit& visit) const;
+  void count_on_box();
+  [[nodiscard]] bool meets_surface(const CellIndex& corner, std::size_t axis) const;
 
   const ScalarGrid& grid_;
   double isovalue_;
-  Dims dims_;
-  IsosurfaceTopology result_;
   DisjointSets sets_;
-  // Crossing -> twice its share of the Euler characteristic: that of cell pieces filed under it, plus 1 for itself,
-  // minus half an arc for each grid face at its edge.
-  std::vector<std::int32_t> twice_euler_;
+  std::vector<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
+  std::vector<std::int64_t> twice_euler_;              // of the components
+  IsosurfaceTopology result_;
 };
 
-IsosurfaceTopology TopologyBuilder::build() {
-  list_crossings();
-  join_cells();
-  number_components();
-  count_boundary_loops();
-  return std::move(result_);
-}
-
-// --- Crossings ------------------------------------------------------------------------------------------------------
-
-void TopologyBuilder::list_crossings() {
-  result_.crossings.reserve(result_.index.crossing_count());
-  twice_euler_.reserve(result_.index.crossing_count());
-  std::visit(
-      [&](const auto& samples) {
-        for (std::int32_t k = 0; k < dims_[2]; ++k) {
-          for (std::int32_t j = 0; j < dims_[1]; ++j) {
-            for (std::int32_t w = 0; w < result_.index.words_per_row(); ++w)
-              list_crossings_in_word(samples.data(), w, j, k);
-          }
-        }
-      },
-      grid_.samples());
-}
-
-template <class Sample>
-void TopologyBuilder::list_crossings_in_word(const Sample* samples, std::int32_t w, std::int32_t j, std::int32_t k) {
-  const std::array<std::uint64_t, 3> crossed = result_.index.crossed(w, j, k);
-  const std::array<std::size_t, 3> stride{1, grid_.index(0, 1, 0), grid_.index(0, 0, 1)};
-  for (std::uint64_t left = crossed[0] | crossed[1] | crossed[2]; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    const std::array<std::int32_t, 3> at{w * CrossingIndex::kWordBits + bit, j, k};
-    const std::size_t sample = grid_.index(at[0], at[1], at[2]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if ((crossed[axis] >> bit & 1u) == 0) continue;
-      const double t = edge_parameter(static_cast<double>(samples[sample]),
-                                      static_cast<double>(samples[sample + stride[axis]]), isovalue_);
-      result_.crossings.push_back({sample, static_cast<std::uint8_t>(axis), 0, t});
-      // Two grid faces meet at an edge of the box, three at an edge on a face of the box, four inside.
-      int faces = 0;
-      for (const std::size_t other : {(axis + 1) % 3, (axis + 2) % 3}) {
-        faces += (at[other] > 0 ? 1 : 0) + (at[other] + 1 < dims_[other] ? 1 : 0);
-      }
-      twice_euler_.push_back(2 - faces);
-    }
-  }
-}
-
-std::uint32_t TopologyBuilder::crossing_on(const Cell& cell, int edge) const {
+std::uint32_t TopologyBuilder::crossing_on(const CellIndex& cell, int edge) const {
   const CellEdge e = cell_edge(edge);
   return result_.index.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2),
                               e.axis);
 }
 
-// --- Cells ----------------------------------------------------------------------------------------------------------
-
-void TopologyBuilder::join_cells() {
-  for (std::int32_t k = 0; k + 1 < dims_[2]; ++k) {
-    for (std::int32_t j = 0; j + 1 < dims_[1]; ++j) {
-      for (std::int32_t w = 0; w < result_.index.words_per_row(); ++w) join_cells_in_word(w, j, k);
-    }
-  }
-}
-
-void TopologyBuilder::join_cells_in_word(std::int32_t w, std::int32_t j, std::int32_t k) {
-  // Bit b of corners[c]: corner c of the word's b-th cell lies above the isovalue.
-  std::array<std::uint64_t, 8> corners;
-  std::uint64_t any = 0;
-  std::uint64_t all = ~std::uint64_t{0};
-  for (std::size_t row = 0; row < 4; ++row) {
-    const auto dj = static_cast<std::int32_t>(row & 1);
-    const auto dk = static_cast<std::int32_t>(row >> 1);
-    corners[2 * row] = result_.index.word(w, j + dj, k + dk);
-    corners[2 * row + 1] = result_.index.next_word(w, j + dj, k + dk);
-    any |= corners[2 * row] | corners[2 * row + 1];
-    all &= corners[2 * row] & corners[2 * row + 1];
-  }
-  // Visit the cells whose corners do not all lie on one side.
-  for (std::uint64_t active = any & ~all & result_.index.cells_in_word(w); active != 0; active &= active - 1) {
-    const int bit = std::countr_zero(active);
-    unsigned pattern = 0;
-    for (std::size_t c = 0; c < 8; ++c) pattern |= static_cast<unsigned>(corners[c] >> bit & 1u) << c;
-    const Cell cell{w * CrossingIndex::kWordBits + bit, j, k};
-    if (is_simple(static_cast<std::uint8_t>(pattern))) {
-      join_simple_cell(cell, static_cast<std::uint8_t>(pattern));
-    } else {
-      join_cell(cell, static_cast<std::uint8_t>(pattern));
-    }
-  }
-}
-
 // One disk through all crossings of the cell.
-void TopologyBuilder::join_simple_cell(const Cell& cell, std::uint8_t pattern) {
+void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t pattern) {
   unsigned edges = crossed_edges(pattern);
   const std::uint32_t first = crossing_on(cell, std::countr_zero(edges));
-  twice_euler_[first] += 2;
+  twice_euler_of_crossing_[first] += 2 - std::popcount(edges);
   for (edges &= edges - 1; edges != 0; edges &= edges - 1) {
     sets_.unite(first, crossing_on(cell, std::countr_zero(edges)));
   }
 }
 
-void TopologyBuilder::join_cell(const Cell& cell, std::uint8_t pattern) {
+void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
   const CellSweep sweep(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
   if (sweep.singular()) result_.singular_cells.push_back(cell);
   std::array<std::uint32_t, kMaxCellPieces> first;
@@ -204,98 +111,89 @@ void TopologyBuilder::join_cell(const Cell& cell, std::uint8_t pattern) {
     std::uint32_t& start = first[static_cast<std::size_t>(piece)];
     if (start == CrossingIndex::kNone) {
       start = crossing;
-      twice_euler_[start] += 2 * sweep.euler_characteristic(piece);
-    } else {
-      sets_.unite(start, crossing);
+      twice_euler_of_crossing_[start] += 2 * sweep.euler_characteristic(piece);
     }
+    sets_.unite(start, crossing);
+    --twice_euler_of_crossing_[start];
   }
+  const Vec3 base{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
   for (int i = 0; i < sweep.saddle_count(); ++i) {
     // Until components are numbered, a saddle remembers a crossing of its piece.
-    const Vec3 base{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
-    result_.saddles.push_back(
-        {cell, base + sweep.saddle(i).uvw, first[static_cast<std::size_t>(sweep.saddle(i).piece)]});
+    const auto piece = static_cast<std::size_t>(sweep.saddle(i).piece);
+    result_.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
   }
 }
 
-// --- Components -----------------------------------------------------------------------------------------------------
-
 void TopologyBuilder::number_components() {
-  std::vector<std::int64_t> twice_euler;
-  for (std::uint32_t c = 0; c < result_.index.crossing_count(); ++c) {
+  for (std::uint32_t c = 0; c < result_.crossings.size(); ++c) {
     // A representative is the first crossing of its component.
     const std::uint32_t representative = sets_.find(c);
     if (representative == c) {
-      result_.crossings[c].component = static_cast<std::uint32_t>(twice_euler.size());
-      twice_euler.push_back(0);
+      result_.crossings[c].component = static_cast<std::uint32_t>(twice_euler_.size());
+      twice_euler_.push_back(0);
     }
     const std::uint32_t component = result_.crossings[representative].component;
     result_.crossings[c].component = component;
-    twice_euler[component] += twice_euler_[c];
+    twice_euler_[component] += twice_euler_of_crossing_[c];
   }
-  for (const std::int64_t twice : twice_euler) {
-    DELISO_CHECK(twice % 2 == 0, "half arcs come in pairs");
-    result_.components.push_back({twice / 2, 0});
-  }
+  result_.components.resize(twice_euler_.size());
   for (SurfaceSaddle& saddle : result_.saddles) saddle.component = result_.crossings[saddle.component].component;
 }
 
-// Calls visit(corner, axis) for every grid face on the box.
-template <class Visit>
-void TopologyBuilder::for_each_outer_face(const Visit& visit) const {
+// Whether the corners of a grid face lie on both sides.
+bool TopologyBuilder::meets_surface(const CellIndex& corner, std::size_t axis) const {
+  const auto above = [&](std::int32_t db, std::int32_t dc) {
+    CellIndex at = corner;
+    at[(axis + 1) % 3] += db;
+    at[(axis + 2) % 3] += dc;
+    return result_.index.above(at[0], at[1], at[2]);
+  };
+  const bool first = above(0, 0);
+  return above(1, 0) != first || above(0, 1) != first || above(1, 1) != first;
+}
+
+// The arcs on the box. Every crossing there ends two of them, so loops are the sets of crossings that they join: as
+// many as crossings on the box, minus the arcs that joined two sets.
+void TopologyBuilder::count_on_box() {
+  DisjointSets sets(0);
+  std::vector<bool> seen;
+  const auto add_arc = [&](std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t component = result_.crossings[from].component;
+    --twice_euler_[component];
+    for (const std::uint32_t crossing : {from, to}) {
+      if (!seen[crossing]) ++result_.components[component].boundary_loops;
+      seen[crossing] = true;
+    }
+    if (sets.unite(from, to)) --result_.components[component].boundary_loops;
+  };
+  const Dims& dims = grid_.dims();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t b = (axis + 1) % 3;
     const std::size_t c = (axis + 2) % 3;
-    for (const std::int32_t plane : {0, dims_[axis] - 1}) {
-      Cell corner{};
+    for (const std::int32_t plane : {0, dims[axis] - 1}) {
+      CellIndex corner{};
       corner[axis] = plane;
-      for (corner[c] = 0; corner[c] + 1 < dims_[c]; ++corner[c]) {
-        for (corner[b] = 0; corner[b] + 1 < dims_[b]; ++corner[b]) visit(corner, static_cast<int>(axis));
+      for (corner[c] = 0; corner[c] + 1 < dims[c]; ++corner[c]) {
+        for (corner[b] = 0; corner[b] + 1 < dims[b]; ++corner[b]) {
+          if (!meets_surface(corner, axis)) continue;
+          if (seen.empty()) {
+            seen.resize(result_.crossings.size());
+            sets = DisjointSets(result_.crossings.size());
+          }
+          const FaceArcs arcs = face_arcs(grid_, isovalue_, result_.index, corner, static_cast<int>(axis));
+          add_arc(arcs.arcs[0].crossings[0], arcs.arcs[0].crossings[1]);
+          if (arcs.count == 2) add_arc(arcs.arcs[1].crossings[0], arcs.arcs[1].crossings[1]);
+        }
       }
     }
   }
-}
-
-// On the box every crossing has two arcs, so the loops are the connected sets of crossings joined by outer arcs: as
-// many as crossings on the box minus the arcs that joined two sets.
-void TopologyBuilder::count_boundary_loops() {
-  DisjointSets sets(0);
-  std::vector<bool> seen;
-  const auto count_crossing = [&](std::uint32_t crossing) {
-    if (seen[crossing]) return;
-    seen[crossing] = true;
-    ++result_.components[result_.crossings[crossing].component].boundary_loops;
-  };
-  const CrossingIndex& index = result_.index;
-  for_each_outer_face([&](const Cell& corner, int axis) {
-    Cell across = corner;  // the face's corners in the two other directions
-    const auto b = static_cast<std::size_t>((axis + 1) % 3);
-    const auto c = static_cast<std::size_t>((axis + 2) % 3);
-    unsigned above = 0;
-    for (unsigned n = 0; n < 4; ++n) {
-      across[b] = corner[b] + static_cast<std::int32_t>(n & 1);
-      across[c] = corner[c] + static_cast<std::int32_t>(n >> 1);
-      above |= index.above(across[0], across[1], across[2]) ? 1u << n : 0u;
-    }
-    if (above == 0 || above == 0xFu) return;
-    if (seen.empty()) {
-      seen.resize(result_.crossings.size());
-      sets = DisjointSets(result_.crossings.size());
-    }
-    const FaceArcs arcs = face_arcs(grid_, isovalue_, result_, corner, axis);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {
-      const auto [from, to] = arcs.arcs[i].crossings;
-      count_crossing(from);
-      count_crossing(to);
-      if (sets.unite(from, to)) --result_.components[result_.crossings[from].component].boundary_loops;
-    }
-  });
 }
 
 }  // namespace
 
 IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue) {
   DELISO_CHECK(std::isfinite(isovalue), "an isovalue is a finite number");
-  return TopologyBuilder(grid, isovalue).build();
+  return TopologyBuilder(grid, isovalue, CrossingIndex(grid, isovalue)).build();
 }
 
 }  // namespace deliso

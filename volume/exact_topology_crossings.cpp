@@ -53,6 +53,18 @@ bool mark_row(const Sample* row, std::size_t length, double isovalue, std::uint6
   return !may_be_equal || std::none_of(row, row + length, [&](Sample sample) { return sample == threshold; });
 }
 
+// The place of the zero on an edge with end values `low` and `high`, inside (0, 1) whatever the rounding.
+double edge_parameter(double low, double high, double isovalue) {
+  double before = low - isovalue;
+  double length = low - high;
+  if (!std::isfinite(before) || !std::isfinite(length)) {
+    before = low / 2 - isovalue / 2;
+    length = low / 2 - high / 2;
+  }
+  constexpr double kBelowOne = 1 - std::numeric_limits<double>::epsilon() / 2;
+  return std::clamp(before / length, std::numeric_limits<double>::min(), kBelowOne);
+}
+
 }  // namespace
 
 CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
@@ -107,6 +119,44 @@ std::uint32_t CrossingIndex::number(std::int32_t i, std::int32_t j, std::int32_t
     before += std::popcount(bits[static_cast<std::size_t>(a)] & earlier);
   }
   return first_in_word_[word_index(w, j, k)] + static_cast<std::uint32_t>(before);
+}
+
+std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
+  std::vector<EdgeCrossing> crossings;
+  crossings.reserve(index.crossing_count());
+  const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
+  const auto list_word = [&](const auto& samples, std::int32_t w, std::int32_t j, std::int32_t k) {
+    const std::array<std::uint64_t, 3> crossed = index.crossed(w, j, k);
+    for (std::uint64_t left = crossed[0] | crossed[1] | crossed[2]; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const std::size_t sample = grid.index(w * CrossingIndex::kWordBits + bit, j, k);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if ((crossed[axis] >> bit & 1u) == 0) continue;
+        const auto low = static_cast<double>(samples[sample]);
+        const auto high = static_cast<double>(samples[sample + stride[axis]]);
+        crossings.push_back({sample, static_cast<std::uint8_t>(axis), 0, edge_parameter(low, high, isovalue)});
+      }
+    }
+  };
+  std::visit(
+      [&](const auto& samples) {
+        for (std::int32_t k = 0; k < grid.dims()[2]; ++k) {
+          for (std::int32_t j = 0; j < grid.dims()[1]; ++j) {
+            for (std::int32_t w = 0; w < index.words_per_row(); ++w) list_word(samples, w, j, k);
+          }
+        }
+      },
+      grid.samples());
+  return crossings;
+}
+
+Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
+  const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
+  const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
+  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(crossing.sample / nx % ny),
+                static_cast<double>(crossing.sample / nx / ny)};
+  position[crossing.axis] += crossing.t;
+  return position;
 }
 
 }  // namespace deliso

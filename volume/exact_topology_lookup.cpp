@@ -11,17 +11,15 @@ namespace deliso {
 
 namespace {
 
-using Cell = std::array<std::int32_t, 3>;
-
 constexpr double kNear = 1e-9;  // in voxels
 
 // A face of the grid seen as a face of a cell.
 struct CellFace {
-  Cell cell{};
+  CellIndex cell{};
   int face = 0;
 };
 
-CellFace cell_face(const Dims& dims, const Cell& corner, int axis) {
+CellFace cell_face(const Dims& dims, const CellIndex& corner, int axis) {
   const auto a = static_cast<std::size_t>(axis);
   CellFace result{corner, 2 * axis};
   if (corner[a] + 1 == dims[a]) {
@@ -31,12 +29,12 @@ CellFace cell_face(const Dims& dims, const Cell& corner, int axis) {
   return result;
 }
 
-std::uint32_t crossing_on(const CrossingIndex& index, const Cell& cell, int edge) {
+std::uint32_t crossing_on(const CrossingIndex& index, const CellIndex& cell, int edge) {
   const CellEdge e = cell_edge(edge);
   return index.find(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2), e.axis);
 }
 
-std::uint8_t pattern_of(const CrossingIndex& index, const Cell& cell) {
+std::uint8_t pattern_of(const CrossingIndex& index, const CellIndex& cell) {
   unsigned pattern = 0;
   for (int c = 0; c < 8; ++c) {
     if (index.above(cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2))) pattern |= 1u << c;
@@ -81,7 +79,7 @@ class PointLookup {
     std::uint32_t best = CrossingIndex::kNone;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!on_plane_[(axis + 1) % 3] || !on_plane_[(axis + 2) % 3]) continue;
-      Cell sample = plane_;
+      CellIndex sample = plane_;
       sample[axis] = cell_[axis];
       take_nearer(topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis)), best);
       if (!on_plane_[axis]) continue;
@@ -95,9 +93,9 @@ class PointLookup {
   [[nodiscard]] std::uint32_t on_face() const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!on_plane_[axis]) continue;
-      Cell corner = cell_;
+      CellIndex corner = cell_;
       corner[axis] = plane_[axis];
-      const FaceArcs arcs = face_arcs(grid_, isovalue_, topology_, corner, static_cast<int>(axis));
+      const FaceArcs arcs = face_arcs(grid_, isovalue_, topology_.index, corner, static_cast<int>(axis));
       if (arcs.count == 1) return arcs.arcs[0].crossings[0];
       if (arcs.count == 2) return on_ambiguous_face(arcs, axis);
     }
@@ -108,10 +106,10 @@ class PointLookup {
   [[nodiscard]] std::uint32_t on_ambiguous_face(const FaceArcs& arcs, std::size_t axis) const {
     const std::size_t b = (axis + 1) % 3;
     const std::size_t c = (axis + 2) % 3;
-    const Cell& corner = arcs.arcs[0].corner;
+    const CellIndex& corner = arcs.arcs[0].corner;
     std::array<double, 4> f;
     for (std::size_t n = 0; n < 4; ++n) {
-      Cell at = corner;
+      CellIndex at = corner;
       at[b] += static_cast<std::int32_t>(n & 1);
       at[c] += static_cast<std::int32_t>(n >> 1);
       f[n] = grid_.at(at[0], at[1], at[2]) - isovalue_;
@@ -133,7 +131,7 @@ class PointLookup {
   [[nodiscard]] std::uint32_t in_cells() const {
     std::uint32_t nearest = CrossingIndex::kNone;
     for (unsigned side = 0; side < 8; ++side) {
-      Cell cell = cell_;
+      CellIndex cell = cell_;
       bool valid = true;
       for (std::size_t a = 0; a < 3; ++a) {
         if ((side >> a & 1u) == 0) continue;
@@ -148,7 +146,7 @@ class PointLookup {
     return nearest;
   }
 
-  [[nodiscard]] std::uint32_t in_cell(const Cell& cell) const {
+  [[nodiscard]] std::uint32_t in_cell(const CellIndex& cell) const {
     const std::uint8_t pattern = pattern_of(topology_.index, cell);
     const std::uint16_t edges = crossed_edges(pattern);
     if (edges == 0) return CrossingIndex::kNone;
@@ -167,20 +165,11 @@ class PointLookup {
   const IsosurfaceTopology& topology_;
   Vec3 point_;
   std::array<bool, 3> on_plane_{};  // of grid points, within kNear
-  Cell plane_{};                    // the nearest one
-  Cell cell_{};                     // a cell that holds the point
+  CellIndex plane_{};               // the nearest one
+  CellIndex cell_{};                // a cell that holds the point
 };
 
 }  // namespace
-
-Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
-  const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
-  const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
-  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(crossing.sample / nx % ny),
-                static_cast<double>(crossing.sample / nx / ny)};
-  position[crossing.axis] += crossing.t;
-  return position;
-}
 
 std::optional<std::uint32_t> component_of(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                                           const Vec3& point) {
@@ -188,42 +177,53 @@ std::optional<std::uint32_t> component_of(const ScalarGrid& grid, double isovalu
   return PointLookup(grid, isovalue, topology, point).component();
 }
 
-FaceArcs face_arcs(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
-                   const std::array<std::int32_t, 3>& corner, int axis) {
+FaceArcs face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index, const CellIndex& corner,
+                   int axis) {
   const CellFace place = cell_face(grid.dims(), corner, axis);
-  FaceArcs result;
-  const std::uint8_t pattern = pattern_of(topology.index, place.cell);
-  unsigned joined = 0;
+  const std::uint8_t pattern = pattern_of(index, place.cell);
+  bool joined = false;
   if (is_ambiguous_face(pattern, place.face)) {
-    const CellCorners corners = grid.cell(place.cell[0], place.cell[1], place.cell[2]);
-    joined = above_joined_on_face(corners, isovalue, place.face) ? 1u << place.face : 0u;
+    joined = above_joined_on_face(grid.cell(place.cell[0], place.cell[1], place.cell[2]), isovalue, place.face);
   }
-  const CellFaceArcs arcs = arcs_on_cell_face(pattern, place.face, joined != 0);
+  const CellFaceArcs arcs = arcs_on_cell_face(pattern, place.face, joined);
+  FaceArcs result;
   result.count = arcs.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {
-    result.arcs[i] = {
-        {crossing_on(topology.index, place.cell, arcs.from[i]), crossing_on(topology.index, place.cell, arcs.to[i])},
-        corner,
-        static_cast<std::uint8_t>(axis)};
+    const std::uint32_t from = crossing_on(index, place.cell, arcs.from[i]);
+    const std::uint32_t to = crossing_on(index, place.cell, arcs.to[i]);
+    result.arcs[i] = {{from, to}, corner, static_cast<std::uint8_t>(axis)};
   }
   return result;
 }
 
-std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology) {
+std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
   std::vector<FaceArc> result;
   const Dims& dims = grid.dims();
-  Cell corner{};
-  for (corner[2] = 0; corner[2] < dims[2]; ++corner[2]) {
-    for (corner[1] = 0; corner[1] < dims[1]; ++corner[1]) {
-      for (corner[0] = 0; corner[0] < dims[0]; ++corner[0]) {
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto b = static_cast<std::size_t>((axis + 1) % 3);
-          const auto c = static_cast<std::size_t>((axis + 2) % 3);
-          if (corner[b] + 1 == dims[b] || corner[c] + 1 == dims[c]) continue;
-          const FaceArcs arcs = face_arcs(grid, isovalue, topology, corner, axis);
-          result.insert(result.end(), arcs.arcs.begin(), arcs.arcs.begin() + arcs.count);
-        }
+  const auto add_word = [&](std::int32_t w, std::int32_t j, std::int32_t k) {
+    // Bit b of mixed[axis]: the face across `axis` at the word's b-th sample has corners on both sides.
+    const bool has_y = j + 1 < dims[1];
+    const bool has_z = k + 1 < dims[2];
+    const auto crossed = [&](std::int32_t dj, std::int32_t dk) { return index.crossed(w, j + dj, k + dk); };
+    const auto here = crossed(0, 0);
+    const auto up_y = has_y ? crossed(1, 0) : here;
+    const auto up_z = has_z ? crossed(0, 1) : here;
+    const std::uint64_t cells = index.cells_in_word(w);
+    const std::array<std::uint64_t, 3> mixed{has_y && has_z ? here[1] | here[2] | up_y[2] | up_z[1] : 0,
+                                             has_z ? (here[0] | here[2] | up_z[0]) & cells : 0,
+                                             has_y ? (here[0] | here[1] | up_y[0]) & cells : 0};
+    for (std::uint64_t left = mixed[0] | mixed[1] | mixed[2]; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((mixed[static_cast<std::size_t>(axis)] >> bit & 1u) == 0) continue;
+        const CellIndex corner{w * CrossingIndex::kWordBits + bit, j, k};
+        const FaceArcs arcs = face_arcs(grid, isovalue, index, corner, axis);
+        result.insert(result.end(), arcs.arcs.begin(), arcs.arcs.begin() + arcs.count);
       }
+    }
+  };
+  for (std::int32_t k = 0; k < dims[2]; ++k) {
+    for (std::int32_t j = 0; j < dims[1]; ++j) {
+      for (std::int32_t w = 0; w < index.words_per_row(); ++w) add_word(w, j, k);
     }
   }
   return result;
