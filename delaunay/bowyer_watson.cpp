@@ -155,6 +155,8 @@ void BowyerWatson::add_to_region(TetId t) {
   const auto& v = vertices(t);
   region_.push_back(t);
   region_corners_.push_back({rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])});
+  // Its neighbours are tested a little later: fetch them meanwhile.
+  for (unsigned face = 0; face < 4; ++face) prefetch(neighbour(t, face));
   set_mark(t, kInside);
 }
 
