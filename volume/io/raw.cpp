@@ -56,17 +56,8 @@ ScalarGrid read_raw(const std::filesystem::path& path, const RawOptions& options
     file.fail("the header should have " + std::to_string(options.header_bytes) + " bytes, but the file has " +
               std::to_string(file.remaining()));
   file.skip(options.header_bytes);
-  try {
-    checked_sample_count(layout.dims);
-  } catch (const InputError& error) {
-    file.fail(error.what());
-  }
   Samples samples = read_samples(file, layout);
-  try {
-    return {layout.dims, std::move(samples), options.spacing, options.origin};
-  } catch (const InputError& error) {
-    file.fail(error.what());
-  }
+  return make_grid(file, layout.dims, std::move(samples), options.spacing, options.origin);
 }
 
 void write_raw(const ScalarGrid& grid, const std::filesystem::path& path) {
