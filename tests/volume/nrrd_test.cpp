@@ -88,7 +88,7 @@ TYPED_TEST(NrrdOfType, BothByteOrdersAndEncodingsGiveTheSamples) {
 TEST(Nrrd, DataOfManyChunksReadBack) {
   // 3.1 MiB of incompressible samples: several buffers of the reader, the writer and zlib.
   const TemporaryDirectory directory;
-  const ScalarGrid grid({131, 113, 111}, random_samples<std::int16_t>(131 * 113 * 111, 3));
+  const ScalarGrid grid({131, 113, 111}, random_samples<std::int16_t>(std::size_t{131} * 113 * 111, 3));
   write_nrrd(grid, directory / "a.nrrd");
   EXPECT_EQ(read_nrrd(directory / "a.nrrd").samples(), grid.samples());
 }
@@ -202,7 +202,8 @@ TEST(Nrrd, DetachedHeadersFindTheirDataBesideThem) {
   };
   EXPECT_EQ(read("encoding: raw\ndata file: sub/v.raw\n"), Samples(kBytes));
   EXPECT_EQ(read("encoding: gz\ndatafile: ./sub/v.raw.gz"), Samples(kBytes));
-  EXPECT_EQ(read(std::string("encoding: raw\ndata file: ") + (directory / "sub/v.raw").c_str() + "\n\n"), Samples(kBytes));
+  EXPECT_EQ(read(std::string("encoding: raw\ndata file: ") + (directory / "sub/v.raw").c_str() + "\n\n"),
+            Samples(kBytes));
 }
 
 TEST(Nrrd, LinesAndBytesBeforeTheDataAreSkipped) {
