@@ -32,11 +32,13 @@ struct Line {
   [[nodiscard]] Vec3 at(double t) const { return origin + t * direction; }
 };
 
+class ActiveCells;
 class MinMaxKdTree;
 
 class Isosurface {
  public:
-  // Keeps a reference to the grid. Precondition: no sample equals `isovalue`.
+  // Keeps a reference to the grid and builds what options.traversal needs. Precondition: no sample equals `isovalue`.
+  // Throws InputError when options.leaf_cells is below 1.
   Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options);
   ~Isosurface();
   Isosurface(const Isosurface&) = delete;
@@ -55,8 +57,9 @@ class Isosurface {
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
   // All hits with t0 <= t <= t1, ascending, appended to `hits` (which is cleared first). Falling and rising hits
-  // alternate: tangential touches are left out. t0 and t1 may be infinite (the line is then cut where its clamped image
-  // no longer moves).
+  // alternate: tangential touches are left out. Their number is odd exactly when is_above(line.at(t0)) and
+  // is_above(line.at(t1)) differ, whatever the rounding. t0 and t1 may be infinite (the line is then cut where its
+  // clamped image no longer moves). Precondition: the line is finite, its direction may be zero.
   void all_hits(const Line& line, double t0, double t1, std::vector<Hit>& hits, SearchCounters& counters) const;
 
   // The falling hit nearest to t = 0 with |t| <= reach, searched outward from t = 0 by growing steps (or over the whole
@@ -66,12 +69,21 @@ class Isosurface {
                                                           SearchCounters& counters) const;
 
  private:
+  struct Segment;
+  [[nodiscard]] CellCorners relative_corners(const Vec3& index_point, Vec3& uvw) const;
+  template <class Solve>
+  void search_cells(const Segment& segment, Solve&& solve) const;
+  [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
+  [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
+
   const ScalarGrid& grid_;
   double isovalue_;
   SearchOptions options_;
   Vec3 step_;
   Box3 box_;
-  std::unique_ptr<MinMaxKdTree> tree_;
+  Vec3 inverse_step_;
+  std::unique_ptr<MinMaxKdTree> tree_;   // traversal kKdTree, when pruning
+  std::unique_ptr<ActiveCells> active_;  // traversal kCellWalk, when pruning
 };
 
 }  // namespace deliso
