@@ -146,8 +146,7 @@ void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshing
   SurfaceMesh surface;
   if (parameters.certify && parameters.repair.max_rounds > 0) {
     surface = timed(result.repair, [&] {
-      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair)
-          .built.mesh;
+      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
     });
   } else {
     const std::vector<double> heights = timed(result.poles, [&] { return compute_poles(*restricted); });

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
+#include <cstdio>
+#include <cstdlib>
 
+#include "surface/founded_signs.h"
 #include "surface/poles.h"
 #include "surface/sample_lattice.h"
+#include "volume/critical_points.h"
 
 namespace deliso {
 
@@ -21,6 +25,13 @@ constexpr int kGradedLevel = 3;
 // A point this near to a side of its cell (in index space) lies on that side.
 constexpr double kOnSide = 1e-6;
 
+// A mesh with the pole height of each vertex, and what it was matched with.
+struct RepairedMesh {
+  BuiltMesh built;
+  ComponentMatch match;
+  std::vector<std::uint32_t> component;  // of each mesh vertex: the exact component it lies on
+};
+
 class Repair {
  public:
   Repair(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology, RepairStats& stats)
@@ -30,7 +41,7 @@ class Repair {
         stats_(stats),
         lattice_(grid, isosurface.isovalue(), topology) {}
 
-  RepairedMesh run(std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls);
+  SurfaceMesh run(std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls);
 
  private:
   struct Sample {
@@ -38,12 +49,16 @@ class Repair {
     std::uint64_t key = 0;  // of a lattice sample; 0 for a free one
   };
 
+  [[nodiscard]] bool is_done() const;
+  void keep_matched(const RepairedMesh& mesh);
+  void keep_rest(const RepairedMesh& mesh);
   void take_samples(const SignedDelaunay& restricted);
   RepairedMesh assemble(const SignedDelaunay& restricted);
   void flag_trouble(const SignedDelaunay& restricted, const RepairedMesh& mesh);
   void flag_mesh(const RepairedMesh& mesh);
   void flag_lost_samples(const SignedDelaunay& restricted, const RepairedMesh& mesh);
-  void flag_by_default(const RepairedMesh& mesh);
+  void flag_critical_points(const SignedDelaunay& restricted);
+  void flag_by_default();
   void flag_point(const Vec3& p, std::uint32_t component);
   void raise_flagged();
   void grade();
@@ -55,6 +70,7 @@ class Repair {
     const Vec3& step = isosurface_.step();
     return {p.x / step.x, p.y / step.y, p.z / step.z};
   }
+  [[nodiscard]] std::uint32_t component_in(const CellIndex& cell) const;
   [[nodiscard]] CellIndex cell_of(const Vec3& index_point) const;
   [[nodiscard]] std::uint64_t name(const CellIndex& c) const { return grid_.index(c[0], c[1], c[2]); }
   [[nodiscard]] CellIndex cell_named(std::uint64_t name) const;
@@ -71,34 +87,59 @@ class Repair {
   std::unordered_map<std::uint64_t, int> level_;  // of each raised cell
   std::unordered_set<std::uint64_t> flagged_;
   std::vector<bool> component_flagged_;
+  std::vector<bool> done_;  // of each exact component: kept_ holds its piece
+  SurfaceMesh kept_;
 };
 
-RepairedMesh Repair::run(std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls) {
+SurfaceMesh Repair::run(std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls) {
   take_samples(*restricted);
   stats_.points_before = stats_.points_after = static_cast<std::int64_t>(samples_.size());
-  RepairedMesh best = assemble(*restricted);
-  stats_.unmatched_before = stats_.unmatched_after = best.match.unmatched_components;
-  bool current_is_best = true;
-  RepairedMesh current;
-  for (std::int32_t round = 1; round <= max_rounds && !best.match.complete() && !controls.stopped(); ++round) {
+  overturn_unfounded_signs(*restricted, grid_);
+  RepairedMesh mesh = assemble(*restricted);
+  stats_.unmatched_before = mesh.match.unmatched_components;
+  if (mesh.match.complete()) return std::move(mesh.built.mesh);
+  keep_matched(mesh);
+  RepairedMesh best = mesh;
+  for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     // Flag where components differ, raise those cells, rebuild.
-    flag_trouble(*restricted, current_is_best ? best : current);
+    flag_trouble(*restricted, mesh);
     if (flagged_.empty()) break;
     raise_flagged();
     resample();
     restricted.reset();
     restricted = rebuild();
-    current = assemble(*restricted);
+    mesh = assemble(*restricted);
+    keep_matched(mesh);
     stats_.rounds = round;
-    controls.report("repair", samples_.size(), static_cast<std::size_t>(current.match.error()));
-    current_is_best = current.match.error() < best.match.error();
-    if (!current_is_best) continue;
-    best = std::move(current);
-    stats_.best_round = round;
-    stats_.points_after = static_cast<std::int64_t>(samples_.size());
-    stats_.unmatched_after = best.match.unmatched_components;
+    controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh.match.error()));
+    if (mesh.match.error() < best.match.error()) best = mesh;
   }
-  return best;
+  keep_rest(best);
+  return std::move(kept_);
+}
+
+bool Repair::is_done() const { return std::all_of(done_.begin(), done_.end(), [](bool d) { return d; }); }
+
+// A component keeps the piece of the first round in which it matches.
+void Repair::keep_matched(const RepairedMesh& mesh) {
+  done_.resize(topology_.components.size(), false);
+  std::vector<bool> wanted(mesh.match.pieces.size(), false);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const MeshPiece& piece = mesh.match.pieces[i];
+    if (!piece.matched || done_[piece.component]) continue;
+    wanted[i] = true;
+    done_[piece.component] = true;
+  }
+  append_pieces(mesh.built.mesh, mesh.match.piece_of, wanted, kept_);
+}
+
+// Components that never matched are taken as the best round has them.
+void Repair::keep_rest(const RepairedMesh& mesh) {
+  std::vector<bool> wanted(mesh.match.pieces.size(), false);
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = !done_[mesh.match.pieces[i].component];
+  append_pieces(mesh.built.mesh, mesh.match.piece_of, wanted, kept_);
+  stats_.unmatched_after = std::count(done_.begin(), done_.end(), false);
+  stats_.points_after = static_cast<std::int64_t>(kept_.points.size());
 }
 
 void Repair::take_samples(const SignedDelaunay& restricted) {
@@ -129,7 +170,8 @@ void Repair::flag_trouble(const SignedDelaunay& restricted, const RepairedMesh& 
   component_flagged_.assign(topology_.components.size(), false);
   flag_mesh(mesh);
   flag_lost_samples(restricted, mesh);
-  flag_by_default(mesh);
+  if (!getenv("NOCRIT")) flag_critical_points(restricted);
+  flag_by_default();
 }
 
 // Split vertices, triangles between components, triangles that stand across the surface, and stray pieces.
@@ -137,7 +179,7 @@ void Repair::flag_mesh(const RepairedMesh& mesh) {
   const SurfaceMesh& surface = mesh.built.mesh;
   const ComponentMatch& match = mesh.match;
   const auto in_trouble = [&](std::uint32_t v) {
-    return !match.component_matched[mesh.component[v]] || !match.pieces[match.piece_of[v]].matched;
+    return !done_[mesh.component[v]];
   };
   for (const std::uint32_t v : mesh.built.copies) {
     if (in_trouble(v)) flag_point(surface.points[v], mesh.component[v]);
@@ -177,14 +219,38 @@ void Repair::flag_lost_samples(const SignedDelaunay& restricted, const RepairedM
     if (used[i] || restricted.is_virtual(VertexId(i))) continue;
     const Vec3& p = restricted.delaunay().point(VertexId(i));
     const auto component = component_of(grid_, isosurface_.isovalue(), topology_, to_index_space(p));
-    if (component && !mesh.match.component_matched[*component]) flag_point(p, *component);
+    if (component && !done_[*component]) flag_point(p, *component);
   }
 }
 
+// Critical points of g that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other way.
+void Repair::flag_critical_points(const SignedDelaunay& restricted) {
+  std::vector<CriticalPoint> critical;
+  TetId hint = restricted.delaunay().incident_tet(VertexId(std::size_t{0}));
+  std::int64_t wrong = 0;
+  topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+    critical.clear();
+    append_critical_points(grid_.cell(cell[0], cell[1], cell[2]), critical);
+    if (critical.empty()) return;
+    const auto component = component_in(cell);
+    if (done_[component]) return;
+    for (const CriticalPoint& c : critical) {
+      if (c.value == isosurface_.isovalue()) continue;
+      const Vec3 p = scaled(Vec3{cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z}, isosurface_.step());
+      hint = restricted.locate(p, hint);
+      if (restricted.is_above(hint) != (c.value > isosurface_.isovalue())) {
+        flag_point(p, component);
+        ++wrong;
+      }
+    }
+  });
+  if (getenv("DBG")) printf("  critical wrong %ld flagged %zu\n", wrong, flagged_.size());
+}
+
 // An unmatched component without any other sign of trouble: the cells of its saddles, or all of its cells.
-void Repair::flag_by_default(const RepairedMesh& mesh) {
+void Repair::flag_by_default() {
   const std::vector<bool> had_sign = component_flagged_;
-  const auto is_silent = [&](std::uint32_t c) { return !mesh.match.component_matched[c] && !had_sign[c]; };
+  const auto is_silent = [&](std::uint32_t c) { return !done_[c] && !had_sign[c]; };
   for (const SurfaceSaddle& saddle : topology_.saddles) {
     if (is_silent(saddle.component)) flag_point(scaled(saddle.position, isosurface_.step()), saddle.component);
   }
@@ -261,6 +327,8 @@ std::unique_ptr<SignedDelaunay> Repair::rebuild() {
   for (const Sample& sample : samples_) points.push_back(sample.point);
   auto restricted = std::make_unique<SignedDelaunay>(isosurface_, points);
   take_signs_at_centroids(*restricted);
+  const auto n = overturn_unfounded_signs(*restricted, grid_);
+  if (getenv("DBG")) printf("  unfounded %ld\n", n);
   return restricted;
 }
 
@@ -289,6 +357,19 @@ void Repair::take_signs_at_centroids(SignedDelaunay& restricted) const {
     if (longest > kLongEdge * kLongEdge || !zone.contains(name(cell_of(to_index_space(centroid))))) continue;
     restricted.take_sign_at(t, centroid);
   }
+}
+
+// The exact component of some crossing on the edges of an active cell.
+std::uint32_t Repair::component_in(const CellIndex& cell) const {
+  for (std::int32_t edge = 0; edge < 12; ++edge) {
+    const auto axis = static_cast<std::size_t>(edge / 4);
+    CellIndex sample = cell;
+    sample[(axis + 1) % 3] += edge & 1;
+    sample[(axis + 2) % 3] += edge >> 1 & 1;
+    const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
+    if (crossing != CrossingIndex::kNone) return topology_.crossings[crossing].component;
+  }
+  return 0;
 }
 
 CellIndex Repair::cell_of(const Vec3& index_point) const {
@@ -323,7 +404,7 @@ void Repair::for_each_neighbour(const CellIndex& cell, Visit visit) const {
 
 }  // namespace
 
-RepairedMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
+SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                     std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
                     RepairStats& stats) {
   const Isosurface& isosurface = restricted->isosurface();

@@ -3,7 +3,7 @@
 // Rounds of: build the mesh; match its pieces with the exact components; flag the voxel cells near the trouble of those
 // that do not match; raise each flagged cell one level of the sample lattice (its free samples go, lattice samples
 // come); take the sign of small tetrahedra in flagged cells at their centroid, because the circumcenter of a flat
-// tetrahedron in a thin wedge lies far outside the wedge. The best round is kept.
+// tetrahedron in a thin wedge lies far outside the wedge. Each component keeps its piece of the first round in which it matches.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +28,8 @@ struct RepairStats : StageStats {
   std::int64_t unmatched_after = 0;
 };
 
-// A mesh with the pole height of each vertex, and what it was matched with.
-struct RepairedMesh {
-  BuiltMesh built;
-  ComponentMatch match;
-  std::vector<std::uint32_t> component;  // of each mesh vertex: the exact component it lies on
-};
-
 // `restricted` is what stage 1 left; it is replaced round by round to save memory.
-RepairedMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
+SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                     std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
                     RepairStats& stats);
 

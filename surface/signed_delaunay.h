@@ -34,8 +34,11 @@ class SignedDelaunay {
   }
   // Whether a vertex lies on the box, so that the surface may end there.
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
+  // The tetrahedron that holds p, by a walk from `hint`.
+  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
   // Gives a tetrahedron the sign of the field at another point than its circumcenter.
   void take_sign_at(TetId t, const Vec3& p) { sign_[t.index()] = sign_at(p); }
+  void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // Whether a point lies on the surface of the box, exactly.
   static bool on_box(const Box3& box, const Vec3& p);
