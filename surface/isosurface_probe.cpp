@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
 constexpr double kFirstStep = 0.25;  // voxels that its first step goes at most
-constexpr double kSuspicious = 0.5;  // voxels beyond which the crossings are asked too
+constexpr double kFar = 0.25;        // voxels beyond which all directions are tried and the crossings asked
 constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
-constexpr int kRefinements = 2;      // walks along the gradient of the foot found so far
+constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
 
 }  // namespace
 
@@ -122,22 +122,23 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   };
 
   // Down or up the gradient at p. On a crease the gradient of one cell may lead into another where it does not hold;
-  // along the axes the values on a grid face or edge are the same for all its cells.
+  // then in many directions: those in a grid face or edge have values that all its cells share.
   const double uphill = f > 0 ? -1 : 1;
   const Vec3 normal = gradient(p);
   const double promised = std::abs(f) / norm(normal);
   try_direction(uphill * normal, promised);
-  if (!(best.distance <= kSurprising * promised)) {
-    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      try_direction(axis, promised);
-      try_direction(-axis, promised);
+  if (!(best.distance <= std::min(kSurprising * promised, kFar))) {
+    for (int i = 0; i < 125; ++i) {
+      const Vec3 direction{double(i % 5 - 2), double(i / 5 % 5 - 2), double(i / 25 - 2)};
+      const bool is_on_shell = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}) == 2;
+      if (is_on_shell) try_direction(direction, std::min(promised, best.distance / 3));
     }
   }
+  if (best.distance > kFar) look_among_crossings(p, best);
   // Then along the gradient at the foot, which is the surface's normal there.
-  for (int i = 0; i < kRefinements && std::isfinite(best.distance); ++i) {
+  for (int i = 0; i < kRefinements; ++i) {
     if (!try_direction(uphill * gradient(best.point), best.distance)) break;
   }
-  if (best.distance > kSuspicious) look_among_crossings(p, best);
   return best;
 }
 

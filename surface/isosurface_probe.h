@@ -38,9 +38,9 @@ class IsosurfaceProbe {
   [[nodiscard]] double value(const Vec3& p) const;
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
-  // A point of the isosurface near p: where lines through p along gradients (and, near creases, along the axes) meet
-  // it, or the nearest of its points on grid edges when that is nearer or no such line meets it soon. So the distance
-  // is never below the true one (but for rounding), and exceeds it only where the isosurface bends strongly within a
+  // A point of the isosurface near p: where lines through p along gradients (and, far off or near creases, in about a
+  // hundred directions) meet it, or the nearest of its points on grid edges when that is nearer. So the distance is
+  // never below the true one (but for rounding), and exceeds it only where the isosurface bends strongly within a
   // voxel.
   FootPoint foot_point(const Vec3& p);
 
