@@ -143,7 +143,7 @@ TopologySum sum_of(const std::vector<TopologyCount>& counts) {
 
 std::vector<TopologyCount> mesh_topology(const MeshingResult& result) {
   if (!result.certificate.mesh.empty()) return result.certificate.mesh;
-  return certify(result.mesh, {}).mesh;
+  return certify(result.mesh, std::vector<ComponentTopology>()).mesh;
 }
 
 std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result) {

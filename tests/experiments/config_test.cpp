@@ -56,10 +56,14 @@ constexpr const char* kDocumentedDefaults = R"({
 Json random_value(const ParameterField& field, Rng& rng) {
   if (field.nullable && rng.below(3) == 0) return nullptr;
   switch (field.type) {
-    case ParameterType::kBoolean: return rng.below(2) == 0;
-    case ParameterType::kChoice: return std::string(field.choices[rng.below(field.choices.size())]);
-    case ParameterType::kInteger: return static_cast<std::int64_t>(field.range.low) + static_cast<std::int64_t>(rng.below(1000));
-    case ParameterType::kNumber: return field.range.low + rng.uniform(1e-6, 10);
+    case ParameterType::kBoolean:
+      return rng.below(2) == 0;
+    case ParameterType::kChoice:
+      return std::string(field.choices[rng.below(field.choices.size())]);
+    case ParameterType::kInteger:
+      return static_cast<std::int64_t>(field.range.low) + static_cast<std::int64_t>(rng.below(1000));
+    case ParameterType::kNumber:
+      return field.range.low + rng.uniform(1e-6, 10);
   }
   return nullptr;
 }
@@ -89,8 +93,9 @@ TEST(Config, EveryFieldReachesItsOwnMember) {
   for (const ParameterField& field : parameter_table()) {
     Rng rng(7);
     Json expected = parameters_to_json(Parameters{});
-    Json& slot = group_of(field.path).empty() ? expected[std::string(field.path)]
-                                              : expected[std::string(group_of(field.path))][std::string(key_of(field.path))];
+    Json& slot = group_of(field.path).empty()
+                     ? expected[std::string(field.path)]
+                     : expected[std::string(group_of(field.path))][std::string(key_of(field.path))];
     const Json before = slot;
     while (slot == before) slot = random_value(field, rng);
     Parameters parameters;

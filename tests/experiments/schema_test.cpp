@@ -18,7 +18,8 @@ bool has_type(const Json& value, const std::string& type) {
   if (type == "boolean") return value.is_boolean();
   if (type == "null") return value.is_null();
   if (type == "number") return value.is_number();
-  if (type == "integer") return value.is_number() && value.get<double>() == static_cast<double>(value.get<std::int64_t>());
+  if (type == "integer")
+    return value.is_number() && value.get<double>() == static_cast<double>(value.get<std::int64_t>());
   ADD_FAILURE() << "the schema uses an unknown type " << type;
   return false;
 }
@@ -46,7 +47,8 @@ bool validates(const Json& schema, const Json& value) {
       }
     }
     const std::vector<std::string> known = {"type",    "enum",       "minimum",     "exclusiveMinimum",
-                                            "maximum", "properties", "description", "additionalProperties", "default"};
+                                            "maximum", "properties", "description", "additionalProperties",
+                                            "default"};
     EXPECT_NE(std::find(known.begin(), known.end(), keyword), known.end()) << keyword;
   }
   return true;
@@ -64,10 +66,10 @@ bool parses(const Json& document) {
 
 // Values that sit on and around the limits of every type.
 const std::vector<Json>& probes() {
-  static const std::vector<Json> kProbes = {nullptr, true,  false,   -1,     0,        1,          2,    3,      4,
-                                            1.5,     2.0,   -0.001,  1e-300, 1e300,    2147483647, 2147483648,
-                                            "open",  "use", "fifo",  "",     "full3d", Json::array(), Json::object(),
-                                            "random", "schwarze"};
+  static const std::vector<Json> kProbes = {
+      nullptr,  true,          false,          -1,       0,          1,          2,      3,     4,      1.5,
+      2.0,      -0.001,        1e-300,         1e300,    2147483647, 2147483648, "open", "use", "fifo", "",
+      "full3d", Json::array(), Json::object(), "random", "schwarze"};
   return kProbes;
 }
 

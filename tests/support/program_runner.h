@@ -11,9 +11,9 @@
 namespace deliso::testing {
 
 struct ProgramResult {
-  int exit_code = 0;     // 128 + signal when a signal ended it
-  std::string out;       // standard output
-  std::string err;       // standard error
+  int exit_code = 0;  // 128 + signal when a signal ended it
+  std::string out;    // standard output
+  std::string err;    // standard error
   double seconds = 0;
 };
 
