@@ -11,7 +11,8 @@ namespace deliso {
 
 namespace {
 
-// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their neighbours.
+// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their
+// neighbours.
 constexpr double kApart = 2e-4;
 constexpr double kApartFraction = 0.01;
 
@@ -67,7 +68,7 @@ class MeshBuilder {
   SurfaceMesh& mesh_ = built_.mesh;
   std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
   std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
-  std::vector<TriangleSide> contested_sides_;  // whose edge has more than two restricted facets
+  std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 

@@ -1,10 +1,10 @@
 // A Delaunay triangulation of points on the isosurface, every tetrahedron with one sign.
 //
-// The sign is that of the field at the tetrahedron's circumcenter, taken once. A facet is *restricted* when the signs of its
-// two tetrahedra differ: then its dual edge meets the isosurface an odd number of times. So the restricted facets always
-// bound a set of tetrahedra, whatever the rounding. The field is extended beyond the box by clamping, so signs exist
-// everywhere, also for ghosts (the limit of their dual ray), and a surface cut by the box needs no special case: its rim
-// shows as restricted facets at the infinite vertex.
+// The sign is that of the field at the tetrahedron's circumcenter, taken once. A facet is *restricted* when the signs
+// of its two tetrahedra differ: then its dual edge meets the isosurface an odd number of times. So the restricted
+// facets always bound a set of tetrahedra, whatever the rounding. The field is extended beyond the box by clamping, so
+// signs exist everywhere, also for ghosts (the limit of their dual ray), and a surface cut by the box needs no special
+// case: its rim shows as restricted facets at the infinite vertex.
 #pragma once
 
 #include <cstdint>
