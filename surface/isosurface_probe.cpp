@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "delaunay/base/check.h"
@@ -129,8 +130,9 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   try_direction(uphill * normal, promised);
   if (!(best.distance <= std::min(kSurprising * promised, kFar))) {
     for (int i = 0; i < 125; ++i) {
-      const Vec3 direction{double(i % 5 - 2), double(i / 5 % 5 - 2), double(i / 25 - 2)};
-      const bool is_on_shell = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}) == 2;
+      const int x = i % 5 - 2, y = i / 5 % 5 - 2, z = i / 25 - 2;
+      const Vec3 direction{double(x), double(y), double(z)};
+      const bool is_on_shell = std::max({std::abs(x), std::abs(y), std::abs(z)}) == 2;
       if (is_on_shell) try_direction(direction, std::min(promised, best.distance / 3));
     }
   }
