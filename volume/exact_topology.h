@@ -23,6 +23,7 @@ struct ComponentTopology {
   std::int64_t euler_characteristic = 0;
   std::int64_t boundary_loops = 0;
   friend bool operator==(const ComponentTopology&, const ComponentTopology&) = default;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the defaulted comparison for a null pointer
   friend auto operator<=>(const ComponentTopology&, const ComponentTopology&) = default;
 };
 

@@ -66,7 +66,7 @@ CellFaceArcs arcs_on_cell_face(std::uint8_t pattern, int face, bool above_joined
 // The arcs in which the surface meets the cell's faces, as successors: on its boundary a piece of the surface runs from
 // crossing e to crossing next[e], counterclockwise around the piece seen from the side of lower values. -1 where edge e
 // has no crossing. `joined` has bit f set when above_joined_on_face(f); it matters for ambiguous faces only.
-using EdgeSuccessors = std::array<std::int8_t, kCellEdges>;
+using EdgeSuccessors = std::array<int, kCellEdges>;
 EdgeSuccessors edge_successors(std::uint8_t pattern, unsigned joined);
 
 class CellSweep {
@@ -97,7 +97,7 @@ class CellSweep {
   // Sides of a slice: 0 bottom (v = 0), 1 top, 2 left (u = 0), 3 right. Bits of `above` are the slice's corners u + 2v.
   struct Slice {
     unsigned above = 0;
-    std::array<std::int8_t, 4> piece_of_side{-1, -1, -1, -1};
+    std::array<int, 4> piece_of_side{-1, -1, -1, -1};
     int det_sign = 0;  // of D at the interval's start, when the slice is ambiguous
   };
 
@@ -130,8 +130,8 @@ class CellSweep {
   Slice slice_;                     // the current one
   std::array<Slice, 5> history_{};  // between the flips
   int pieces_ = 0;
-  std::array<std::int8_t, kCellEdges> piece_of_edge_{};
-  std::array<std::int8_t, 8> euler_{};
+  std::array<int, kCellEdges> piece_of_edge_{};
+  std::array<int, 8> euler_{};
   int saddle_count_ = 0;
   std::array<Saddle, 4> saddles_{};
   bool singular_ = false;

@@ -131,7 +131,7 @@ EdgeSuccessors edge_successors(std::uint8_t pattern, unsigned joined) {
   next.fill(-1);
   for (int face = 0; face < kCellFaces; ++face) {
     const CellFaceArcs arcs = arcs_on_cell_face(pattern, face, (joined >> face & 1u) != 0);
-    for (int i = 0; i < arcs.count; ++i) next[at(arcs.from[at(i)])] = static_cast<std::int8_t>(arcs.to[at(i)]);
+    for (int i = 0; i < arcs.count; ++i) next[at(arcs.from[at(i)])] = arcs.to[at(i)];
   }
   return next;
 }
