@@ -41,7 +41,8 @@ struct IsosurfaceTopology {
   CrossingIndex index;                        // index.find(i, j, k, axis) is a place in `crossings`
   std::vector<SurfaceSaddle> saddles;         // by cell, x fastest
   // Cells in or on which the surface has a singular point although no sample equals the isovalue: the isovalue is that
-  // of a saddle, the surface is no manifold there, and the components are those of a nearby isovalue on one side.
+  // of a saddle inside the cell, or of a saddle of a face on the box or where two sheets touch. The surface is no
+  // manifold there, and the components are those of a nearby field.
   std::vector<CellIndex> singular_cells;
 };
 

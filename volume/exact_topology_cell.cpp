@@ -111,6 +111,7 @@ bool CellSweep::flips_before(int a, int b) const {
 CellSweep::CellSweep(const CellCorners& corners, double isovalue)
     : corners_(corners), isovalue_(isovalue), pattern_(sign_pattern(corners, isovalue)) {
   piece_of_edge_.fill(-1);
+  scale_values();
   check_faces();
   order_flips();
   start();
@@ -125,7 +126,7 @@ CellSweep::CellSweep(const CellCorners& corners, double isovalue)
 void CellSweep::check_faces() {
   for (int face = 0; face < kCellFaces; ++face) {
     const std::array<int, 4> c = face_corners(face);
-    if (is_ambiguous_face(pattern_, face) && determinant(c[0], c[1], c[3], c[2]) == 0) singular_ = true;
+    if (is_ambiguous_face(pattern_, face) && determinant(c[0], c[1], c[3], c[2]) == 0) saddle_faces_ |= 1u << face;
   }
 }
 
@@ -174,7 +175,7 @@ void CellSweep::cross_interval(int interval) {
       // D comes nearest to zero strictly inside: it reaches zero twice, once (a singular point), or not at all.
       const int two_roots = discriminant();
       if (two_roots > 0) add_saddles(2, start, end);
-      if (two_roots == 0) singular_ = true;
+      if (two_roots == 0) singular_inside_ = true;
     }
   }
   history_[at(interval)] = slice_;
@@ -292,6 +293,15 @@ void CellSweep::renumber() {
 }
 
 // --- Where things are: rounded --------------------------------------------------------------------------------------
+
+void CellSweep::scale_values() {
+  double largest = std::abs(isovalue_);
+  for (const double corner : corners_) largest = std::max(largest, std::abs(corner));
+  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    values_[c] = std::ldexp(corners_[c], exponent) - std::ldexp(isovalue_, exponent);
+  }
+}
 
 double CellSweep::position(int end) const {
   if (end == kBottom) return 0;
