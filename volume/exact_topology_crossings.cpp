@@ -152,8 +152,9 @@ std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
   const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
   const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
-  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(crossing.sample / nx % ny),
-                static_cast<double>(crossing.sample / nx / ny)};
+  const std::uint64_t row = crossing.sample / nx;
+  const std::uint64_t slice = row / ny;
+  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(row % ny), static_cast<double>(slice)};
   position[crossing.axis] += crossing.t;
   return position;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -35,6 +36,9 @@ test::IntegerGrid random_cell(Rng& rng, unsigned pattern, std::int64_t range) {
   }
   return cell;
 }
+
+// A cell alone: its faces lie on the box.
+bool is_singular(const CellSweep& sweep) { return sweep.singular_inside() || sweep.saddle_faces() != 0; }
 
 // The loops of crossings on the cell's boundary.
 std::vector<std::vector<int>> loops_of(const CellCorners& corners, double isovalue) {
@@ -86,7 +90,7 @@ TEST(CellSweep, AgreesWithAFineLatticeForEverySignPattern) {
     for (const std::int64_t range : {2, 8, 1000}) {
       for (int i = 0; i < 4; ++i) {
         const test::IntegerGrid cell = random_cell(rng, pattern, range);
-        if (CellSweep(corners_of(cell), -0.5).singular()) continue;
+        if (is_singular(CellSweep(corners_of(cell), -0.5))) continue;
         ASSERT_TRUE(agrees_with_lattice(cell, piece_topologies(corners_of(cell), -0.5), 128))
             << "pattern " << pattern << ", range " << range << ", case " << i << " after seed 11";
       }
@@ -104,7 +108,7 @@ TEST(CellSweep, AgreesWithAFineLatticeAroundTunnels) {
     const std::int64_t sign = cell.samples[0] >= 0 ? 1 : -1;
     cell.samples[0] += sign * static_cast<std::int64_t>(rng.below(80));
     cell.samples[7] += sign * static_cast<std::int64_t>(rng.below(80));
-    if (CellSweep(corners_of(cell), -0.5).singular()) continue;
+    if (is_singular(CellSweep(corners_of(cell), -0.5))) continue;
     const std::vector<ComponentTopology> pieces = piece_topologies(corners_of(cell), -0.5);
     ++seen[pieces.size()];
     ASSERT_TRUE(agrees_with_lattice(cell, pieces, 128)) << "case " << i << " after seed 12";
@@ -122,8 +126,10 @@ void expect_symmetric(const CellCorners& corners, double isovalue, const std::st
       moved[static_cast<std::size_t>(c)] = corners[static_cast<std::size_t>(test::source_corner(symmetry, c))];
     }
     const CellSweep other(moved, isovalue);
-    ASSERT_EQ(other.singular(), sweep.singular()) << context;
-    if (sweep.singular()) continue;
+    ASSERT_EQ(std::popcount(other.saddle_faces()), std::popcount(sweep.saddle_faces())) << context;
+    if (sweep.saddle_faces() != 0) continue;
+    ASSERT_EQ(other.singular_inside(), sweep.singular_inside()) << context;
+    if (sweep.singular_inside()) continue;
     ASSERT_EQ(other.pieces(), sweep.pieces()) << context;
     std::array<int, kMaxCellPieces> image{-1, -1, -1, -1};
     for (int edge = 0; edge < kCellEdges; ++edge) {
@@ -248,10 +254,10 @@ TEST(CellSweep, ReportsASaddleAtTheIsovalueOnAFace) {
     CellCorners moved;
     for (int c = 0; c < 8; ++c)
       moved[static_cast<std::size_t>(c)] = corners[static_cast<std::size_t>(test::source_corner(symmetry, c))];
-    EXPECT_TRUE(CellSweep(moved, 0).singular());
+    EXPECT_EQ(std::popcount(CellSweep(moved, 0).saddle_faces()), 1);
   }
-  EXPECT_FALSE(CellSweep({2, -3, -4, std::nextafter(6, 7), 1, 1, 1, 1}, 0).singular());
-  EXPECT_FALSE(CellSweep({2, -3, -4, std::nextafter(6, 5), 1, 1, 1, 1}, 0).singular());
+  EXPECT_FALSE(is_singular(CellSweep({2, -3, -4, std::nextafter(6, 7), 1, 1, 1, 1}, 0)));
+  EXPECT_FALSE(is_singular(CellSweep({2, -3, -4, std::nextafter(6, 5), 1, 1, 1, 1}, 0)));
 }
 
 // xy + yz + zx has its saddle, with value 0, at the origin: inside the cell [low, high]^3.
@@ -269,11 +275,11 @@ CellCorners saddle_cell(double low, double high) {
 TEST(CellSweep, ReportsASaddleAtTheIsovalueInside) {
   for (const auto& [low, high] : {std::pair{-1.0, 1.0}, {-2.0, 3.0}, {-7.0, 5.0}, {-100.0, 101.0}}) {
     const CellCorners corners = saddle_cell(low, high);
-    EXPECT_TRUE(CellSweep(corners, 0).singular()) << low;
+    EXPECT_TRUE(CellSweep(corners, 0).singular_inside()) << low;
     // A hair above the two sheets part, a hair below they are joined by a tunnel.
     const double hair = std::ldexp(1.0, -60);
-    EXPECT_FALSE(CellSweep(corners, hair).singular());
-    EXPECT_FALSE(CellSweep(corners, -hair).singular());
+    EXPECT_FALSE(is_singular(CellSweep(corners, hair)));
+    EXPECT_FALSE(is_singular(CellSweep(corners, -hair)));
     EXPECT_EQ(CellSweep(corners, hair).pieces(), 2);
     EXPECT_EQ(CellSweep(corners, -hair).pieces(), 1);
     EXPECT_EQ(CellSweep(corners, -hair).euler_characteristic(0), 0);

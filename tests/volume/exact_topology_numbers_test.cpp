@@ -67,7 +67,8 @@ TEST(DyadicNumber, KeepsEveryBitOfAnyDouble) {
 }
 
 TEST(DyadicNumber, RefusesInfinity) {
-  EXPECT_THROW(DyadicNumber(std::numeric_limits<double>::infinity()), InternalError);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(DyadicNumber{infinity}, InternalError);
 }
 
 TEST(BoundedNumber, ACertainSignIsTheExactSign) {

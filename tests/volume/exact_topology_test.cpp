@@ -17,6 +17,7 @@
 #include "tests/support/topology_grids.h"
 #include "tests/support/topology_oracle.h"
 #include "tests/support/volume_files.h"
+#include "volume/exact_topology_cell.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {
@@ -151,6 +152,44 @@ TEST(ExactTopology, SingularGridsStaySingularWhenTurned) {
     }
   }
   EXPECT_GT(singular, 20);
+}
+
+// f(x, y) + slope z around a face with a saddle at 0: the surface passes through the face like a graph.
+TEST(ExactTopology, ASaddleOnAFaceIsRegularWhereTheSurfacePassesThrough) {
+  const auto field = [](double below, double above) {
+    return sampled({2, 2, 3}, [=](const Vec3& p) {
+      const double saddle = (3 * p.x - 1) * (5 * p.y - 2);  // its corners are 2, -3, -4, 6
+      return saddle + (p.z < 1 ? below * (1 - p.z) : above * (p.z - 1));
+    });
+  };
+  for (const double slope : {7.5, -7.5, 0.25}) {
+    EXPECT_TRUE(exact_topology(field(-slope, slope), 0).singular_cells.empty()) << slope;
+    EXPECT_EQ(components_of(field(-slope, slope), 0), components_of(field(-slope, slope), 1e-9)) << slope;
+    EXPECT_EQ(components_of(field(-slope, slope), 0), components_of(field(-slope, slope), -1e-9)) << slope;
+    EXPECT_EQ(exact_topology(field(slope, slope), 0).singular_cells.size(), 2u) << slope;
+  }
+}
+
+// Four values, -3/2, -1/2, 1/2 and 3/2 from the isovalue: saddles of faces at the isovalue are common.
+TEST(ExactTopology, AgreesWithAFineLatticeOnRegularGridsFullOfTies) {
+  Rng rng(30);
+  int with_ties = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const test::IntegerGrid grid = test::random_integer_grid(rng, i % 2 == 0 ? Dims{2, 2, 3} : Dims{3, 3, 3}, 2);
+    const IsosurfaceTopology topology = exact_topology(test::scalar_grid(grid), -0.5);
+    if (!topology.singular_cells.empty()) continue;
+    bool ties = false;
+    topology.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t) {
+      ties = ties || CellSweep(test::scalar_grid(grid).cell(cell[0], cell[1], cell[2]), -0.5).saddle_faces() != 0;
+    });
+    if (!ties) continue;
+    ++with_ties;
+    bool agrees = false;
+    for (int n = 3; n <= 24 && !agrees; n *= 2)
+      agrees = test::lattice_topology(grid, n) == test::sorted_components(topology);
+    ASSERT_TRUE(agrees) << "case " << i << " after seed 30";
+  }
+  EXPECT_GT(with_ties, 20);
 }
 
 TEST(ExactTopology, DoesNotDependOnTheSampleType) {
