@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
@@ -24,23 +25,36 @@ class Tetrahedralization {
  public:
   [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
   // Slots, live and free: valid tetrahedron ids are below this.
-  [[nodiscard]] std::size_t tet_slots() const { return vertices_.size(); }
-  [[nodiscard]] bool is_live(TetId t) const;
-  [[nodiscard]] bool is_ghost(TetId t) const { return vertices_[t.index()][3] == kInfiniteVertex; }
-  [[nodiscard]] const std::array<VertexId, 4>& vertices(TetId t) const { return vertices_[t.index()]; }
+  [[nodiscard]] std::size_t tet_slots() const { return tets_.size(); }
+  [[nodiscard]] bool is_live(TetId t) const { return !vertices(t)[0].is_none(); }
+  [[nodiscard]] bool is_ghost(TetId t) const { return vertices(t)[3] == kInfiniteVertex; }
+  [[nodiscard]] const std::array<VertexId, 4>& vertices(TetId t) const { return tets_[t.index()].vertices; }
   [[nodiscard]] const Vec3& point(VertexId v) const { return points_[v.index()]; }
   [[nodiscard]] std::span<const Vec3> points() const { return points_; }
   // The same facet seen from the neighbour across it.
-  [[nodiscard]] FacetId mirror(FacetId f) const { return neighbours_[f.tet().index()][f.face()]; }
-  [[nodiscard]] TetId neighbour(TetId t, unsigned face) const { return neighbours_[t.index()][face].tet(); }
+  [[nodiscard]] FacetId mirror(FacetId f) const { return tets_[f.tet().index()].mirrors[f.face()]; }
+  [[nodiscard]] TetId neighbour(TetId t, unsigned face) const { return tets_[t.index()].mirrors[face].tet(); }
   // Some live tetrahedron that has v as a vertex.
   [[nodiscard]] TetId incident_tet(VertexId v) const { return incident_[v.index()]; }
+  // The vertices of a facet, counterclockwise seen from outside its tetrahedron.
+  [[nodiscard]] std::array<VertexId, 3> facet_vertices(FacetId f) const {
+    const auto& v = vertices(f.tet());
+    const auto& slots = kFacetSlots[f.face()];
+    return {v[slots[0]], v[slots[1]], v[slots[2]]};
+  }
+  // Tells the processor that t will be read soon.
+  void prefetch(TetId t) const { __builtin_prefetch(&tets_[t.index()]); }
 
  protected:
-  std::vector<Vec3> points_;                        // point of each vertex
-  std::vector<TetId> incident_;                     // a live tetrahedron at each vertex
-  std::vector<std::array<VertexId, 4>> vertices_;   // four vertices of each tetrahedron
-  std::vector<std::array<FacetId, 4>> neighbours_;  // across face i: that facet as the neighbour knows it
+  // Half a cache line. A free slot has no vertex in slot 0.
+  struct alignas(32) Tet {
+    std::array<VertexId, 4> vertices;
+    std::array<FacetId, 4> mirrors;  // across face i: that facet as the neighbour knows it
+  };
+
+  std::vector<Vec3, HugePageAllocator<Vec3>> points_;  // point of each vertex
+  std::vector<TetId> incident_;                        // a live tetrahedron at each vertex
+  std::vector<Tet, HugePageAllocator<Tet>> tets_;      // live and free slots
 };
 
 }  // namespace deliso

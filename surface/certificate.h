@@ -25,9 +25,17 @@ struct Certificate {
   std::vector<std::string> differences;   // one sentence each
 };
 
-// The components of a mesh with their topology; sorted. Precondition: the mesh is manifold.
+// The components of a mesh with their topology; sorted. Vertices without a triangle belong to none. Preconditions: the
+// mesh is manifold, its indices are in range.
 std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh);
 
+// kHomeomorphic when the mesh is an oriented manifold and its components match the isosurface's one to one: orientable
+// surfaces with equal Euler characteristics and equal numbers of boundary loops are homeomorphic. Else kDifferent, and
+// `differences` says why. The counts of a mesh that is no manifold are V - E + F all the same; those of a mesh with an
+// index out of range are left empty.
 Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface);
+
+// The same; kSingularIsovalue when the isosurface has singular points (IsosurfaceTopology::singular_cells).
+Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface);
 
 }  // namespace deliso

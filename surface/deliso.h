@@ -1,55 +1,21 @@
 // The pipeline (Dey and Levine, Figure 4): a volume and an isovalue in, a Delaunay surface mesh out.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string_view>
 
-#include "delaunay/base/counters.h"
 #include "surface/certificate.h"
+#include "surface/controls.h"
 #include "surface/parameters.h"
+#include "surface/recover.h"
+#include "surface/refine.h"
+#include "surface/repair.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
-
-struct StageStats {
-  double seconds = 0;
-};
-
-struct RecoverStats : StageStats {
-  std::int64_t insertions = 0;
-  std::int64_t multi_intersect = 0;
-  std::int64_t extract_manifold = 0;
-  std::int64_t approximate_geometry = 0;
-  std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
-  std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point
-  SearchCounters search;
-  double restricted_seconds = 0;  // time spent deciding which facets are restricted
-};
-
-// Why an insertion of stage 2 was refused.
-enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kExistingEdge, kFlippedTriangle, kTooClose, kCount };
-inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::kCount)> kRefusalNames = {
-    "no_hit", "not_a_disk", "repeated_vertex", "existing_edge", "flipped_triangle", "too_close"};
-
-struct RefineStats : StageStats {
-  std::int64_t insertions = 0;
-  std::int64_t boundary_splits = 0;
-  std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
-  std::int64_t stopped_at_r_min = 0;  // triangles that violate a criterion but are not larger than r_min
-  SearchCounters search;
-};
-
-// What a caller may watch and stop. Called now and then from the mesher's own thread.
-struct Progress {
-  std::string_view stage;  // "index", "initial", "recover", "poles", "build", "refine", "certify"
-  std::int64_t vertices = 0;
-  std::int64_t queued = 0;  // violations still waiting
-};
 
 struct MeshingOptions {
   Parameters parameters;
@@ -66,8 +32,10 @@ struct MeshingResult {
   double isovalue_used = 0;
   double r_min_voxels = 0;  // r_min of stage 2 in smallest spacings
   bool stopped_early = false;
-  StageStats index, initial, poles, build, certify_stage;
+  StageStats index, topology, initial, poles, build, certify_stage;  // topology: the exact one, found from the grid
+  SearchCounters initial_search;                                     // of the random rays
   RecoverStats recover;
+  RepairStats repair;
   RefineStats refine;
   Certificate certificate;
   double total_seconds = 0;

@@ -1,0 +1,330 @@
+#include "delaunay/bowyer_watson.h"
+
+#include <algorithm>
+
+#include "delaunay/base/check.h"
+#include "delaunay/point_location.h"
+#include "delaunay/spatial_order.h"
+
+namespace deliso {
+
+namespace {
+
+// Vertex slots of face i, so that with the slot opposite it put before them they make a negative tetrahedron; slot 3,
+// where the infinite vertex of a ghost is, comes last.
+constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+
+// Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
+std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
+                                                       std::span<const std::uint32_t> order) {
+  std::array<std::size_t, 4> simplex{};
+  unsigned found = 1;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const auto corner = [&](unsigned k) -> const Vec3& { return points[order[simplex[k]]]; };
+    const Vec3& p = points[order[i]];
+    const bool spans = found == 1   ? p != corner(0)
+                       : found == 2 ? !collinear(corner(0), corner(1), p)
+                                    : orient3d(corner(0), corner(1), corner(2), p) != 0;
+    if (!spans) continue;
+    simplex[found++] = i;
+    if (found == 4) return simplex;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+BowyerWatson::BowyerWatson(const Box3& box) : box_(box), filter_(box) {}
+
+bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of) {
+  clear();
+  if (vertex_of != nullptr) vertex_of->clear();
+  for (const Vec3& p : points) DELISO_CHECK(box_.contains(p), "every point lies in the box");
+  if (points.empty()) return false;
+
+  // Step 1: the insertion order, beginning with four points that span space.
+  std::vector<std::uint32_t> order = spatial_order(points);
+  const auto simplex = find_simplex(points, order);
+  if (!simplex) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto from = order.begin() + static_cast<std::ptrdiff_t>((*simplex)[i]);
+    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(i), from, from + 1);
+  }
+
+  // Step 2: insert, the vertices numbered in that order for the sake of the caches, the perturbation ordered by input.
+  std::vector<VertexId> vertices(points.size());
+  insert_all(points, order, vertices);
+  // Step 3: number the vertices as the input.
+  number_as_input(points, vertices);
+  if (vertex_of != nullptr) *vertex_of = std::move(vertices);
+  return true;
+}
+
+void BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order,
+                              std::vector<VertexId>& vertex_of) {
+  points_.reserve(points.size());
+  incident_.reserve(points.size());
+  ranks_.reserve(points.size());
+  tets_.reserve(8 * points.size());
+  const auto add_vertex = [&](std::uint32_t input) {
+    vertex_of[input] = VertexId(points_.size());
+    points_.push_back(points[input]);
+    incident_.emplace_back();
+    ranks_.emplace_back(std::size_t{input});
+    return vertex_of[input];
+  };
+  for (const std::uint32_t input : order.first(4)) add_vertex(input);
+  make_first_tet();
+  TetId hint(std::size_t{0});
+  for (const std::uint32_t input : order.subspan(4)) {
+    // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
+    const Vec3& p = points[input];
+    if (const auto duplicate = find_conflicts_from_located(p, VertexId(input), locate(p, hint))) {
+      vertex_of[input] = *duplicate;
+      continue;
+    }
+    star_rim(add_vertex(input));
+    hint = created_.front();
+  }
+  created_.clear();
+}
+
+TetId BowyerWatson::locate(const Vec3& p, TetId hint) const { return visibility_walk(*this, filter_, p, hint); }
+
+bool BowyerWatson::in_conflict(TetId t, const Vec3& p) const { return conflicts(t, p, VertexId(points_.size())); }
+
+bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_rank) const {
+  // A ghost's ball is the half-space beyond its hull facet; on the facet's plane, it is the disk in which that plane
+  // cuts the ball of the tetrahedron inside.
+  if (is_ghost(t)) {
+    const auto& v = vertices(t);
+    const double side = filter_.orient(point(v[0]), point(v[1]), point(v[2]), p);
+    if (side != 0) return side > 0;
+    t = neighbour(t, 3);
+  }
+  const auto& v = vertices(t);
+  const std::array<Vec3, 4> tet = {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+  const double inside = insphere(tet[0], tet[1], tet[2], tet[3], p);
+  if (inside != 0) return inside > 0;
+  return perturbed_insphere(
+      tet, {perturbation_rank(v[0]), perturbation_rank(v[1]), perturbation_rank(v[2]), perturbation_rank(v[3])}, p,
+      p_rank);
+}
+
+std::optional<VertexId> BowyerWatson::find_conflicts(const Vec3& p, TetId start) {
+  DELISO_CHECK(box_.contains(p), "the point lies in the box");
+  DELISO_CHECK(region_.empty(), "no other cavity is open");
+  DELISO_CHECK(start.index() < tets_.size() && is_live(start), "the search starts from a live tetrahedron");
+  const VertexId p_rank(points_.size());
+  pending_ = p;
+  // In conflict with the newest vertex p means strictly inside (or beyond a hull facet): then p is no duplicate.
+  if (conflicts(start, p, p_rank)) {
+    grow_region(p, p_rank, start);
+    return std::nullopt;
+  }
+  return find_conflicts_from_located(p, p_rank, locate(p, start));
+}
+
+std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located) {
+  // The tetrahedron that contains p is in conflict with it, unless p is one of its vertices.
+  if (!is_ghost(located)) {
+    for (const VertexId v : vertices(located)) {
+      if (point(v) == p) return v;
+    }
+  }
+  grow_region(p, p_rank, located);
+  return std::nullopt;
+}
+
+void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
+  region_.clear();
+  region_corners_.clear();
+  rim_.clear();
+  rim_corners_.clear();
+  rows_.start(p, points_.size());
+  for (const VertexId v : vertices(first)) {
+    if (v != kInfiniteVertex) rows_.add(v, point(v));
+  }
+  add_to_region(first);
+  for (std::size_t i = 0; i < region_.size(); ++i) test_neighbours(i, p, p_rank);
+  for (const TetId t : region_) set_mark(t, kUnknown);
+  for (const FacetId f : rim_) set_mark(f.tet(), kUnknown);
+}
+
+void BowyerWatson::add_to_region(TetId t) {
+  const auto& v = vertices(t);
+  region_.push_back(t);
+  region_corners_.push_back({rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])});
+  // Its neighbours are tested a little later: fetch them meanwhile.
+  for (unsigned face = 0; face < 4; ++face) prefetch(neighbour(t, face));
+  set_mark(t, kInside);
+}
+
+void BowyerWatson::test_neighbours(std::size_t i, const Vec3& p, VertexId p_rank) {
+  const auto mirrors = tets_[region_[i].index()].mirrors;
+  const Corners corners = region_corners_[i];
+  // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the minors of
+  // two rows serve for the two faces opposite the other two.
+  const std::array<LiftedRow, 4> rows = {rows_.row(corners[0]), rows_.row(corners[1]), rows_.row(corners[2]),
+                                         rows_.row(corners[3])};
+  const std::array<RowMinors, 2> minors = {RowMinors(rows[2], rows[3]), RowMinors(rows[0], rows[1])};
+  const std::array<double, 2> products = {rows[2].w * rows[3].w, rows[0].w * rows[1].w};
+  const std::array<double, 2> greatest = {std::max(rows[2].w, rows[3].w), std::max(rows[0].w, rows[1].w)};
+
+  for (unsigned face = 0; face < 4; ++face) {
+    const FacetId mirror(mirrors[face].value & kMirrorMask);
+    const TetId outside = mirror.tet();
+    const std::uint32_t known = mark(outside);
+    if (known == kInside) continue;
+    if (known == kUnknown) {
+      const VertexId far = vertices(outside)[mirror.face()];
+      const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
+      const LiftedRow& partner = rows[face ^ 1u];
+      // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
+      // the row stands before its partner, which is a swap when the face is odd.
+      const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
+      const bool certain = is_certain(det, products[face >> 1] * (row.w * partner.w),
+                                      std::max(greatest[face >> 1], std::max(row.w, partner.w)));
+      if (certain ? (face % 2 == 0 ? det > 0 : det < 0) : conflicts(outside, p, p_rank)) {
+        add_to_region(outside);
+        continue;
+      }
+      set_mark(outside, kOutside);
+    }
+    rim_.push_back(mirror);
+    const auto& slots = kStarSlots[face];
+    rim_corners_.push_back({corners[slots[0]], corners[slots[1]], corners[slots[2]]});
+  }
+}
+
+VertexId BowyerWatson::fill_cavity() {
+  DELISO_CHECK(!region_.empty(), "find_conflicts has found a region");
+  const VertexId v(points_.size());
+  points_.push_back(pending_);
+  incident_.emplace_back();
+  star_rim(v);
+  return v;
+}
+
+void BowyerWatson::abandon_cavity() {
+  region_.clear();
+  rim_.clear();
+}
+
+void BowyerWatson::take_slots() {
+  // The slots of the region first, then free ones, then new ones; what is left of the region is free.
+  const std::size_t reused = std::min(region_.size(), rim_.size());
+  const auto split = region_.begin() + static_cast<std::ptrdiff_t>(reused);
+  created_.assign(region_.begin(), split);
+  for (auto t = split; t != region_.end(); ++t) {
+    tets_[t->index()].vertices[0] = VertexId::none();
+    free_.push_back(*t);
+  }
+  while (created_.size() < rim_.size()) {
+    if (free_.empty()) {
+      DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
+      created_.push_back(TetId(tets_.size()));
+      tets_.emplace_back();
+    } else {
+      created_.push_back(free_.back());
+      free_.pop_back();
+    }
+  }
+}
+
+void BowyerWatson::star_rim(VertexId apex) {
+  take_slots();
+  edges_.start(rows_.size(), 3 * rim_.size());
+  // Step 1: one tetrahedron over each facet of the rim, glued to the facet. Each of its other three faces stands on a
+  // directed edge of the rim.
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const auto [x, y, z] = rim_corners_[i];
+    const TetId t = created_[i];
+    Tet& tet = tets_[t.index()];
+    tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
+    tet.mirrors[0] = rim_[i];
+    tets_[rim_[i].tet().index()].mirrors[rim_[i].face()] = FacetId(t, 0);
+    edges_.at(y, z) = FacetId(t, 1);
+    edges_.at(z, x) = FacetId(t, 2);
+    edges_.at(x, y) = FacetId(t, 3);
+    incident_[tet.vertices[1].index()] = t;
+    incident_[tet.vertices[2].index()] = t;
+    if (z != LiftedRows::kInfinite) incident_[tet.vertices[3].index()] = t;
+  }
+  // Step 2: the mirror of a face stands on the reversed edge.
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const auto [x, y, z] = rim_corners_[i];
+    auto& mirrors = tets_[created_[i].index()].mirrors;
+    mirrors[1] = edges_.at(z, y);
+    mirrors[2] = edges_.at(x, z);
+    mirrors[3] = edges_.at(y, x);
+  }
+  incident_[apex.index()] = created_.front();
+  region_.clear();
+  rim_.clear();
+}
+
+void BowyerWatson::make_first_tet() {
+  // The first tetrahedron, positively oriented, and a ghost on each of its facets.
+  std::array<VertexId, 4> v = {VertexId(std::size_t{0}), VertexId(std::size_t{1}), VertexId(std::size_t{2}),
+                               VertexId(std::size_t{3})};
+  if (orient3d(point(v[0]), point(v[1]), point(v[2]), point(v[3])) < 0) std::swap(v[2], v[3]);
+  tets_.resize(5);
+  const TetId inner(std::size_t{0});
+  tets_[0].vertices = v;
+  edges_.start(4, 12);
+  for (unsigned face = 0; face < 4; ++face) {
+    const TetId t(std::size_t{face} + 1);
+    Tet& ghost = tets_[t.index()];
+    const auto [a, b, c] = facet_vertices(FacetId(inner, face));
+    ghost.vertices = {a, b, c, kInfiniteVertex};
+    ghost.mirrors[3] = FacetId(inner, face);
+    tets_[0].mirrors[face] = FacetId(t, 3);
+    for (unsigned side = 0; side < 3; ++side) {
+      edges_.at(ghost.vertices[(side + 1) % 3].value, ghost.vertices[(side + 2) % 3].value) = FacetId(t, side);
+    }
+    incident_[face] = inner;
+  }
+  for (unsigned face = 0; face < 4; ++face) {
+    Tet& ghost = tets_[face + 1];
+    for (unsigned side = 0; side < 3; ++side) {
+      ghost.mirrors[side] = edges_.at(ghost.vertices[(side + 2) % 3].value, ghost.vertices[(side + 1) % 3].value);
+    }
+  }
+}
+
+void BowyerWatson::clear() {
+  points_.clear();
+  incident_.clear();
+  tets_.clear();
+  free_.clear();
+  region_.clear();
+  rim_.clear();
+  created_.clear();
+  ranks_.clear();
+}
+
+void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of) {
+  // Number the vertices in the order of the input, skipping duplicates.
+  std::vector<VertexId> renamed(points_.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const VertexId v = vertex_of[i];
+    if (ranks_[v.index()] != VertexId(i)) continue;
+    renamed[v.index()] = VertexId(count);
+    points_[count++] = points[i];
+  }
+  // Rename them everywhere.
+  for (VertexId& v : vertex_of) v = renamed[v.index()];
+  for (std::size_t t = 0; t < tets_.size(); ++t) {
+    for (VertexId& v : tets_[t].vertices) {
+      if (v.is_none()) continue;
+      v = renamed[v.index()];
+      incident_[v.index()] = TetId(t);
+    }
+  }
+  ranks_.clear();
+  ranks_.shrink_to_fit();
+}
+
+}  // namespace deliso

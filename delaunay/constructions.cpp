@@ -1,0 +1,58 @@
+#include "delaunay/constructions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "delaunay/predicates.h"
+
+namespace deliso {
+namespace {
+
+// No circumcenter is sent farther than this from its tetrahedron.
+constexpr double kFarthest = 0x1p500;
+
+double largest_component(const Vec3& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
+
+}  // namespace
+
+Vec3 circumcenter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  // center - a = (|ab|^2 ac x ad + |ac|^2 ad x ab + |ad|^2 ab x ac) / (2 orient3d).
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ad = d - a;
+  const Vec3 numerator =
+      squared_norm(ab) * cross(ac, ad) + squared_norm(ac) * cross(ad, ab) + squared_norm(ad) * cross(ab, ac);
+  const double denominator = 2 * orient3d(a, b, c, d);
+  const double size = largest_component(numerator);
+  if (!(size > 0)) return a;
+  // Direction times length, so that a tiny denominator leads far off, not to infinity.
+  const double length = std::min(size / denominator, kFarthest);
+  return a + length * (numerator / size);
+}
+
+Circumcircle circumcircle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  // From the corner opposite the longest edge: best conditioned, and the same for every order of the corners.
+  Vec3 corner = a;
+  Vec3 left = b;
+  Vec3 right = c;
+  if (squared_distance(c, a) > squared_distance(left, right)) {
+    corner = b;
+    left = c;
+    right = a;
+  }
+  if (squared_distance(a, b) > squared_distance(left, right)) {
+    corner = c;
+    left = a;
+    right = b;
+  }
+  const Vec3 u = left - corner;
+  const Vec3 v = right - corner;
+  const Vec3 normal = cross(u, v);
+  const Vec3 offset = cross(squared_norm(u) * v - squared_norm(v) * u, normal) / (2 * squared_norm(normal));
+  if (!is_finite(offset)) return {0.5 * (left + right), std::numeric_limits<double>::infinity()};
+  return {corner + offset, norm(offset)};
+}
+
+}  // namespace deliso

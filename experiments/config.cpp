@@ -1,0 +1,156 @@
+#include "experiments/config.h"
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/nearest_name.h"
+
+namespace deliso {
+namespace {
+
+bool is_group(std::string_view name) {
+  for (const ParameterField& field : parameter_table()) {
+    if (!name.empty() && group_of(field.path) == name) return true;
+  }
+  return false;
+}
+
+const ParameterField* find_field(std::string_view path) {
+  for (const ParameterField& field : parameter_table()) {
+    if (field.path == path) return &field;
+  }
+  return nullptr;
+}
+
+// The known key that was probably meant: one that ends in the same word, else the one with the nearest spelling.
+std::string nearest_key(std::string_view path) {
+  std::vector<std::string> paths;
+  for (const ParameterField& field : parameter_table()) {
+    if (key_of(field.path) == key_of(path)) return std::string(field.path);
+    paths.emplace_back(field.path);
+    if (!group_of(field.path).empty()) paths.emplace_back(group_of(field.path));
+  }
+  return nearest_name(path, paths);
+}
+
+[[noreturn]] void fail_unknown_key(std::string_view path, const std::string& source) {
+  throw InputError(source + ": unknown key '" + std::string(path) + "', the nearest known key is '" +
+                   nearest_key(path) + "'");
+}
+
+// The value if it has the field's type and lies in its range. The view of a choice is one of the table's.
+std::optional<ParameterValue> convert(const ParameterField& field, const Json& value) {
+  if (value.is_null() && field.nullable) return ParameterValue();
+  switch (field.type) {
+    case ParameterType::kBoolean:
+      if (value.is_boolean()) return value.get<bool>();
+      break;
+    case ParameterType::kChoice:
+      for (const std::string_view choice : field.choices) {
+        if (value.is_string() && value.get_ref<const std::string&>() == choice) return choice;
+      }
+      break;
+    case ParameterType::kInteger: {
+      // 8.0 and 8e0 are integers too. Beyond 2^53 a double does not tell integers apart.
+      if (!value.is_number() || std::abs(value.get<double>()) > 0x1p53) break;
+      const auto number = value.get<double>();
+      if (number != std::floor(number) || number < field.range.low || number > field.range.high) break;
+      return static_cast<std::int64_t>(number);
+    }
+    case ParameterType::kNumber: {
+      if (!value.is_number()) break;
+      const auto number = value.get<double>();
+      const bool above = field.range.low_excluded ? number > field.range.low : number >= field.range.low;
+      if (std::isfinite(number) && above && number <= field.range.high) return number;
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+void apply_value(const ParameterField& field, const Json& value, const std::string& source, Parameters& parameters) {
+  const std::optional<ParameterValue> converted = convert(field, value);
+  if (!converted) {
+    throw InputError(source + ": " + std::string(field.path) + " must be " + allowed_values(field) + ", found " +
+                     value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+  field.set(parameters, *converted);
+}
+
+void require_object(const Json& value, const std::string& what) {
+  if (!value.is_object()) {
+    throw InputError(what + " must be a JSON object, found " +
+                     value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+}
+
+}  // namespace
+
+void apply_parameters(const Json& document, const std::string& source, Parameters& parameters) {
+  require_object(document, source + ": the parameters");
+  for (const auto& [key, value] : document.items()) {
+    // A key of the top level holds a value ...
+    if (const ParameterField* field = find_field(key); field != nullptr && group_of(key).empty()) {
+      apply_value(*field, value, source, parameters);
+      continue;
+    }
+    // ... or a group of keys.
+    if (!is_group(key)) fail_unknown_key(key, source);
+    require_object(value, source + ": " + key);
+    for (const auto& [inner_key, inner_value] : value.items()) {
+      const std::string path = key + '.' + inner_key;
+      const ParameterField* field = find_field(path);
+      if (field == nullptr) fail_unknown_key(path, source);
+      apply_value(*field, inner_value, source, parameters);
+    }
+  }
+}
+
+Parameters read_parameters(const std::filesystem::path& path) {
+  Parameters parameters;
+  apply_parameters(read_json(path), path.string(), parameters);
+  return parameters;
+}
+
+Json value_to_json(const ParameterValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+          return nullptr;
+        } else {
+          return held;
+        }
+      },
+      value);
+}
+
+Json parameters_to_json(const Parameters& parameters) {
+  Json document = Json::object();
+  for (const ParameterField& field : parameter_table()) {
+    Json& object = group_of(field.path).empty() ? document : document[std::string(group_of(field.path))];
+    object[std::string(key_of(field.path))] = value_to_json(field.get(parameters));
+  }
+  return document;
+}
+
+void set_parameter(std::string_view assignment, Parameters& parameters) {
+  const std::string source = "--set " + std::string(assignment);
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) throw InputError(source + ": expected key.path=value");
+  const std::string_view path = assignment.substr(0, equals);
+  const std::string text(assignment.substr(equals + 1));
+  const ParameterField* field = find_field(path);
+  if (field == nullptr && is_group(path)) {
+    throw InputError(source + ": '" + std::string(path) + "' is a group of keys, expected one of them");
+  }
+  if (field == nullptr) fail_unknown_key(path, source);
+  // What is not JSON is taken as a string, so that a choice needs no quotes.
+  Json value = Json::parse(text, nullptr, false);
+  if (value.is_discarded()) value = text;
+  apply_value(*field, value, source, parameters);
+}
+
+}  // namespace deliso

@@ -1,0 +1,19 @@
+// Text files of the program, and the check that a result can be written before it is computed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace deliso {
+
+// The whole file. Throws InputError when it is missing, no regular file, or cannot be read.
+std::string read_text(const std::filesystem::path& path);
+
+// Writes whole or not at all. Something that exists and is no regular file (/dev/stdout, a pipe) is written into
+// directly. Throws InputError.
+void write_text(const std::string& text, const std::filesystem::path& path);
+
+// Throws InputError unless write_text could write there now. Leaves nothing behind. `option` is what the message names.
+void check_writable(const std::filesystem::path& path, const std::string& option);
+
+}  // namespace deliso

@@ -1,0 +1,3 @@
+#include "experiments/program.h"
+
+int main(int argc, char** argv) { return static_cast<int>(deliso::run_program(argc, argv)); }

@@ -1,0 +1,96 @@
+#include "experiments/program.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/nearest_name.h"
+#include "experiments/commands.h"
+#include "experiments/program_info.h"
+
+namespace deliso {
+namespace {
+
+// A message takes one line, whatever a file name or a value holds.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
+}
+
+ExitCode fail(ExitCode code, const std::string& message) {
+  std::cerr << "deliso: " << one_line(message) << '\n';
+  return code;
+}
+
+ExitCode fail_internally(const std::string& what) {
+  const ProgramInfo info = program_info();
+  return fail(ExitCode::kInternal, "internal error: " + what +
+                                       "; please report this line, the command and its input (version " + info.version +
+                                       ", commit " + info.commit + ")");
+}
+
+std::string version_text() {
+  const ProgramInfo info = program_info();
+  return "deliso " + info.version + "\ncommit   " + info.commit + "\ncompiler " + info.compiler + "\nflags    " +
+         info.flags;
+}
+
+// CLI11 would only say that a command is missing.
+void check_command_name(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string_view name = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw InputError("unknown command '" + std::string(name) + "', the nearest is '" + nearest_name(name, names) +
+                   "' (deliso --help lists all)");
+}
+
+ExitCode run(int argc, const char* const* argv) {
+  CLI::App app("Certified Delaunay meshes of isosurfaces of scalar volumes", "deliso");
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done (and proven), 1 not proven, 2 bad usage or input, 3 stopped early, 70 internal error.");
+  ExitCode exit_code = ExitCode::kDone;
+  add_mesh_command(app, exit_code);
+  add_verify_command(app, exit_code);
+  add_topology_command(app, exit_code);
+  add_info_command(app, exit_code);
+  add_generate_command(app, exit_code);
+  add_schema_command(app, exit_code);
+  check_command_name(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help or --version
+    app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + " (deliso --help tells more)");
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+ExitCode run_program(int argc, const char* const* argv) {
+  try {
+    const ExitCode exit_code = run(argc, argv);
+    // A result that did not reach its reader (a full disk, say) is no success.
+    std::cout.flush();
+    return std::cout ? exit_code : fail(ExitCode::kBadInput, "cannot write to standard output");
+  } catch (const InputError& error) {
+    return fail(ExitCode::kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::kBadInput, "not enough memory for this volume and these parameters");
+  } catch (const std::exception& error) {
+    return fail_internally(error.what());
+  }
+}
+
+}  // namespace deliso

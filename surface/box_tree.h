@@ -1,0 +1,130 @@
+// A tree of axis-aligned boxes over any things that have one: which of them may meet, which is nearest.
+//
+// Median splits along the longest side of the centres' box; nodes in depth-first order, so that a left child follows
+// its parent. Deterministic; results do not depend on rounding because boxes are only copied and merged.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+
+namespace deliso {
+
+class BoxTree {
+ public:
+  explicit BoxTree(std::span<const Box3> boxes);
+
+  // Calls visit(i, j) once for each pair i < j of boxes that have a point in common, faces included.
+  template <class Visit>
+  void for_each_touching_pair(Visit&& visit) const {
+    if (!nodes_.empty()) pairs_within(0, visit);
+  }
+
+  // The thing nearest to p among those nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
+  // none. measure(i) gives the squared distance of thing i from p.
+  template <class Measure>
+  [[nodiscard]] std::pair<std::uint32_t, double> nearest(const Vec3& p, double bound, Measure&& measure) const;
+
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+ private:
+  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
+
+  struct Node {
+    Box3 box;
+    std::uint32_t first = 0;  // leaf: its first place in things_; inner node: its right child
+    std::uint32_t count = 0;  // leaf: number of things; inner node: 0
+  };
+
+  static bool touch(const Box3& a, const Box3& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+           a.low.z <= b.high.z && b.low.z <= a.high.z;
+  }
+  static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
+
+  void build(std::span<const Box3> boxes, std::uint32_t first, std::uint32_t last);
+
+  template <class Visit>
+  void pairs_within(std::uint32_t node, Visit&& visit) const;
+  template <class Visit>
+  void pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const;
+  template <class Visit>
+  void report(std::uint32_t place_a, std::uint32_t place_b, Visit&& visit) const {
+    if (!touch(boxes_[place_a], boxes_[place_b])) return;
+    const auto [i, j] = std::minmax(things_[place_a], things_[place_b]);
+    visit(i, j);
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> things_;  // in the order of the leaves
+  std::vector<Box3> boxes_;            // of things_, in the same order
+};
+
+template <class Visit>
+void BoxTree::pairs_within(std::uint32_t node, Visit&& visit) const {
+  const Node& n = nodes_[node];
+  if (n.count == 0) {
+    pairs_within(node + 1, visit);
+    pairs_within(n.first, visit);
+    pairs_between(node + 1, n.first, visit);
+    return;
+  }
+  for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+    for (std::uint32_t j = i + 1; j < n.first + n.count; ++j) report(i, j, visit);
+  }
+}
+
+template <class Visit>
+void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const {
+  const Node &na = nodes_[a], &nb = nodes_[b];
+  if (!touch(na.box, nb.box)) return;
+  if (na.count == 0 && (nb.count != 0 || squared_norm(na.box.size()) >= squared_norm(nb.box.size()))) {
+    pairs_between(a + 1, b, visit);
+    pairs_between(na.first, b, visit);
+  } else if (nb.count == 0) {
+    pairs_between(a, b + 1, visit);
+    pairs_between(a, nb.first, visit);
+  } else {
+    for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
+      for (std::uint32_t j = nb.first; j < nb.first + nb.count; ++j) report(i, j, visit);
+    }
+  }
+}
+
+template <class Measure>
+std::pair<std::uint32_t, double> BoxTree::nearest(const Vec3& p, double bound, Measure&& measure) const {
+  std::pair<std::uint32_t, double> best = {kNone, bound};
+  if (nodes_.empty()) return best;
+  // Nodes still to be visited, with their distance; the nearer child is visited first.
+  std::array<std::pair<double, std::uint32_t>, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {squared_gap(nodes_[0].box, p), 0};
+  while (depth > 0) {
+    const auto [gap, node] = stack[--depth];
+    if (gap >= best.second) continue;
+    const Node& n = nodes_[node];
+    if (n.count == 0) {
+      std::pair<double, std::uint32_t> near = {squared_gap(nodes_[node + 1].box, p), node + 1};
+      std::pair<double, std::uint32_t> far = {squared_gap(nodes_[n.first].box, p), n.first};
+      if (far.first < near.first) std::swap(near, far);
+      stack[depth++] = far;
+      stack[depth++] = near;
+      continue;
+    }
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+      if (squared_gap(boxes_[i], p) >= best.second) continue;
+      const double measured = measure(things_[i]);
+      if (measured < best.second) best = {things_[i], measured};
+    }
+  }
+  return best;
+}
+
+}  // namespace deliso

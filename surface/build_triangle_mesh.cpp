@@ -1,0 +1,310 @@
+#include "surface/build_triangle_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+namespace {
+
+// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their
+// neighbours.
+constexpr double kApart = 2e-4;
+constexpr double kApartFraction = 0.01;
+
+// Disjoint sets with path halving; the smallest member represents its set.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}
+
+  BuiltMesh build() {
+    collect_triangles();
+    pair_sides();
+    name_vertices();
+    subdivide_shared_edges();
+    move_copies_apart();
+    return std::move(built_);
+  }
+
+ private:
+  void collect_triangles();
+  void pair_sides();
+  void name_vertices();
+  void subdivide_shared_edges();
+
+  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
+  [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
+  [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
+  void subdivide(TriangleSide side);
+  std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
+  void link(TriangleSide a, TriangleSide b);
+  [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
+  void move_copies_apart();
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+  BuiltMesh built_;
+  SurfaceMesh& mesh_ = built_.mesh;
+  std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
+  std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
+  std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
+};
+
+// One triangle for each restricted facet, counterclockwise seen from below.
+void MeshBuilder::collect_triangles() {
+  triangle_of_.assign(4 * delaunay_.tet_slots(), kNoSide);
+  for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) {
+    const TetId t(i);
+    if (!delaunay_.is_live(t) || !restricted_.is_above(t)) continue;
+    for (unsigned face = 0; face < 4; ++face) {
+      const FacetId f(t, face);
+      if (!restricted_.is_restricted(f)) continue;
+      const auto& slots = kFacetSlots[face];
+      const std::array<VertexId, 3> v = {delaunay_.vertices(t)[slots[0]], delaunay_.vertices(t)[slots[1]],
+                                         delaunay_.vertices(t)[slots[2]]};
+      if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) continue;
+      triangle_of_[f.value] = static_cast<std::uint32_t>(mesh_.triangles.size());
+      facets_.push_back(f);
+      mesh_.triangles.push_back({v[0].value, v[1].value, v[2].value});
+    }
+  }
+}
+
+// From a restricted facet, rotate about its edge ab through the tetrahedra of one sign, f's own, to the next restricted
+// facet; both are seen from inside that sector.
+FacetId MeshBuilder::next_restricted_facet(FacetId f, VertexId a, VertexId b) const {
+  for (;;) {
+    const auto& v = delaunay_.vertices(f.tet());
+    unsigned other = f.face();  // the other facet at ab lies opposite the vertex of f that is neither a nor b
+    for (unsigned slot = 0; slot < 4; ++slot) {
+      if (slot != f.face() && v[slot] != a && v[slot] != b) other = slot;
+    }
+    const FacetId g(f.tet(), other);
+    if (restricted_.is_restricted(g)) return g;
+    f = delaunay_.mirror(g);
+  }
+}
+
+// The facet paired with the triangle across the edge opposite `corner`, seen from above.
+FacetId MeshBuilder::partner(std::uint32_t triangle, unsigned corner, bool& contested) const {
+  const FacetId f = facets_[triangle];
+  const VertexId a(mesh_.triangles[triangle][(corner + 1) % 3]);
+  const VertexId b(mesh_.triangles[triangle][(corner + 2) % 3]);
+  const FacetId around_above = next_restricted_facet(f, a, b);
+  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(f), a, b));
+  contested = around_above != around_below;
+  if (!contested) return around_above;
+  const bool middle_above = restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)));
+  return middle_above ? around_below : around_above;
+}
+
+void MeshBuilder::pair_sides() {
+  mesh_.neighbours.assign(mesh_.triangles.size(), {kNoSide, kNoSide, kNoSide});
+  for (std::uint32_t triangle = 0; triangle < mesh_.triangles.size(); ++triangle) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      bool contested = false;
+      const FacetId f = partner(triangle, corner, contested);
+      const std::uint32_t across = triangle_of_[f.value];
+      if (across != kNoSide) {
+        // Our edge runs the other way over there.
+        const std::uint32_t from = mesh_.triangles[triangle][(corner + 1) % 3];
+        const std::uint32_t to = mesh_.triangles[triangle][(corner + 2) % 3];
+        for (unsigned i = 0; i < 3; ++i) {
+          const auto& there = mesh_.triangles[across];
+          if (there[(i + 1) % 3] == to && there[(i + 2) % 3] == from) {
+            mesh_.neighbours[triangle][corner] = 4 * across + i;
+          }
+        }
+        DELISO_CHECK(mesh_.neighbours[triangle][corner] != kNoSide, "paired facets must share an edge");
+      }
+      if (contested) contested_sides_.push_back(4 * triangle + corner);
+    }
+  }
+}
+
+// Corners that paired edges join are one vertex; every other class of corners at the same point is a copy of its own.
+void MeshBuilder::name_vertices() {
+  DisjointSets corners(3 * mesh_.triangles.size());
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide side = mesh_.neighbours[t][i];
+      if (side == kNoSide) continue;
+      const std::uint32_t s = side >> 2;
+      const unsigned j = side & 3u;
+      corners.join(3 * t + (i + 1) % 3, 3 * s + (j + 2) % 3);
+      corners.join(3 * t + (i + 2) % 3, 3 * s + (j + 1) % 3);
+    }
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> classes;  // (vertex of the triangulation, representing corner)
+  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
+    if (corners.find(c) == c) classes.emplace_back(mesh_.triangles[c / 3][c % 3], c);
+  }
+  std::sort(classes.begin(), classes.end());
+  std::vector<std::uint32_t> name(3 * mesh_.triangles.size());
+  for (const auto& [vertex, corner] : classes) {
+    name[corner] = static_cast<std::uint32_t>(mesh_.points.size());
+    mesh_.points.push_back(delaunay_.point(VertexId(vertex)));
+    built_.vertex_of.emplace_back(vertex);
+  }
+  for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
+    if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
+    if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
+    built_.copies.push_back(v);
+  }
+  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];
+}
+
+// Contested edges whose two ends were not both split leave two pairs on the same two vertices.
+void MeshBuilder::subdivide_shared_edges() {
+  using Use = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // two vertices, a triangle
+  std::vector<Use> uses;
+  for (const TriangleSide side : contested_sides_) {
+    const std::uint32_t t = side >> 2;
+    const unsigned i = side & 3u;
+    const TriangleSide across = mesh_.neighbours[t][i];
+    if (across != kNoSide && across < side) continue;  // one use for each pair
+    const std::uint32_t from = mesh_.triangles[t][(i + 1) % 3];
+    const std::uint32_t to = mesh_.triangles[t][(i + 2) % 3];
+    uses.emplace_back(std::min(from, to), std::max(from, to), t);
+  }
+  std::sort(uses.begin(), uses.end());
+  for (std::size_t i = 1; i < uses.size(); ++i) {
+    const auto& [from, to, triangle] = uses[i];
+    if (std::get<0>(uses[i - 1]) != from || std::get<1>(uses[i - 1]) != to) continue;
+    const TriangleSide side = find_side(triangle, from, to);
+    DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
+    subdivide(side);
+  }
+}
+
+// The side between two vertices of a triangle or of the parts it was split into.
+TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const {
+  for (unsigned i = 0; i < 3; ++i) {
+    const std::uint32_t from = mesh_.triangles[triangle][(i + 1) % 3];
+    const std::uint32_t to = mesh_.triangles[triangle][(i + 2) % 3];
+    if ((from == a && to == b) || (from == b && to == a)) return 4 * triangle + i;
+  }
+  for (const auto& [whole, part] : parts_) {
+    if (whole != triangle) continue;
+    if (const TriangleSide side = find_side(part, a, b); side != kNoSide) return side;
+  }
+  return kNoSide;
+}
+
+// Puts a vertex on an edge, as near to the isosurface as a hit along the triangles' common normal allows.
+void MeshBuilder::subdivide(TriangleSide side) {
+  const std::uint32_t t = side >> 2;
+  const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
+  const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
+  const TriangleSide across = mesh_.neighbours[t][side & 3u];
+  const Vec3 normal = normal_of(t) + (across == kNoSide ? Vec3{} : normal_of(across >> 2));
+  Vec3 middle = 0.5 * (mesh_.points[a] + mesh_.points[b]);
+  if (norm(normal) > 0) {
+    const Line line{middle, normal / norm(normal)};
+    SearchCounters ignored;
+    const double reach = distance(mesh_.points[a], mesh_.points[b]);
+    if (const auto hit = restricted_.isosurface().nearest_falling_hit(line, reach, ignored)) {
+      if (restricted_.isosurface().box().contains(line.at(*hit))) middle = line.at(*hit);
+    }
+  }
+  const auto m = static_cast<std::uint32_t>(mesh_.points.size());
+  mesh_.points.push_back(middle);
+  built_.vertex_of.push_back(built_.vertex_of[a]);
+
+  const auto [to_middle, from_middle] = split_triangle(side, m);
+  if (across != kNoSide) {
+    const auto [back_to_middle, back_from_middle] = split_triangle(across, m);
+    link(to_middle, back_from_middle);
+    link(from_middle, back_to_middle);
+  }
+}
+
+// Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
+// the sides am and mb, without neighbours yet.
+std::pair<TriangleSide, TriangleSide> MeshBuilder::split_triangle(TriangleSide side, std::uint32_t m) {
+  const std::uint32_t t = side >> 2;
+  const unsigned i = side & 3u;
+  const auto corners = mesh_.triangles[t];
+  const auto sides = mesh_.neighbours[t];
+  const std::uint32_t c = corners[i];
+  const std::uint32_t a = corners[(i + 1) % 3];
+  const std::uint32_t b = corners[(i + 2) % 3];
+  const TriangleSide beyond_a = sides[(i + 1) % 3];
+  const TriangleSide beyond_b = sides[(i + 2) % 3];
+  const auto part = static_cast<std::uint32_t>(mesh_.triangles.size());
+  parts_.emplace_back(t, part);
+
+  mesh_.triangles[t] = {c, a, m};
+  mesh_.neighbours[t] = {kNoSide, kNoSide, kNoSide};
+  mesh_.triangles.push_back({c, m, b});
+  mesh_.neighbours.push_back({kNoSide, kNoSide, kNoSide});
+  link(4 * t + 1, 4 * part + 2);
+  link(4 * t + 2, beyond_b);
+  link(4 * part + 1, beyond_a);
+  return {4 * t, 4 * part};
+}
+
+void MeshBuilder::link(TriangleSide a, TriangleSide b) {
+  if (a != kNoSide) mesh_.neighbours[a >> 2][a & 3u] = b;
+  if (b != kNoSide) mesh_.neighbours[b >> 2][b & 3u] = a;
+}
+
+Vec3 MeshBuilder::normal_of(std::uint32_t triangle) const {
+  const auto& v = mesh_.triangles[triangle];
+  const Vec3& a = mesh_.points[v[0]];
+  const Vec3 n = cross(mesh_.points[v[1]] - a, mesh_.points[v[2]] - a);
+  return norm(n) > 0 ? n / norm(n) : Vec3{};
+}
+
+// Copies of a vertex would touch: each moves a little into its own fan, on the box within its face.
+void MeshBuilder::move_copies_apart() {
+  std::vector<Vec3> link_sum(built_.copies.size());
+  std::vector<double> link_size(built_.copies.size(), 0);
+  std::vector<std::uint32_t> place(mesh_.points.size(), kNoSide);
+  for (std::uint32_t i = 0; i < built_.copies.size(); ++i) place[built_.copies[i]] = i;
+  for (const auto& triangle : mesh_.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t at = place[triangle[i]];
+      if (at == kNoSide) continue;
+      link_sum[at] += mesh_.points[triangle[(i + 1) % 3]] + mesh_.points[triangle[(i + 2) % 3]];
+      link_size[at] += 2;
+    }
+  }
+  const Box3& box = restricted_.isosurface().box();
+  for (std::size_t i = 0; i < built_.copies.size(); ++i) {
+    Vec3& p = mesh_.points[built_.copies[i]];
+    Vec3 inwards = link_sum[i] / link_size[i] - p;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (p[axis] == box.low[axis] || p[axis] == box.high[axis]) inwards[axis] = 0;
+    }
+    if (norm(inwards) > 0) p += std::min(kApart / norm(inwards), kApartFraction) * inwards;
+  }
+}
+
+}  // namespace
+
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) { return MeshBuilder(restricted).build(); }
+
+}  // namespace deliso

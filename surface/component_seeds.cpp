@@ -1,0 +1,90 @@
+#include "surface/component_seeds.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace deliso {
+
+namespace {
+
+// Axes and space diagonals, slightly turned so that ties on a grid are rare.
+constexpr std::array<Vec3, 7> kDirections = {
+    Vec3{1, 1.3e-3, 2.1e-4},  Vec3{-2.3e-4, 1, 1.1e-3}, Vec3{1.7e-3, -3.1e-4, 1}, Vec3{1, 1.001, 1.0003},
+    Vec3{1, 1.0007, -1.0001}, Vec3{1, -1.0003, 1.0009}, Vec3{-1, 1.0011, 1.0005}};
+
+// The farthest point of a component in each direction and its opposite.
+struct Extremes {
+  std::array<double, 14> reach;
+  std::array<Vec3, 14> point;
+  Extremes() { reach.fill(-std::numeric_limits<double>::infinity()); }
+
+  void extend(const Vec3& p) {
+    for (std::size_t i = 0; i < kDirections.size(); ++i) {
+      const double along = dot(kDirections[i], p);
+      if (along > reach[2 * i]) {
+        reach[2 * i] = along;
+        point[2 * i] = p;
+      }
+      if (-along > reach[2 * i + 1]) {
+        reach[2 * i + 1] = -along;
+        point[2 * i + 1] = p;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
+                                  const IsosurfaceTopology& topology) {
+  std::vector<std::size_t> crossings(topology.components.size(), 0);
+  for (const EdgeCrossing& c : topology.crossings) ++crossings[c.component];
+  std::vector<Extremes> extremes(topology.components.size());
+  std::vector<Vec3> seeds;
+  for (const EdgeCrossing& c : topology.crossings) {
+    const Vec3 p = scaled(crossing_position(grid, c), isosurface.step());
+    if (crossings[c.component] <= kSmallComponent) {
+      seeds.push_back(p);
+    } else {
+      extremes[c.component].extend(p);
+    }
+  }
+  for (std::size_t i = 0; i < extremes.size(); ++i) {
+    if (crossings[i] > kSmallComponent) seeds.insert(seeds.end(), extremes[i].point.begin(), extremes[i].point.end());
+  }
+  return seeds;
+}
+
+std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
+                                    SearchCounters& counters) {
+  std::vector<Vec3> points;
+  std::vector<Hit> hits;
+  const Vec3 size = isosurface.box().size();
+  const auto random_point = [&] { return scaled(size, {rng.uniform(), rng.uniform(), rng.uniform()}); };
+  for (int misses = 0; static_cast<std::int32_t>(points.size()) < count && misses < 1000;) {
+    // A line through two random points, cut where it leaves the box.
+    const Vec3 a = random_point();
+    const Line line{a, random_point() - a};
+    double begin = -std::numeric_limits<double>::infinity();
+    double end = -begin;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (line.direction[axis] == 0) continue;
+      const double t0 = -line.origin[axis] / line.direction[axis];
+      const double t1 = (size[axis] - line.origin[axis]) / line.direction[axis];
+      begin = std::max(begin, std::min(t0, t1));
+      end = std::min(end, std::max(t0, t1));
+    }
+    if (!(begin < end)) continue;
+    isosurface.all_hits(line, begin, end, hits, counters);
+    if (hits.empty()) {
+      ++misses;
+      continue;
+    }
+    misses = 0;
+    points.push_back(isosurface.box().clamp(line.at(hits[rng.below(hits.size())].t)));
+  }
+  return points;
+}
+
+}  // namespace deliso

@@ -1,0 +1,26 @@
+// Where stage 1 starts: points on every component of the isosurface, or the hits of random rays.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/rng.h"
+#include "raycast/isosurface.h"
+#include "volume/exact_topology.h"
+
+namespace deliso {
+
+// A component with up to this many grid-edge crossings is seeded with all of them.
+inline constexpr std::size_t kSmallComponent = 12;
+
+// Seeds on each component, in mesh space: all crossings of a small one, else its extreme crossings in fourteen
+// directions.
+std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
+                                  const IsosurfaceTopology& topology);
+
+// `count` points of the isosurface hit by random lines through the box, in mesh space (InitTriangulation of the paper).
+// Fewer when 1000 lines in a row miss.
+std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
+                                    SearchCounters& counters);
+
+}  // namespace deliso

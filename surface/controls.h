@@ -1,0 +1,51 @@
+// How a caller watches and stops a run: the limits of the budget, the stop flag and the progress callback in one place.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string_view>
+
+#include "delaunay/base/stopwatch.h"
+#include "surface/parameters.h"
+
+namespace deliso {
+
+// What a caller may watch. Called now and then from the mesher's own thread.
+struct Progress {
+  std::string_view stage;     // "index", "initial", "recover", "poles", "build", "refine", "certify"
+  std::int64_t vertices = 0;  // so far
+  std::int64_t queued = 0;    // violations still waiting
+};
+
+class Controls {
+ public:
+  Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
+      : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
+
+  // To be called once per insertion, before it. True when the run must end now; it stays true.
+  bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {
+    if (stopped_) return true;
+    if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stopped_ = true;
+    if ((calls_++ & 255u) != 0) return false;
+    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return stopped_ = true;
+    if (budget_.seconds && watch_.seconds() > *budget_.seconds) return stopped_ = true;
+    report(stage, vertices, queued);
+    return false;
+  }
+  void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
+    if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});
+  }
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+ private:
+  BudgetParameters budget_;
+  const std::atomic<bool>* stop_;
+  std::function<void(const Progress&)> progress_;
+  Stopwatch watch_;
+  std::uint32_t calls_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace deliso

@@ -1,0 +1,191 @@
+#include "surface/deliso.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/rng.h"
+#include "delaunay/base/stopwatch.h"
+#include "surface/boundary_curves.h"
+#include "surface/build_triangle_mesh.h"
+#include "surface/component_seeds.h"
+#include "surface/poles.h"
+#include "surface/repair.h"
+#include "surface/restricted_delaunay.h"
+#include "surface/surface_mesh.h"
+
+namespace deliso {
+
+namespace {
+
+// Runs one stage and adds its wall-clock time to `stage`.
+template <class Body>
+auto timed(StageStats& stage, Body body) {
+  const Stopwatch watch;
+  struct AddAtEnd {
+    StageStats& stage;
+    const Stopwatch& watch;
+    ~AddAtEnd() { stage.seconds += watch.seconds(); }
+  } const add_at_end{stage, watch};
+  return body();
+}
+
+void check_isovalue(const ScalarGrid& grid, double isovalue) {
+  const auto [low, high] = grid.range();
+  std::ostringstream message;
+  if (!std::isfinite(isovalue)) {
+    message << "isovalue " << isovalue << " is not a finite number";
+  } else if (!(low < isovalue && isovalue <= high)) {
+    message << "isovalue " << isovalue << " gives a surface with no point: the data's range is " << low << " to "
+            << high;
+  } else {
+    return;
+  }
+  throw InputError(message.str());
+}
+
+// Lengths of the parameters in mesh-space units.
+struct Lengths {
+  double r_min_stage1;
+  double r_min_stage2;
+  double size_bound;
+};
+
+Lengths lengths_of(const Parameters& parameters, const Box3& box) {
+  const double b = box.smallest_side();
+  return {parameters.stage1.r_min * b, parameters.stage2.r_min * b,
+          std::max(parameters.stage1.r_min * b, parameters.stage1.size_bound_voxels)};
+}
+
+RecoverOptions stage1_options(const Parameters& parameters, const Lengths& lengths) {
+  RecoverOptions options;
+  options.geometry = {
+      .epsilon = parameters.stage1.epsilon, .rho = parameters.stage1.rho, .r_min = lengths.r_min_stage1};
+  options.size_bound = lengths.size_bound;
+  options.order = parameters.queue_order;
+  return options;
+}
+
+RecoverOptions full3d_options(const Parameters& parameters, const Lengths& lengths) {
+  RecoverOptions options;
+  options.geometry = {.epsilon = parameters.stage2.epsilon1,
+                      .rho = parameters.stage2.rho,
+                      .r_min = lengths.r_min_stage2,
+                      .epsilon2 = parameters.stage2.epsilon2};
+  if (parameters.stage2.max_distance) options.geometry.max_distance = *parameters.stage2.max_distance;
+  options.size_bound = lengths.r_min_stage2;
+  options.order = parameters.queue_order;
+  return options;
+}
+
+RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths) {
+  RefineOptions options;
+  options.epsilon1 = parameters.stage2.epsilon1;
+  options.epsilon2 = parameters.stage2.epsilon2;
+  options.rho = parameters.stage2.rho;
+  options.r_min = lengths.r_min_stage2;
+  if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
+  options.order = parameters.queue_order;
+  return options;
+}
+
+// InitTriangulation: seeds, random points and boundary curves.
+std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosurface, const MeshingOptions& options,
+                                 const IsosurfaceTopology& topology, SearchCounters& counters) {
+  const InitialParameters& initial = options.parameters.initial;
+  Rng rng(options.seed);
+  std::vector<Vec3> points = random_ray_points(isosurface, initial.random_points, rng, counters);
+  const std::vector<Vec3> curves = boundary_curve_points(grid, isosurface);
+  points.insert(points.end(), curves.begin(), curves.end());
+  if (initial.seeding == Seeding::kComponents) {
+    const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology);
+    points.insert(points.end(), seeds.begin(), seeds.end());
+  }
+  if (points.empty()) {
+    throw InputError("no point of the isosurface to start from: initial.random_points is " +
+                     std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
+  }
+  return points;
+}
+
+// DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
+void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, MeshingResult& result) {
+  const Parameters& parameters = options.parameters;
+  Controls controls(parameters.budget, options.stop, options.progress);
+
+  controls.report("index", 0, 0);
+  const auto isosurface =
+      timed(result.index, [&] { return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search); });
+  const Lengths lengths = lengths_of(parameters, isosurface->box());
+  result.r_min_voxels = lengths.r_min_stage2;
+
+  controls.report("initial", 0, 0);
+  const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
+  const IsosurfaceTopology topology = timed(result.topology, [&] {
+    return needs_topology ? exact_topology(grid, result.isovalue_used) : IsosurfaceTopology{};
+  });
+  auto restricted = timed(result.initial, [&] {
+    const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
+    return std::make_unique<RestrictedDelaunay>(*isosurface, points);
+  });
+
+  timed(result.recover, [&] { recover(*restricted, stage1_options(parameters, lengths), controls, result.recover); });
+  if (parameters.algorithm == Algorithm::kFull3d) {
+    std::vector<double> pole_heights = timed(result.poles, [&] { return compute_poles(*restricted); });
+    timed(result.recover,
+          [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
+  }
+  result.recover.search += restricted->counters();
+  result.recover.restricted_seconds = restricted->restricted_seconds();
+
+  // The tetrahedra go as soon as the surface mesh stands.
+  SurfaceMesh surface;
+  if (parameters.certify && parameters.repair.max_rounds > 0) {
+    surface = timed(result.repair, [&] {
+      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
+    });
+  } else {
+    const std::vector<double> heights = timed(result.poles, [&] { return compute_poles(*restricted); });
+    surface = timed(result.build, [&] {
+      BuiltMesh built = build_triangle_mesh(*restricted);
+      for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+      return std::move(built.mesh);
+    });
+  }
+  restricted.reset();
+  if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
+  if (parameters.algorithm == Algorithm::kTwoStage) {
+    timed(result.refine,
+          [&] { refine(surface, *isosurface, stage2_options(parameters, lengths), controls, result.refine); });
+  }
+  result.stopped_early = controls.stopped();
+
+  controls.report("certify", surface.points.size(), 0);
+  timed(result.certify_stage, [&] {
+    result.mesh = to_world(surface, grid, isosurface->step());
+    if (parameters.certify) result.certificate = certify(result.mesh, topology.components);
+  });
+}
+
+}  // namespace
+
+MeshingResult mesh_isosurface(const ScalarGrid& grid, double isovalue, const MeshingOptions& options) {
+  const Stopwatch watch;
+  check_isovalue(grid, isovalue);
+  MeshingResult result;
+  result.isovalue_used = timed(result.index, [&] { return regular_isovalue(grid, isovalue); });
+  if (options.parameters.boundary == Boundary::kClosed) {
+    const ScalarGrid closed = timed(result.index, [&] { return padded(grid, grid.range().first); });
+    run_pipeline(closed, options, result);
+  } else {
+    run_pipeline(grid, options, result);
+  }
+  result.total_seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace deliso

@@ -1,0 +1,16 @@
+// Poles (Amenta and Bern; Dey and Levine, section 3.2): the scale of the surface at each vertex.
+#pragma once
+
+#include <vector>
+
+#include "surface/signed_delaunay.h"
+
+namespace deliso {
+
+// The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two; on
+// each side the pole is the Voronoi vertex farthest from the vertex, and the pole height is the smaller of the two
+// distances. The signs of the tetrahedra tell the sides apart. A side without a finite Voronoi vertex counts as
+// infinite; when both are, the height is the diagonal of the box.
+std::vector<double> compute_poles(const SignedDelaunay& restricted);
+
+}  // namespace deliso

@@ -1,0 +1,54 @@
+// Stage 1 (Dey and Levine, section 3.1): refine the restricted Delaunay triangulation until it has the surface's
+// topology.
+//
+// The paper's three steps run as one loop over a queue of violations, in the priority MultiIntersect, ExtractManifold,
+// ApproximateGeom. Every insertion keeps a distance from all vertices (the size bound), without which the loop does not
+// end at the creases of the trilinear interpolant.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "surface/controls.h"
+#include "surface/parameters.h"
+#include "surface/restricted_delaunay.h"
+
+namespace deliso {
+
+// When a restricted triangle larger than r_min is too coarse. Lengths in mesh-space units.
+struct GeometryCriterion {
+  double epsilon = 0.2;  // largest h / r
+  double rho = 2;        // largest r / l
+  double r_min = 0;
+  double max_distance = std::numeric_limits<double>::infinity();  // largest h
+  double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / mean pole height; needs pole heights
+};
+
+struct RecoverOptions {
+  GeometryCriterion geometry;
+  double size_bound = 0;  // no insertion nearer than this to a vertex
+  QueueOrder order = QueueOrder::kWorstFirst;
+};
+
+struct StageStats {
+  double seconds = 0;
+};
+
+struct RecoverStats : StageStats {
+  std::int64_t insertions = 0;
+  std::int64_t multi_intersect = 0;  // insertions by each of the three steps
+  std::int64_t extract_manifold = 0;
+  std::int64_t approximate_geometry = 0;
+  std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
+  std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point
+  SearchCounters search;
+  double restricted_seconds = 0;  // time spent deciding which facets are restricted
+};
+
+// Runs until no violation is left that the size bound lets us mend, or `controls` say stop. `pole_heights`, one for
+// each vertex, is needed for a finite epsilon2; new vertices inherit the mean of their neighbours'.
+void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
+             std::vector<double>* pole_heights = nullptr);
+
+}  // namespace deliso

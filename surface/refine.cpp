@@ -1,0 +1,366 @@
+#include "surface/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/constructions.h"
+#include "surface/triangle_queue.h"
+
+namespace deliso {
+
+namespace {
+
+// A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
+constexpr double kNearestVertex = 0.5;
+// A boundary edge is split only this far from its ends, as a fraction of its length.
+constexpr double kNearestEnd = 0.2;
+
+class Refinement {
+ public:
+  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order) {}
+
+  void run(Controls& controls);
+
+ private:
+  // A point to insert, the triangle its disk grows from, and the boundary edge it splits, if any.
+  struct Candidate {
+    Vec3 point;
+    double ball_radius;
+    std::uint32_t seed;
+    TriangleSide split = kNoSide;
+  };
+  struct RimEdge {
+    std::uint32_t from, to;
+    TriangleSide outer;
+  };
+  // A triangle to be, with its ball and what the criteria say.
+  struct NewTriangle {
+    SurfaceDelaunayBall ball;
+    double badness;
+    double radius;
+  };
+
+  void queue_everything();
+  bool treat(std::uint32_t triangle);
+  std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
+  std::optional<Candidate> boundary_candidate(TriangleSide side);
+
+  void grow_disk(const Candidate& candidate);
+  [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
+  [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const Candidate& candidate) const;
+  [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  void replace_disk(const Candidate& candidate);
+  void wake_neighbours();
+
+  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
+  [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
+  [[nodiscard]] double badness_of(std::uint32_t triangle, double& radius) const;
+  [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
+    return mesh_.points[mesh_.triangles[triangle][i % 3]];
+  }
+
+  SurfaceMesh& mesh_;
+  const Isosurface& isosurface_;
+  const RefineOptions& options_;
+  RefineStats& stats_;
+  TriangleQueue queue_;
+
+  std::vector<std::uint32_t> generation_;     // of each triangle: grows when its slot is taken anew
+  std::vector<bool> refused_;                 // of each triangle: waits for a change around it
+  std::vector<std::uint32_t> in_disk_;        // of each triangle: the attempt that took it into E
+  std::vector<std::uint32_t> on_rim_;         // of each vertex: the attempt whose rim passes it
+  std::vector<std::uint32_t> rim_edge_from_;  // of each vertex: index of the rim edge that leaves it
+  std::uint32_t attempt_ = 0;
+
+  std::vector<std::uint32_t> disk_;  // E
+  std::vector<RimEdge> rim_;         // boundary of E, in order after order_rim
+  std::vector<RimEdge> ordered_;
+  std::vector<NewTriangle> star_;  // D, one for each rim edge
+  double star_pole_height_ = 0;
+};
+
+void Refinement::run(Controls& controls) {
+  queue_everything();
+  while (!controls.must_stop("refine", mesh_.points.size(), queue_.size())) {
+    const auto entry = queue_.pop();
+    if (!entry) break;
+    if (generation_[entry->triangle] != entry->generation || refused_[entry->triangle]) continue;
+    if (treat(entry->triangle)) wake_neighbours();
+  }
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    double radius = 0;
+    if (badness_of(t, radius) > 1 && radius <= options_.r_min) ++stats_.stopped_at_r_min;
+  }
+}
+
+void Refinement::queue_everything() {
+  const std::size_t count = mesh_.triangles.size();
+  generation_.assign(count, 0);
+  refused_.assign(count, false);
+  in_disk_.assign(count, 0);
+  on_rim_.assign(mesh_.points.size(), 0);
+  rim_edge_from_.assign(mesh_.points.size(), 0);
+  mesh_.balls.resize(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    double mean_pole = 0;
+    for (const std::uint32_t v : mesh_.triangles[t]) mean_pole += mesh_.pole_heights[v] / 3;
+    const NewTriangle measured = measure(corner(t, 0), corner(t, 1), corner(t, 2), mean_pole);
+    mesh_.balls[t] = measured.ball;
+    if (measured.badness > 1 && measured.radius > options_.r_min) {
+      queue_.push({t, 0}, measured.badness, measured.radius);
+    }
+  }
+}
+
+// Inserts x_sigma of one triangle, or a point of the boundary curve where x_sigma would come too near to a boundary
+// edge.
+bool Refinement::treat(std::uint32_t triangle) {
+  const SurfaceDelaunayBall& ball = mesh_.balls[triangle];
+  const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
+  TriangleSide encroached = kNoSide;
+  std::optional<Refusal> refusal = insert(candidate, &encroached);
+  if (encroached != kNoSide) {
+    const auto on_boundary = boundary_candidate(encroached);
+    refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
+    if (!refusal) ++stats_.boundary_splits;
+    if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
+  }
+  if (refusal) {
+    ++stats_.refused[static_cast<std::size_t>(*refusal)];
+    refused_[triangle] = true;
+    return false;
+  }
+  ++stats_.insertions;
+  return true;
+}
+
+// Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
+// reported and nothing is inserted.
+std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
+  ++attempt_;
+  grow_disk(candidate);
+  if (encroached_edge != nullptr) {
+    if (const auto side = encroached_boundary_edge(candidate)) {
+      *encroached_edge = *side;
+      return std::nullopt;
+    }
+    if (!isosurface_.box().contains(candidate.point)) return Refusal::kNoHit;
+  }
+  Refusal refusal = Refusal::kNotADisk;
+  if (!order_rim(candidate, refusal)) return refusal;
+  if (const auto failed = plan_star(candidate)) return failed;
+  replace_disk(candidate);
+  return std::nullopt;
+}
+
+// E: the triangles reached from the seed whose balls hold the point; and the edges around them.
+void Refinement::grow_disk(const Candidate& candidate) {
+  disk_.assign(1, candidate.seed);
+  in_disk_[candidate.seed] = attempt_;
+  for (std::size_t i = 0; i < disk_.size(); ++i) {
+    for (const TriangleSide side : mesh_.neighbours[disk_[i]]) {
+      if (side == kNoSide) continue;
+      const std::uint32_t t = side >> 2;
+      const SurfaceDelaunayBall& ball = mesh_.balls[t];
+      if (in_disk_[t] == attempt_ || squared_distance(candidate.point, ball.center) >= ball.squared_radius) continue;
+      in_disk_[t] = attempt_;
+      disk_.push_back(t);
+    }
+  }
+  rim_.clear();
+  for (const std::uint32_t t : disk_) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide outer = mesh_.neighbours[t][i];
+      if (outer != kNoSide && in_disk_[outer >> 2] == attempt_) continue;
+      if (4 * t + i == candidate.split) continue;
+      rim_.push_back({mesh_.triangles[t][(i + 1) % 3], mesh_.triangles[t][(i + 2) % 3], outer});
+    }
+  }
+}
+
+// A boundary edge of E whose diametral ball holds the point; or any boundary edge of E when the point lies beyond the
+// box.
+std::optional<TriangleSide> Refinement::encroached_boundary_edge(const Candidate& candidate) const {
+  const bool outside = !isosurface_.box().contains(candidate.point);
+  for (const std::uint32_t t : disk_) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (mesh_.neighbours[t][i] != kNoSide) continue;
+      const Vec3& a = corner(t, i + 1);
+      const Vec3& b = corner(t, i + 2);
+      if (outside || dot(a - candidate.point, b - candidate.point) < 0) return 4 * t + i;
+    }
+  }
+  return std::nullopt;
+}
+
+// A point of the boundary curve between the ends of a boundary edge: the hit nearest to its midpoint on the bisector
+// within the box face.
+std::optional<Refinement::Candidate> Refinement::boundary_candidate(TriangleSide side) {
+  const std::uint32_t t = side >> 2;
+  const Vec3& a = corner(t, (side & 3u) + 1);
+  const Vec3& b = corner(t, (side & 3u) + 2);
+  const Box3& box = isosurface_.box();
+  Vec3 outward;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a[axis] == box.low[axis] && b[axis] == box.low[axis]) outward[axis] = -1;
+    if (a[axis] == box.high[axis] && b[axis] == box.high[axis]) outward[axis] = 1;
+  }
+  if (squared_norm(outward) != 1) return std::nullopt;
+  // Seen from below the mesh lies left of ab and the box's outside right of it.
+  const Vec3 towards_lower = cross(outward, b - a);
+  const double length = distance(a, b);
+  if (length <= options_.r_min) return std::nullopt;
+  const Line line{0.5 * (a + b), towards_lower / norm(towards_lower)};
+  const auto hit = isosurface_.nearest_falling_hit(line, length, stats_.search);
+  if (!hit || !box.contains(line.at(*hit))) return std::nullopt;
+  return Candidate{line.at(*hit), 2 * kNearestEnd * length, t, side};
+}
+
+// Brings the rim into order and checks that E is a disk none of whose vertices gets lost: one cycle (for a boundary
+// split, one path) that passes every vertex once and has as many edges as a disk without inner vertices.
+bool Refinement::order_rim(const Candidate& candidate, Refusal& refusal) {
+  const bool closed = candidate.split == kNoSide;
+  if (rim_.size() != disk_.size() + (closed ? 2 : 1)) return false;
+  on_rim_.resize(mesh_.points.size(), 0);
+  rim_edge_from_.resize(mesh_.points.size(), 0);
+  for (std::uint32_t i = 0; i < rim_.size(); ++i) {
+    if (on_rim_[rim_[i].from] == attempt_) {
+      refusal = Refusal::kRepeatedVertex;
+      return false;
+    }
+    on_rim_[rim_[i].from] = attempt_;
+    rim_edge_from_[rim_[i].from] = i;
+  }
+  std::uint32_t at = rim_.front().from;
+  if (!closed) at = mesh_.triangles[candidate.split >> 2][((candidate.split & 3u) + 2) % 3];
+  ordered_.clear();
+  while (ordered_.size() < rim_.size() && on_rim_[at] == attempt_) {
+    ordered_.push_back(rim_[rim_edge_from_[at]]);
+    at = ordered_.back().to;
+    if (closed && at == rim_.front().from) break;
+  }
+  if (ordered_.size() != rim_.size()) return false;
+  std::swap(rim_, ordered_);
+  return true;
+}
+
+// Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
+// gradient, or a vertex is too near.
+std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
+  const Vec3& p = candidate.point;
+  const double nearest = kNearestVertex * candidate.ball_radius;
+  const Vec3 gradient = isosurface_.gradient(p);
+  double pole_sum = 0;
+  for (const RimEdge& edge : rim_) {
+    const Vec3& a = mesh_.points[edge.from];
+    const Vec3& b = mesh_.points[edge.to];
+    pole_sum += mesh_.pole_heights[edge.from];
+    if (squared_distance(p, a) < nearest * nearest || squared_distance(p, b) < nearest * nearest) {
+      return Refusal::kTooClose;
+    }
+    if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
+  }
+  auto corners = static_cast<double>(rim_.size());
+  if (candidate.split != kNoSide) {
+    pole_sum += mesh_.pole_heights[rim_.back().to];
+    corners += 1;
+  }
+  star_pole_height_ = pole_sum / corners;
+  star_.clear();
+  for (const RimEdge& edge : rim_) {
+    const double mean_pole = (star_pole_height_ + mesh_.pole_heights[edge.from] + mesh_.pole_heights[edge.to]) / 3;
+    star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole));
+  }
+  return std::nullopt;
+}
+
+// Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
+// refinement.
+Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
+  const Circumcircle circle = circumcircle(p, a, b);
+  const Vec3 normal = cross(a - p, b - p);
+  if (!std::isfinite(circle.radius) || !(norm(normal) > 0)) return {{p, 0}, 0, 0};  // nothing can be measured on it
+  const Line dual{circle.center, normal / norm(normal)};
+  const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
+  if (!t) return {{circle.center, circle.radius * circle.radius}, 0, circle.radius};
+  const Vec3 x = dual.at(*t);
+  const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
+  return {{x, squared_distance(x, p)}, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
+}
+
+// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
+double Refinement::badness(double h, double r, double l, double mean_pole) const {
+  return std::max({h / (r * options_.epsilon1), r / (mean_pole * options_.epsilon2), r / (l * options_.rho),
+                   h / options_.max_distance});
+}
+
+double Refinement::badness_of(std::uint32_t triangle, double& radius) const {
+  const Vec3& a = corner(triangle, 0);
+  const Vec3& b = corner(triangle, 1);
+  const Vec3& c = corner(triangle, 2);
+  const Circumcircle circle = circumcircle(a, b, c);
+  radius = circle.radius;
+  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+  double mean_pole = 0;
+  for (const std::uint32_t v : mesh_.triangles[triangle]) mean_pole += mesh_.pole_heights[v] / 3;
+  return badness(distance(mesh_.balls[triangle].center, circle.center), radius, shortest, mean_pole);
+}
+
+// Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
+void Refinement::replace_disk(const Candidate& candidate) {
+  const bool closed = candidate.split == kNoSide;
+  const auto p = static_cast<std::uint32_t>(mesh_.points.size());
+  mesh_.points.push_back(candidate.point);
+  mesh_.pole_heights.push_back(star_pole_height_);
+  while (disk_.size() < rim_.size()) {
+    disk_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
+    mesh_.triangles.emplace_back();
+    mesh_.neighbours.emplace_back();
+    mesh_.balls.emplace_back();
+    generation_.push_back(0);
+    refused_.push_back(false);
+    in_disk_.push_back(0);
+  }
+  const std::size_t count = rim_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t t = disk_[i];
+    const RimEdge& edge = rim_[i];
+    const bool first = !closed && i == 0;
+    const bool last = !closed && i + 1 == count;
+    mesh_.triangles[t] = {p, edge.from, edge.to};
+    mesh_.neighbours[t] = {edge.outer, last ? kNoSide : 4 * disk_[(i + 1) % count] + 2,
+                           first ? kNoSide : 4 * disk_[(i + count - 1) % count] + 1};
+    if (edge.outer != kNoSide) mesh_.neighbours[edge.outer >> 2][edge.outer & 3u] = 4 * t;
+    mesh_.balls[t] = star_[i].ball;
+    ++generation_[t];
+    refused_[t] = false;
+    if (star_[i].badness > 1 && star_[i].radius > options_.r_min) {
+      queue_.push({t, generation_[t]}, star_[i].badness, star_[i].radius);
+    }
+  }
+}
+
+// Triangles around the new star that were refused before get another chance.
+void Refinement::wake_neighbours() {
+  for (const RimEdge& edge : rim_) {
+    if (edge.outer == kNoSide || !refused_[edge.outer >> 2]) continue;
+    const std::uint32_t t = edge.outer >> 2;
+    refused_[t] = false;
+    double radius = 0;
+    const double bad = badness_of(t, radius);
+    queue_.push({t, generation_[t]}, bad, radius);
+  }
+}
+
+}  // namespace
+
+void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+            RefineStats& stats) {
+  Refinement(mesh, isosurface, options, stats).run(controls);
+}
+
+}  // namespace deliso

@@ -1,0 +1,44 @@
+// Stage 2 (Dey and Levine, sections 2.2.2 and 3.2): refine the surface mesh without tetrahedra.
+//
+// A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E;
+// it is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no triangle
+// turned against the gradient), so the mesh stays homeomorphic to what stage 1 gave, whatever the data.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "surface/controls.h"
+#include "surface/recover.h"
+#include "surface/surface_mesh.h"
+
+namespace deliso {
+
+struct RefineOptions {
+  double epsilon1 = 0.1;  // largest h / r
+  double epsilon2 = 0.2;  // largest r / mean pole height
+  double rho = 2;         // largest r / l
+  double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
+  double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
+  QueueOrder order = QueueOrder::kWorstFirst;
+};
+
+// Why an insertion was refused.
+enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kExistingEdge, kFlippedTriangle, kTooClose, kCount };
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::kCount)> kRefusalNames = {
+    "no_hit", "not_a_disk", "repeated_vertex", "existing_edge", "flipped_triangle", "too_close"};
+
+struct RefineStats : StageStats {
+  std::int64_t insertions = 0;
+  std::int64_t boundary_splits = 0;  // of them on boundary edges
+  std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
+  std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
+  SearchCounters search;
+};
+
+void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+            RefineStats& stats);
+
+}  // namespace deliso

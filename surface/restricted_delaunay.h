@@ -1,0 +1,96 @@
+// The Delaunay triangulation restricted to the isosurface, kept up to date under insertions (stage 1).
+//
+// For every facet whose dual edge meets the isosurface we keep all hits: MultiIntersect needs all of them, and when an
+// insertion shortens a dual edge its hits are filtered, not searched again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "delaunay/base/counters.h"
+#include "surface/signed_delaunay.h"
+
+namespace deliso {
+
+using DualEdgeId = StrongId<struct DualEdgeTag>;
+
+// The dual edge of a finite facet that is restricted or has hits. x(t) = dual.at(t), t in mesh-space units.
+struct DualEdge {
+  FacetId facet;                     // seen from the tetrahedron at the t_begin end
+  std::array<VertexId, 3> vertices;  // of the facet, counterclockwise seen from the t_end side
+  Line dual;                         // circumcenter of the facet and its unit normal, pointing towards t_end
+  double radius = 0;                 // circumradius r of the facet
+  double t_begin = 0;                // where the dual edge begins and ends: infinite towards a ghost
+  double t_end = 0;
+  std::vector<Hit> hits;  // V_sigma and Sigma: ascending, alternating, consistent with the signs of the two tetrahedra
+  std::uint32_t generation = 0;  // odd while alive; grows with every change, so that a queue can tell stale entries
+};
+
+// x_sigma of a restricted facet: the hit nearest to its plane among those that cross in the direction of its signs.
+double surface_hit(const DualEdge& edge);
+
+class RestrictedDelaunay : public SignedDelaunay {
+ public:
+  // See SignedDelaunay.
+  RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+
+  enum class Outcome { kInserted, kDuplicate, kTooClose };
+  // Inserts p unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with p.
+  Outcome insert(const Vec3& p, TetId start, double min_distance);
+
+  // What the last successful insertion changed: dual edges that are new or other than before, and vertices whose
+  // umbrella is.
+  [[nodiscard]] std::span<const DualEdgeId> touched_edges() const { return touched_edges_; }
+  [[nodiscard]] std::span<const VertexId> touched_vertices() const { return touched_vertices_; }
+  [[nodiscard]] VertexId last_vertex() const { return VertexId(delaunay_.vertex_count() - 1); }
+
+  // Slots of dual edges; `is_alive` tells the used ones.
+  [[nodiscard]] std::size_t dual_edge_slots() const { return dual_edges_.size(); }
+  [[nodiscard]] bool is_alive(DualEdgeId e) const { return (dual_edges_[e.index()].generation & 1u) != 0; }
+  [[nodiscard]] const DualEdge& dual_edge(DualEdgeId e) const { return dual_edges_[e.index()]; }
+  // The dual edge of a facet, or none when it has no hit.
+  [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return edge_of_[f.tet().index()][f.face()]; }
+
+  [[nodiscard]] const SearchCounters& counters() const { return counters_; }
+  // Wall-clock time spent deciding which facets are restricted.
+  [[nodiscard]] double restricted_seconds() const { return restricted_seconds_; }
+
+ private:
+  struct RimEdge {
+    DualEdgeId edge;               // of a facet on the rim, or none
+    bool inside_is_begin = false;  // its t_begin end was in the region
+    bool was_restricted = false;
+  };
+
+  void search_everything();
+  void forget_region();
+  void renew_star();
+  void renew_rim_facet(TetId created, const RimEdge& rim);
+  void search_facet(FacetId f);
+  void settle_hits(DualEdge& edge) const;
+  [[nodiscard]] double dual_end(const DualEdge& edge, TetId t, int side) const;
+  [[nodiscard]] double nearest_rim_vertex(const Vec3& p) const;
+  void touch_vertices(FacetId f);
+  void touch(VertexId v);
+  DualEdgeId make_edge();
+  void release_edge(DualEdgeId e);
+
+  std::vector<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
+  std::vector<std::uint32_t> touched_stamp_;        // of each vertex: the insertion that touched it last
+  std::vector<std::uint32_t> leaving_stamp_;        // of each tetrahedron: the insertion that destroyed it
+  std::uint32_t stamp_ = 0;
+
+  std::vector<DualEdge> dual_edges_;
+  std::vector<DualEdgeId> free_edges_;
+  std::vector<DualEdgeId> touched_edges_;
+  std::vector<VertexId> touched_vertices_;
+
+  std::vector<RimEdge> rim_edges_;
+  DualEdge scratch_;
+  SearchCounters counters_;
+  double restricted_seconds_ = 0;
+};
+
+}  // namespace deliso

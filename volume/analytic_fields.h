@@ -1,0 +1,57 @@
+// Built-in volumes: fields with known answers, hard cases, and a volume to start with.
+//
+// A field is given on the cube [-1, 1]^3 and sampled at size^3 points, the outermost on the cube's faces; the grid's
+// spacing is 1 (voxels) and its origin 0.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// `count` components of the isosurface that are homeomorphic to each other.
+struct KnownComponents {
+  std::int64_t euler_characteristic = 0;
+  std::int64_t boundary_loops = 0;
+  std::int64_t count = 0;
+  friend bool operator==(const KnownComponents&, const KnownComponents&) = default;
+};
+
+struct AnalyticField {
+  std::string name;
+  std::string description;  // one line
+  std::int32_t default_size = 0;
+  double isovalue = 0;    // suggested; for every size and seed no sample equals it
+  std::string type_name;  // of the samples, as ScalarGrid::type_name
+  bool closed = false;    // does the isosurface at the suggested isovalue stay away from the cube's faces?
+  bool seeded = false;    // does the seed matter?
+  // The isosurface at the suggested isovalue up to homeomorphism, for sizes from `smallest_known_size` on; nothing when
+  // it is not known beforehand or the size too small to resolve it.
+  std::int32_t smallest_known_size = 0;
+  std::optional<std::vector<KnownComponents>> (*topology)(std::int32_t size) = nullptr;
+  ScalarGrid (*generate)(std::int32_t size, std::uint64_t seed) = nullptr;
+
+  [[nodiscard]] std::optional<std::vector<KnownComponents>> known_topology(std::int32_t size) const {
+    return topology == nullptr || size < smallest_known_size ? std::nullopt : topology(size);
+  }
+};
+
+// The largest size that generate_field takes.
+inline constexpr std::int32_t kLargestFieldSize = 2048;
+
+// All built-in fields, the one to start with first.
+const std::vector<AnalyticField>& analytic_fields();
+
+// The field of this name. Throws InputError naming the nearest known name.
+const AnalyticField& find_analytic_field(std::string_view name);
+
+// The field's volume of size^3 samples. Equal arguments give equal samples. Throws InputError when the name is unknown
+// or the size is not between 2 and kLargestFieldSize.
+ScalarGrid generate_field(std::string_view name, std::int32_t size, std::uint64_t seed = 1);
+
+}  // namespace deliso

@@ -1,0 +1,217 @@
+#include "volume/exact_topology.h"
+
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "delaunay/base/check.h"
+#include "volume/exact_topology_cell.h"
+
+namespace deliso {
+
+namespace {
+
+// Disjoint sets of crossings; the representative of a set is its smallest member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) {
+    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+  std::uint32_t find(std::uint32_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  // True when x and y were in different sets.
+  bool unite(std::uint32_t x, std::uint32_t y) {
+    x = find(x);
+    y = find(y);
+    if (x == y) return false;
+    if (y < x) std::swap(x, y);
+    parent_[y] = x;
+    return true;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// The Euler characteristic of a component is pieces - arcs + crossings, each piece with its own. A piece has as many
+// arcs as crossings on its cell's boundary, and an arc belongs to two cells, or to one when it lies on the box. So
+// twice the Euler characteristic is the sum of (2 piece - crossings of the piece) over the pieces, plus 2 for every
+// crossing, minus 1 for every arc on the box.
+class TopologyBuilder {
+ public:
+  TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index)
+      : grid_(grid),
+        isovalue_(isovalue),
+        sets_(index.crossing_count()),
+        twice_euler_of_crossing_(index.crossing_count(), 2) {
+    result_.index = std::move(index);
+  }
+
+  IsosurfaceTopology build() {
+    result_.crossings = list_crossings(grid_, isovalue_, result_.index);
+    result_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+      if (is_simple(pattern)) {
+        join_simple_cell(cell, pattern);
+      } else {
+        join_cell(cell, pattern);
+      }
+    });
+    number_components();
+    count_on_box();
+    for (std::size_t i = 0; i < result_.components.size(); ++i) {
+      DELISO_CHECK(twice_euler_[i] % 2 == 0, "half arcs come in pairs");
+      result_.components[i].euler_characteristic = twice_euler_[i] / 2;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t crossing_on(const CellIndex& cell, int edge) const;
+  void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
+  void join_cell(const CellIndex& cell, std::uint8_t pattern);
+  [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
+  void number_components();
+  void count_on_box();
+  [[nodiscard]] bool meets_surface(const CellIndex& corner, std::size_t axis) const;
+
+  const ScalarGrid& grid_;
+  double isovalue_;
+  DisjointSets sets_;
+  std::vector<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
+  std::vector<std::int64_t> twice_euler_;              // of the components
+  IsosurfaceTopology result_;
+};
+
+std::uint32_t TopologyBuilder::crossing_on(const CellIndex& cell, int edge) const {
+  const CellEdge e = cell_edge(edge);
+  return result_.index.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2),
+                              e.axis);
+}
+
+// One disk through all crossings of the cell.
+void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t pattern) {
+  unsigned edges = crossed_edges(pattern);
+  const std::uint32_t first = crossing_on(cell, std::countr_zero(edges));
+  twice_euler_of_crossing_[first] += 2 - std::popcount(edges);
+  for (edges &= edges - 1; edges != 0; edges &= edges - 1) {
+    sets_.unite(first, crossing_on(cell, std::countr_zero(edges)));
+  }
+}
+
+void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
+  const CellSweep sweep(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
+  bool singular = sweep.singular_inside();
+  for (unsigned faces = sweep.saddle_faces(); faces != 0; faces &= faces - 1) {
+    singular = singular || !passes_through(cell, std::countr_zero(faces));
+  }
+  if (singular) result_.singular_cells.push_back(cell);
+  std::array<std::uint32_t, kMaxCellPieces> first;
+  first.fill(CrossingIndex::kNone);
+  for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
+    const int edge = std::countr_zero(edges);
+    const int piece = sweep.piece_of_edge(edge);
+    const std::uint32_t crossing = crossing_on(cell, edge);
+    std::uint32_t& start = first[static_cast<std::size_t>(piece)];
+    if (start == CrossingIndex::kNone) {
+      start = crossing;
+      twice_euler_of_crossing_[start] += 2 * sweep.euler_characteristic(piece);
+    }
+    sets_.unite(start, crossing);
+    --twice_euler_of_crossing_[start];
+  }
+  const Vec3 base{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+  for (int i = 0; i < sweep.saddle_count(); ++i) {
+    // Until components are numbered, a saddle remembers a crossing of its piece.
+    const auto piece = static_cast<std::size_t>(sweep.saddle(i).piece);
+    result_.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
+  }
+}
+
+// Whether the surface, at a saddle of a cell's face at the isovalue, passes from cell to cell: then it is a graph over
+// the face there, a regular point. Else two sheets touch in that point.
+bool TopologyBuilder::passes_through(const CellIndex& cell, int face) const {
+  const auto axis = static_cast<std::size_t>(face / 2);
+  CellIndex neighbour = cell;
+  neighbour[axis] += face % 2 == 1 ? 1 : -1;
+  if (neighbour[axis] < 0 || neighbour[axis] + 1 >= grid_.dims()[axis]) return false;
+  const auto slope = [&](const CellIndex& at, int side) {
+    return saddle_slope_into_cell(grid_.cell(at[0], at[1], at[2]), isovalue_, side);
+  };
+  return slope(cell, face) * slope(neighbour, face ^ 1) < 0;
+}
+
+void TopologyBuilder::number_components() {
+  for (std::uint32_t c = 0; c < result_.crossings.size(); ++c) {
+    // A representative is the first crossing of its component.
+    const std::uint32_t representative = sets_.find(c);
+    if (representative == c) {
+      result_.crossings[c].component = static_cast<std::uint32_t>(twice_euler_.size());
+      twice_euler_.push_back(0);
+    }
+    const std::uint32_t component = result_.crossings[representative].component;
+    result_.crossings[c].component = component;
+    twice_euler_[component] += twice_euler_of_crossing_[c];
+  }
+  result_.components.resize(twice_euler_.size());
+  for (SurfaceSaddle& saddle : result_.saddles) saddle.component = result_.crossings[saddle.component].component;
+}
+
+// Whether the corners of a grid face lie on both sides.
+bool TopologyBuilder::meets_surface(const CellIndex& corner, std::size_t axis) const {
+  const auto above = [&](std::int32_t db, std::int32_t dc) {
+    CellIndex at = corner;
+    at[(axis + 1) % 3] += db;
+    at[(axis + 2) % 3] += dc;
+    return result_.index.above(at[0], at[1], at[2]);
+  };
+  const bool first = above(0, 0);
+  return above(1, 0) != first || above(0, 1) != first || above(1, 1) != first;
+}
+
+// The arcs on the box. Every crossing there ends two of them, so loops are the sets of crossings that they join: as
+// many as crossings on the box, minus the arcs that joined two sets.
+void TopologyBuilder::count_on_box() {
+  DisjointSets sets(0);
+  std::vector<bool> seen;
+  const auto add_arc = [&](std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t component = result_.crossings[from].component;
+    --twice_euler_[component];
+    for (const std::uint32_t crossing : {from, to}) {
+      if (!seen[crossing]) ++result_.components[component].boundary_loops;
+      seen[crossing] = true;
+    }
+    if (sets.unite(from, to)) --result_.components[component].boundary_loops;
+  };
+  const Dims& dims = grid_.dims();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t b = (axis + 1) % 3;
+    const std::size_t c = (axis + 2) % 3;
+    for (const std::int32_t plane : {0, dims[axis] - 1}) {
+      CellIndex corner{};
+      corner[axis] = plane;
+      for (corner[c] = 0; corner[c] + 1 < dims[c]; ++corner[c]) {
+        for (corner[b] = 0; corner[b] + 1 < dims[b]; ++corner[b]) {
+          if (!meets_surface(corner, axis)) continue;
+          if (seen.empty()) {
+            seen.resize(result_.crossings.size());
+            sets = DisjointSets(result_.crossings.size());
+          }
+          const FaceArcs arcs = face_arcs(grid_, isovalue_, result_.index, corner, static_cast<int>(axis));
+          add_arc(arcs.arcs[0].crossings[0], arcs.arcs[0].crossings[1]);
+          if (arcs.count == 2) add_arc(arcs.arcs[1].crossings[0], arcs.arcs[1].crossings[1]);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue) {
+  DELISO_CHECK(std::isfinite(isovalue), "an isovalue is a finite number");
+  return TopologyBuilder(grid, isovalue, CrossingIndex(grid, isovalue)).build();
+}
+
+}  // namespace deliso

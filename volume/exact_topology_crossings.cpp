@@ -1,0 +1,162 @@
+#include "volume/exact_topology_crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+namespace {
+
+// A sample lies above the isovalue exactly when it is greater than the threshold, a number of its own type where that
+// is possible.
+template <class Sample>
+auto threshold_of(double isovalue) {
+  if constexpr (std::is_floating_point_v<Sample>) {
+    return isovalue;
+  } else {
+    // One type wider, so that a threshold below or above all samples exists.
+    using Wide = std::conditional_t<sizeof(Sample) == 4, std::int64_t, std::int32_t>;
+    const double low = static_cast<double>(std::numeric_limits<Sample>::min()) - 1;
+    const double high = static_cast<double>(std::numeric_limits<Sample>::max());
+    return static_cast<Wide>(std::floor(std::clamp(isovalue, low, high)));
+  }
+}
+
+// Sets bit b of the result when flags[b] is 1, for b < 64; flags are 0 or 1.
+std::uint64_t packed(const std::array<std::uint8_t, CrossingIndex::kWordBits>& flags) {
+  std::uint64_t word = 0;
+  for (std::size_t byte = 0; byte < 8; ++byte) {
+    // Eight flags in one number, the first lowest; the product gathers them in its top byte.
+    std::uint64_t eight = 0;
+    for (std::size_t b = 0; b < 8; ++b) eight |= static_cast<std::uint64_t>(flags[8 * byte + b]) << (8 * b);
+    word |= ((eight * 0x0102040810204080ull) >> 56) << (8 * byte);
+  }
+  return word;
+}
+
+// Marks the samples of a row above the isovalue; false when a sample equals it.
+template <class Sample>
+bool mark_row(const Sample* row, std::size_t length, double isovalue, std::uint64_t* words) {
+  const auto threshold = threshold_of<Sample>(isovalue);
+  const bool may_be_equal = static_cast<double>(threshold) == isovalue;
+  std::array<std::uint8_t, CrossingIndex::kWordBits> flags{};
+  for (std::size_t start = 0; start < length; start += flags.size()) {
+    const std::size_t count = std::min(flags.size(), length - start);
+    if (count < flags.size()) flags.fill(0);
+    for (std::size_t b = 0; b < count; ++b) flags[b] = row[start + b] > threshold ? 1 : 0;
+    *words++ = packed(flags);
+  }
+  return !may_be_equal || std::none_of(row, row + length, [&](Sample sample) { return sample == threshold; });
+}
+
+}  // namespace
+
+double edge_parameter(double low, double high, double isovalue) {
+  double before = low - isovalue;
+  double length = low - high;
+  if (!std::isfinite(before) || !std::isfinite(length)) {
+    before = low / 2 - isovalue / 2;
+    length = low / 2 - high / 2;
+  }
+  constexpr double kBelowOne = 1 - std::numeric_limits<double>::epsilon() / 2;
+  return std::clamp(before / length, std::numeric_limits<double>::min(), kBelowOne);
+}
+
+CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
+    : dims_(grid.dims()), words_per_row_((grid.dims()[0] + kWordBits - 1) / kWordBits) {
+  const std::size_t rows = static_cast<std::size_t>(dims_[1]) * static_cast<std::size_t>(dims_[2]);
+  above_.resize(rows * static_cast<std::size_t>(words_per_row_));
+  first_in_word_.resize(above_.size());
+
+  // Mark the samples above the isovalue, a row at a time.
+  bool regular = true;
+  std::visit(
+      [&](const auto& samples) {
+        const auto length = static_cast<std::size_t>(dims_[0]);
+        const auto words = static_cast<std::size_t>(words_per_row_);
+        for (std::size_t row = 0; row < rows; ++row) {
+          regular &= mark_row(samples.data() + row * length, length, isovalue, &above_[row * words]);
+        }
+      },
+      grid.samples());
+  DELISO_CHECK(regular, "no sample equals the isovalue");
+
+  // Count the crossings before every word.
+  std::uint64_t count = 0;
+  for (std::int32_t k = 0; k < dims_[2]; ++k) {
+    for (std::int32_t j = 0; j < dims_[1]; ++j) {
+      for (std::int32_t w = 0; w < words_per_row_; ++w) {
+        first_in_word_[word_index(w, j, k)] = static_cast<std::uint32_t>(count);
+        for (const std::uint64_t bits : crossed(w, j, k)) {
+          if (bits != 0) count += static_cast<std::uint64_t>(std::popcount(bits));
+        }
+      }
+    }
+  }
+  DELISO_CHECK(count < kNone, "crossings are numbered with 32 bits");
+  crossing_count_ = static_cast<std::uint32_t>(count);
+}
+
+std::uint32_t CrossingIndex::find(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const {
+  if (i < 0 || j < 0 || k < 0 || i >= dims_[0] || j >= dims_[1] || k >= dims_[2]) return kNone;
+  const std::uint64_t bits = crossed(i / kWordBits, j, k)[static_cast<std::size_t>(axis)];
+  return (bits >> (i % kWordBits) & 1u) != 0 ? number(i, j, k, axis) : kNone;
+}
+
+std::uint32_t CrossingIndex::number(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const {
+  const std::int32_t w = i / kWordBits;
+  const std::uint64_t here = std::uint64_t{1} << (i % kWordBits);
+  const std::array<std::uint64_t, 3> bits = crossed(w, j, k);
+  int before = 0;
+  for (int a = 0; a < 3; ++a) {
+    // Edges of earlier samples, and this sample's edges along earlier axes.
+    const std::uint64_t earlier = (here - 1) | (a < axis ? here : 0);
+    before += std::popcount(bits[static_cast<std::size_t>(a)] & earlier);
+  }
+  return first_in_word_[word_index(w, j, k)] + static_cast<std::uint32_t>(before);
+}
+
+std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
+  std::vector<EdgeCrossing> crossings;
+  crossings.reserve(index.crossing_count());
+  const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
+  const auto list_word = [&](const auto& samples, std::int32_t w, std::int32_t j, std::int32_t k) {
+    const std::array<std::uint64_t, 3> crossed = index.crossed(w, j, k);
+    for (std::uint64_t left = crossed[0] | crossed[1] | crossed[2]; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const std::size_t sample = grid.index(w * CrossingIndex::kWordBits + bit, j, k);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if ((crossed[axis] >> bit & 1u) == 0) continue;
+        const auto low = static_cast<double>(samples[sample]);
+        const auto high = static_cast<double>(samples[sample + stride[axis]]);
+        crossings.push_back({sample, static_cast<std::uint8_t>(axis), 0, edge_parameter(low, high, isovalue)});
+      }
+    }
+  };
+  std::visit(
+      [&](const auto& samples) {
+        for (std::int32_t k = 0; k < grid.dims()[2]; ++k) {
+          for (std::int32_t j = 0; j < grid.dims()[1]; ++j) {
+            for (std::int32_t w = 0; w < index.words_per_row(); ++w) list_word(samples, w, j, k);
+          }
+        }
+      },
+      grid.samples());
+  return crossings;
+}
+
+Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
+  const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
+  const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
+  const std::uint64_t row = crossing.sample / nx;
+  const std::uint64_t slice = row / ny;
+  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(row % ny), static_cast<double>(slice)};
+  position[crossing.axis] += crossing.t;
+  return position;
+}
+
+}  // namespace deliso
