@@ -1,16 +1,20 @@
 #include "delaunay/bowyer_watson.h"
 
+#include <algorithm>
+
 #include "delaunay/base/check.h"
 #include "delaunay/point_location.h"
 #include "delaunay/spatial_order.h"
 
 namespace deliso {
 
-BowyerWatson::BowyerWatson(const Box3& box) : box_(box), filter_(box) {}
-
 namespace {
 
-// Positions in `order` of four points that span space, among them the first; empty when all points are coplanar.
+// Vertex slots of face i, so that with the slot opposite it put before them they make a negative tetrahedron; slot 3,
+// where the infinite vertex of a ghost is, comes last.
+constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+
+// Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
                                                        std::span<const std::uint32_t> order) {
   std::array<std::size_t, 4> simplex{};
@@ -30,53 +34,66 @@ std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> poi
 
 }  // namespace
 
+BowyerWatson::BowyerWatson(const Box3& box) : box_(box), filter_(box) {}
+
 bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of) {
   clear();
-  for (const Vec3& p : points) DELISO_CHECK(box_.contains(p), "every point lies in the box");
   if (vertex_of != nullptr) vertex_of->clear();
+  for (const Vec3& p : points) DELISO_CHECK(box_.contains(p), "every point lies in the box");
   if (points.empty()) return false;
 
-  // Step 1: the insertion order, and four points that span space to begin with.
-  const std::vector<std::uint32_t> order = spatial_order(points);
+  // Step 1: the insertion order, beginning with four points that span space.
+  std::vector<std::uint32_t> order = spatial_order(points);
   const auto simplex = find_simplex(points, order);
   if (!simplex) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto from = order.begin() + static_cast<std::ptrdiff_t>((*simplex)[i]);
+    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(i), from, from + 1);
+  }
 
-  // Step 2: insert, each point from the tetrahedron created last. The ids are those of the input: the perturbation, and
-  // with it the result, does not depend on the order. Equal points follow each other by index, so the one inserted is
-  // the one with the least index.
-  points_.assign(points.begin(), points.end());
-  incident_.resize(points.size());
-  tets_.reserve(8 * points.size());
-  mark_.reserve(8 * points.size());
+  // Step 2: insert, the vertices numbered in that order for the sake of the caches, the perturbation ordered by input.
   std::vector<VertexId> vertices(points.size());
-  bool duplicates = false;
-  start({VertexId(order[(*simplex)[0]]), VertexId(order[(*simplex)[1]]), VertexId(order[(*simplex)[2]]),
-         VertexId(order[(*simplex)[3]])});
+  insert_all(points, order, vertices);
+  // Step 3: number the vertices as the input.
+  number_as_input(points, vertices);
+  if (vertex_of != nullptr) *vertex_of = std::move(vertices);
+  return true;
+}
+
+void BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order,
+                              std::vector<VertexId>& vertex_of) {
+  points_.reserve(points.size());
+  incident_.reserve(points.size());
+  ranks_.reserve(points.size());
+  tets_.reserve(8 * points.size());
+  const auto add_vertex = [&](std::uint32_t input) {
+    vertex_of[input] = VertexId(points_.size());
+    points_.push_back(points[input]);
+    incident_.emplace_back();
+    ranks_.emplace_back(std::size_t{input});
+    return vertex_of[input];
+  };
+  for (const std::uint32_t input : order.first(4)) add_vertex(input);
+  make_first_tet();
   TetId hint(std::size_t{0});
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const VertexId v(order[i]);
-    vertices[v.index()] = v;
-    if (std::find(simplex->begin(), simplex->end(), i) != simplex->end()) continue;
-    const Vec3& p = points_[v.index()];
-    if (const auto duplicate = find_conflicts_from_located(p, v, locate(p, hint))) {
-      vertices[v.index()] = *duplicate;
-      duplicates = true;
+  for (const std::uint32_t input : order.subspan(4)) {
+    // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
+    const Vec3& p = points[input];
+    if (const auto duplicate = find_conflicts_from_located(p, VertexId(input), locate(p, hint))) {
+      vertex_of[input] = *duplicate;
       continue;
     }
-    star_rim(v);
+    star_rim(add_vertex(input));
     hint = created_.front();
   }
   created_.clear();
-  if (duplicates) drop_duplicates(vertices);
-  if (vertex_of != nullptr) *vertex_of = std::move(vertices);
-  return true;
 }
 
 TetId BowyerWatson::locate(const Vec3& p, TetId hint) const { return visibility_walk(*this, filter_, p, hint); }
 
 bool BowyerWatson::in_conflict(TetId t, const Vec3& p) const { return conflicts(t, p, VertexId(points_.size())); }
 
-bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_id) const {
+bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_rank) const {
   // A ghost's ball is the half-space beyond its hull facet; on the facet's plane, it is the disk in which that plane
   // cuts the ball of the tetrahedron inside.
   if (is_ghost(t)) {
@@ -86,63 +103,98 @@ bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_id) const {
     t = neighbour(t, 3);
   }
   const auto& v = vertices(t);
-  const double inside = StaticFilter::insphere_sign(point(v[0]), point(v[1]), point(v[2]), point(v[3]), p);
-  if (inside != 0) [[likely]] {
-    return inside > 0;
-  }
-  return perturbed_insphere({point(v[0]), point(v[1]), point(v[2]), point(v[3])}, v, p, p_id);
+  const std::array<Vec3, 4> tet = {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+  const double inside = insphere(tet[0], tet[1], tet[2], tet[3], p);
+  if (inside != 0) return inside > 0;
+  return perturbed_insphere(
+      tet, {perturbation_rank(v[0]), perturbation_rank(v[1]), perturbation_rank(v[2]), perturbation_rank(v[3])}, p,
+      p_rank);
 }
 
 std::optional<VertexId> BowyerWatson::find_conflicts(const Vec3& p, TetId start) {
   DELISO_CHECK(box_.contains(p), "the point lies in the box");
   DELISO_CHECK(region_.empty(), "no other cavity is open");
   DELISO_CHECK(start.index() < tets_.size() && is_live(start), "the search starts from a live tetrahedron");
-  const VertexId p_id(points_.size());
+  const VertexId p_rank(points_.size());
   pending_ = p;
   // In conflict with the newest vertex p means strictly inside (or beyond a hull facet): then p is no duplicate.
-  if (conflicts(start, p, p_id)) {
-    grow_region(p, p_id, start);
+  if (conflicts(start, p, p_rank)) {
+    grow_region(p, p_rank, start);
     return std::nullopt;
   }
-  return find_conflicts_from_located(p, p_id, locate(p, start));
+  return find_conflicts_from_located(p, p_rank, locate(p, start));
 }
 
-std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p, VertexId p_id, TetId located) {
+std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located) {
   // The tetrahedron that contains p is in conflict with it, unless p is one of its vertices.
   if (!is_ghost(located)) {
     for (const VertexId v : vertices(located)) {
       if (point(v) == p) return v;
     }
   }
-  grow_region(p, p_id, located);
+  grow_region(p, p_rank, located);
   return std::nullopt;
 }
 
-void BowyerWatson::grow_region(const Vec3& p, VertexId p_id, TetId first) {
+void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
   region_.clear();
+  region_corners_.clear();
   rim_.clear();
-  region_.push_back(first);
-  mark_[first.index()] = kInside;
-  for (std::size_t i = 0; i < region_.size(); ++i) {
-    const TetId t = region_[i];
-    const auto mirrors = tets_[t.index()].mirrors;
-    for (const FacetId mirror : mirrors) {
-      const TetId outside = mirror.tet();
-      std::uint8_t& mark = mark_[outside.index()];
-      if (mark == kInside) continue;
-      if (mark == kUnknown) {
-        if (conflicts(outside, p, p_id)) {
-          mark = kInside;
-          region_.push_back(outside);
-          continue;
-        }
-        mark = kOutside;
-      }
-      rim_.push_back(mirror);
-    }
+  rim_corners_.clear();
+  rows_.start(p, points_.size());
+  for (const VertexId v : vertices(first)) {
+    if (v != kInfiniteVertex) rows_.add(v, point(v));
   }
-  for (const TetId t : region_) mark_[t.index()] = kUnknown;
-  for (const FacetId f : rim_) mark_[f.tet().index()] = kUnknown;
+  add_to_region(first);
+  for (std::size_t i = 0; i < region_.size(); ++i) test_neighbours(i, p, p_rank);
+  for (const TetId t : region_) set_mark(t, kUnknown);
+  for (const FacetId f : rim_) set_mark(f.tet(), kUnknown);
+}
+
+void BowyerWatson::add_to_region(TetId t) {
+  const auto& v = vertices(t);
+  region_.push_back(t);
+  region_corners_.push_back({rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])});
+  // Its neighbours are tested a little later: fetch them meanwhile.
+  for (unsigned face = 0; face < 4; ++face) prefetch(neighbour(t, face));
+  set_mark(t, kInside);
+}
+
+void BowyerWatson::test_neighbours(std::size_t i, const Vec3& p, VertexId p_rank) {
+  const auto mirrors = tets_[region_[i].index()].mirrors;
+  const Corners corners = region_corners_[i];
+  // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the minors of
+  // two rows serve for the two faces opposite the other two.
+  const std::array<LiftedRow, 4> rows = {rows_.row(corners[0]), rows_.row(corners[1]), rows_.row(corners[2]),
+                                         rows_.row(corners[3])};
+  const std::array<RowMinors, 2> minors = {RowMinors(rows[2], rows[3]), RowMinors(rows[0], rows[1])};
+  const std::array<double, 2> products = {rows[2].w * rows[3].w, rows[0].w * rows[1].w};
+  const std::array<double, 2> greatest = {std::max(rows[2].w, rows[3].w), std::max(rows[0].w, rows[1].w)};
+
+  for (unsigned face = 0; face < 4; ++face) {
+    const FacetId mirror(mirrors[face].value & kMirrorMask);
+    const TetId outside = mirror.tet();
+    const std::uint32_t known = mark(outside);
+    if (known == kInside) continue;
+    if (known == kUnknown) {
+      const VertexId far = vertices(outside)[mirror.face()];
+      const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
+      const LiftedRow& partner = rows[face ^ 1u];
+      // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
+      // the row stands before its partner, which is a swap when the face is odd.
+      const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
+      const bool certain = is_certain(det, products[face >> 1] * (row.w * partner.w),
+                                      std::max(greatest[face >> 1], std::max(row.w, partner.w)));
+      if (certain ? (face % 2 == 0 ? det > 0 : det < 0) : conflicts(outside, p, p_rank)) {
+        add_to_region(outside);
+        continue;
+      }
+      set_mark(outside, kOutside);
+    }
+    rim_.push_back(mirror);
+    const auto& slots = kStarSlots[face];
+    rim_corners_.push_back({corners[slots[0]], corners[slots[1]], corners[slots[2]]});
+  }
 }
 
 VertexId BowyerWatson::fill_cavity() {
@@ -159,71 +211,68 @@ void BowyerWatson::abandon_cavity() {
   rim_.clear();
 }
 
-void BowyerWatson::star_rim(VertexId apex) {
-  // Step 1: slots for the star, those of the region first.
-  const std::size_t count = rim_.size();
-  created_.clear();
-  while (created_.size() < count && created_.size() < region_.size()) created_.push_back(region_[created_.size()]);
-  for (std::size_t i = count; i < region_.size(); ++i) {
-    tets_[region_[i].index()].vertices[0] = VertexId::none();
-    free_.push_back(region_[i]);
+void BowyerWatson::take_slots() {
+  // The slots of the region first, then free ones, then new ones; what is left of the region is free.
+  const std::size_t reused = std::min(region_.size(), rim_.size());
+  const auto split = region_.begin() + static_cast<std::ptrdiff_t>(reused);
+  created_.assign(region_.begin(), split);
+  for (auto t = split; t != region_.end(); ++t) {
+    tets_[t->index()].vertices[0] = VertexId::none();
+    free_.push_back(*t);
   }
-  while (created_.size() < count) {
+  while (created_.size() < rim_.size()) {
     if (free_.empty()) {
+      DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
       created_.push_back(TetId(tets_.size()));
       tets_.emplace_back();
-      mark_.push_back(kUnknown);
     } else {
       created_.push_back(free_.back());
       free_.pop_back();
     }
   }
+}
 
-  // Step 2: one tetrahedron over each facet of the rim; glue it to the facet and, edge by edge, to its siblings.
-  edges_.start(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const FacetId outside = rim_[i];
-    // Seen from the apex the facet turns the other way round. The infinite vertex goes to slot 3.
-    auto [x, z, y] = facet_vertices(outside);
-    while (x == kInfiniteVertex || y == kInfiniteVertex) {
-      const VertexId first = x;
-      x = y;
-      y = z;
-      z = first;
-    }
+void BowyerWatson::star_rim(VertexId apex) {
+  take_slots();
+  edges_.start(rows_.size(), 3 * rim_.size());
+  // Step 1: one tetrahedron over each facet of the rim, glued to the facet. Each of its other three faces stands on a
+  // directed edge of the rim.
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const auto [x, y, z] = rim_corners_[i];
     const TetId t = created_[i];
     Tet& tet = tets_[t.index()];
-    tet.vertices = {apex, x, y, z};
-    tet.mirrors[0] = outside;
-    tets_[outside.tet().index()].mirrors[outside.face()] = FacetId(t, 0);
-    const std::array<VertexId, 3> ring = {x, y, z};
-    for (unsigned face = 1; face < 4; ++face) {
-      const VertexId a = ring[face % 3];
-      const VertexId b = ring[(face + 1) % 3];
-      const FacetId here(t, face);
-      const FacetId twin = edges_.match(a, b, here);
-      if (twin.is_none()) continue;
-      tet.mirrors[face] = twin;
-      tets_[twin.tet().index()].mirrors[twin.face()] = here;
-    }
-    incident_[x.index()] = t;
-    incident_[y.index()] = t;
-    if (z != kInfiniteVertex) incident_[z.index()] = t;
+    tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
+    tet.mirrors[0] = rim_[i];
+    tets_[rim_[i].tet().index()].mirrors[rim_[i].face()] = FacetId(t, 0);
+    edges_.at(y, z) = FacetId(t, 1);
+    edges_.at(z, x) = FacetId(t, 2);
+    edges_.at(x, y) = FacetId(t, 3);
+    incident_[tet.vertices[1].index()] = t;
+    incident_[tet.vertices[2].index()] = t;
+    if (z != LiftedRows::kInfinite) incident_[tet.vertices[3].index()] = t;
+  }
+  // Step 2: the mirror of a face stands on the reversed edge.
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const auto [x, y, z] = rim_corners_[i];
+    auto& mirrors = tets_[created_[i].index()].mirrors;
+    mirrors[1] = edges_.at(z, y);
+    mirrors[2] = edges_.at(x, z);
+    mirrors[3] = edges_.at(y, x);
   }
   incident_[apex.index()] = created_.front();
   region_.clear();
   rim_.clear();
 }
 
-void BowyerWatson::start(const std::array<VertexId, 4>& simplex) {
+void BowyerWatson::make_first_tet() {
   // The first tetrahedron, positively oriented, and a ghost on each of its facets.
-  std::array<VertexId, 4> v = simplex;
+  std::array<VertexId, 4> v = {VertexId(std::size_t{0}), VertexId(std::size_t{1}), VertexId(std::size_t{2}),
+                               VertexId(std::size_t{3})};
   if (orient3d(point(v[0]), point(v[1]), point(v[2]), point(v[3])) < 0) std::swap(v[2], v[3]);
   tets_.resize(5);
-  mark_.assign(5, kUnknown);
   const TetId inner(std::size_t{0});
   tets_[0].vertices = v;
-  edges_.start(4);
+  edges_.start(4, 12);
   for (unsigned face = 0; face < 4; ++face) {
     const TetId t(std::size_t{face} + 1);
     Tet& ghost = tets_[t.index()];
@@ -232,13 +281,15 @@ void BowyerWatson::start(const std::array<VertexId, 4>& simplex) {
     ghost.mirrors[3] = FacetId(inner, face);
     tets_[0].mirrors[face] = FacetId(t, 3);
     for (unsigned side = 0; side < 3; ++side) {
-      const FacetId here(t, side);
-      const FacetId twin = edges_.match(ghost.vertices[(side + 1) % 3], ghost.vertices[(side + 2) % 3], here);
-      if (twin.is_none()) continue;
-      ghost.mirrors[side] = twin;
-      tets_[twin.tet().index()].mirrors[twin.face()] = here;
+      edges_.at(ghost.vertices[(side + 1) % 3].value, ghost.vertices[(side + 2) % 3].value) = FacetId(t, side);
     }
-    incident_[v[face].index()] = inner;
+    incident_[face] = inner;
+  }
+  for (unsigned face = 0; face < 4; ++face) {
+    Tet& ghost = tets_[face + 1];
+    for (unsigned side = 0; side < 3; ++side) {
+      ghost.mirrors[side] = edges_.at(ghost.vertices[(side + 2) % 3].value, ghost.vertices[(side + 1) % 3].value);
+    }
   }
 }
 
@@ -247,31 +298,33 @@ void BowyerWatson::clear() {
   incident_.clear();
   tets_.clear();
   free_.clear();
-  mark_.clear();
   region_.clear();
   rim_.clear();
   created_.clear();
+  ranks_.clear();
 }
 
-void BowyerWatson::drop_duplicates(std::vector<VertexId>& vertex_of) {
-  // Number the vertices that stay, in the order of the input, and rename them everywhere.
+void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of) {
+  // Number the vertices in the order of the input, skipping duplicates.
   std::vector<VertexId> renamed(points_.size());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (vertex_of[i] != VertexId(i)) continue;
-    renamed[i] = VertexId(kept);
-    points_[kept] = points_[i];
-    incident_[kept] = incident_[i];
-    ++kept;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const VertexId v = vertex_of[i];
+    if (ranks_[v.index()] != VertexId(i)) continue;
+    renamed[v.index()] = VertexId(count);
+    points_[count++] = points[i];
   }
-  points_.resize(kept);
-  incident_.resize(kept);
-  for (Tet& tet : tets_) {
-    for (VertexId& v : tet.vertices) {
-      if (!v.is_none()) v = renamed[v.index()];
+  // Rename them everywhere.
+  for (VertexId& v : vertex_of) v = renamed[v.index()];
+  for (std::size_t t = 0; t < tets_.size(); ++t) {
+    for (VertexId& v : tets_[t].vertices) {
+      if (v.is_none()) continue;
+      v = renamed[v.index()];
+      incident_[v.index()] = TetId(t);
     }
   }
-  for (VertexId& v : vertex_of) v = renamed[v.index()];
+  ranks_.clear();
+  ranks_.shrink_to_fit();
 }
 
 }  // namespace deliso

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/lifted_rows.h"
 #include "delaunay/rim_edges.h"
 #include "delaunay/static_filter.h"
 #include "delaunay/tetrahedralization.h"
@@ -54,26 +55,48 @@ class BowyerWatson : public Tetrahedralization {
   void abandon_cavity();
 
  private:
-  // What the cavity search knows about a tetrahedron.
-  enum Mark : std::uint8_t { kUnknown, kInside, kOutside };
+  // Positions in rows_ of the vertices of a tetrahedron or facet.
+  using Corners = std::array<std::uint32_t, 4>;
+  using RimCorners = std::array<std::uint32_t, 3>;
 
-  [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_id) const;
-  void start(const std::array<VertexId, 4>& simplex);
-  std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_id, TetId located);
-  void grow_region(const Vec3& p, VertexId p_id, TetId first);
+  // While the region grows, the two highest bits of a tetrahedron's first mirror say what is known about it.
+  enum Mark : std::uint32_t { kUnknown = 0, kInside = 1, kOutside = 2 };
+  static constexpr unsigned kMarkShift = 30;
+  static constexpr std::uint32_t kMirrorMask = (1u << kMarkShift) - 1;
+  static constexpr std::size_t kMostTets = std::size_t{1} << (kMarkShift - 2);
+
+  [[nodiscard]] std::uint32_t mark(TetId t) const { return tets_[t.index()].mirrors[0].value >> kMarkShift; }
+  void set_mark(TetId t, Mark mark) {
+    FacetId& mirror = tets_[t.index()].mirrors[0];
+    mirror.value = (mirror.value & kMirrorMask) | (mark << kMarkShift);
+  }
+
+  [[nodiscard]] VertexId perturbation_rank(VertexId v) const { return ranks_.empty() ? v : ranks_[v.index()]; }
+  [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_rank) const;
+  std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located);
+  void grow_region(const Vec3& p, VertexId p_rank, TetId first);
+  void add_to_region(TetId t);
+  void test_neighbours(std::size_t i, const Vec3& p, VertexId p_rank);
+  void take_slots();
   void star_rim(VertexId apex);
+  void make_first_tet();
+  void insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order, std::vector<VertexId>& vertex_of);
+  void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
   void clear();
-  void drop_duplicates(std::vector<VertexId>& vertex_of);
 
   Box3 box_;
   StaticFilter filter_;
-  std::vector<TetId> free_;         // free slots
-  std::vector<std::uint8_t> mark_;  // Mark of each slot; all kUnknown between insertions
+  std::vector<TetId> free_;  // free slots
   std::vector<TetId> region_;
   std::vector<FacetId> rim_;
   std::vector<TetId> created_;
-  RimEdges edges_;
   Vec3 pending_;  // the point of the open cavity
+
+  LiftedRows rows_;                      // of the vertices met by the last search
+  std::vector<Corners> region_corners_;  // of region_[i]
+  std::vector<RimCorners> rim_corners_;  // of rim_[i], so that the apex before them makes a positive tetrahedron
+  RimEdges edges_;
+  std::vector<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
 };
 
 }  // namespace deliso

@@ -1,64 +1,55 @@
-// Glues the tetrahedra of a star: a small open-addressing table of the edges of a cavity's rim.
+// Glues the tetrahedra of a star: for each directed edge of a cavity's rim, the facet that stands on it.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "delaunay/ids.h"
 
 namespace deliso {
 
-// Every edge of the rim lies in exactly two facets of it, so every edge comes twice: the first time it is kept, the
-// second time it finds its partner. The table is never cleared (its entries carry the number of the cavity) and fits in
-// the first-level cache for all but enormous cavities.
+// A map from pairs of small numbers to facets. Every pair is written before it is read, so nothing is ever cleared: a
+// square table for the usual cavities, a hash table for the rare enormous ones.
 class RimEdges {
  public:
-  // Prepares for a cavity whose rim has `facets` facets (hence 3/2 as many edges).
-  void start(std::size_t facets) {
-    if (4 * facets > entries_.size()) {
-      std::size_t size = 256;
-      while (size < 4 * facets) size *= 2;
+  // Prepares for numbers below `numbers` and at most `edges` pairs.
+  void start(std::uint32_t numbers, std::size_t edges) {
+    is_square_ = numbers <= kLargestSquare;
+    if (is_square_) {
+      while ((1u << shift_) < numbers) ++shift_;
+      if (square_.size() < std::size_t{1} << (2 * shift_)) square_.resize(std::size_t{1} << (2 * shift_));
+    } else {
+      std::size_t size = 1;
+      while (size < 2 * edges) size *= 2;
       entries_.assign(size, Entry{});
-      shift_ = 64;
-      while (size > 1) {
-        size /= 2;
-        --shift_;
-      }
-      cavity_ = 0;
-    }
-    if (++cavity_ == 0) {  // the numbers have come round
-      std::fill(entries_.begin(), entries_.end(), Entry{});
-      cavity_ = 1;
     }
   }
 
-  // The facet that came with the edge {a, b} before, or none, and then keeps `facet` for it.
-  FacetId match(VertexId a, VertexId b, FacetId facet) {
-    const std::uint32_t low = std::min(a.value, b.value);
-    const std::uint32_t high = std::max(a.value, b.value);
-    const std::uint64_t key = (static_cast<std::uint64_t>(high) << 32) | low;
-    const std::size_t mask = entries_.size() - 1;
-    for (std::size_t i = (key * 0x9E3779B97F4A7C15ull) >> shift_;; i = (i + 1) & mask) {
-      Entry& entry = entries_[i];
-      if (entry.cavity != cavity_) {
-        entry = {key, cavity_, facet};
-        return FacetId();
-      }
-      if (entry.key == key) return entry.facet;
-    }
+  FacetId& at(std::uint32_t from, std::uint32_t to) {
+    return is_square_ ? square_[(from << shift_) | to] : hashed(from, to);
   }
 
  private:
+  static constexpr std::uint32_t kLargestSquare = 512;
   struct Entry {
-    std::uint64_t key = 0;
-    std::uint32_t cavity = 0;
+    std::uint64_t key = 0;  // no pair is (0, 0)
     FacetId facet;
   };
+
+  FacetId& hashed(std::uint32_t from, std::uint32_t to) {
+    const std::uint64_t key = (static_cast<std::uint64_t>(from) << 32) | to;
+    const std::size_t mask = entries_.size() - 1;
+    std::size_t i = ((key * 0x9E3779B97F4A7C15ull) >> 24) & mask;
+    while (entries_[i].key != key && entries_[i].key != 0) i = (i + 1) & mask;
+    entries_[i].key = key;
+    return entries_[i].facet;
+  }
+
+  bool is_square_ = true;
+  unsigned shift_ = 5;
+  std::vector<FacetId> square_;
   std::vector<Entry> entries_;
-  std::uint32_t cavity_ = 0;
-  unsigned shift_ = 0;
 };
 
 }  // namespace deliso

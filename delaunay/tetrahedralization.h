@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
@@ -41,6 +42,8 @@ class Tetrahedralization {
     const auto& slots = kFacetSlots[f.face()];
     return {v[slots[0]], v[slots[1]], v[slots[2]]};
   }
+  // Tells the processor that t will be read soon.
+  void prefetch(TetId t) const { __builtin_prefetch(&tets_[t.index()]); }
 
  protected:
   // Half a cache line. A free slot has no vertex in slot 0.
@@ -49,9 +52,9 @@ class Tetrahedralization {
     std::array<FacetId, 4> mirrors;  // across face i: that facet as the neighbour knows it
   };
 
-  std::vector<Vec3> points_;     // point of each vertex
-  std::vector<TetId> incident_;  // a live tetrahedron at each vertex
-  std::vector<Tet> tets_;        // live and free slots
+  std::vector<Vec3, HugePageAllocator<Vec3>> points_;  // point of each vertex
+  std::vector<TetId> incident_;                        // a live tetrahedron at each vertex
+  std::vector<Tet, HugePageAllocator<Tet>> tets_;      // live and free slots
 };
 
 }  // namespace deliso

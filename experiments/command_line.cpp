@@ -88,16 +88,20 @@ std::uint64_t parse_count(const std::string& text, const std::string& option, st
 }
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
-  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")->required();
-  command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)");
-  command.add_option("--type", options.type, "Of a .raw file: " + supported_sample_types() + " (default: from its name)");
-  command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big");
-  command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)");
+  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")->type_name("")->required();
+  command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)")
+      ->type_name("NX,NY,NZ");
+  command
+      .add_option("--type", options.type, "Of a .raw file: " + supported_sample_types() + " (default: from its name)")
+      ->type_name("T");
+  command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big")->type_name("ORDER");
+  command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)")
+      ->type_name("SX,SY,SZ");
 }
 
 ScalarGrid load_volume(const VolumeOptions& options) {
-  const bool described = !options.dims.empty() || !options.type.empty() || !options.endian.empty() ||
-                         !options.spacing.empty();
+  const bool described =
+      !options.dims.empty() || !options.type.empty() || !options.endian.empty() || !options.spacing.empty();
   if (described && !is_raw(options.path)) {
     throw InputError("--dims, --type, --endian and --spacing describe a .raw file, but the volume is " + options.path);
   }

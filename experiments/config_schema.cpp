@@ -19,10 +19,14 @@ Json field_schema(const ParameterField& field) {
   Json schema;
   const auto type_name = [&field]() -> std::string {
     switch (field.type) {
-      case ParameterType::kNumber: return "number";
-      case ParameterType::kInteger: return "integer";
-      case ParameterType::kBoolean: return "boolean";
-      case ParameterType::kChoice: return "string";
+      case ParameterType::kNumber:
+        return "number";
+      case ParameterType::kInteger:
+        return "integer";
+      case ParameterType::kBoolean:
+        return "boolean";
+      case ParameterType::kChoice:
+        return "string";
     }
     return "";
   }();
@@ -74,8 +78,8 @@ std::string parameters_help() {
 std::string parameters_markdown() {
   std::string text = "| key | default | allowed | unit | effect |\n|---|---|---|---|---|\n";
   for (const ParameterField& field : parameter_table()) {
-    text += "| `" + std::string(field.path) + "` | `" + default_text(field) + "` | " +
-            allowed_values(field) + " | " + std::string(field.unit) + " | " + std::string(field.effect) + " |\n";
+    text += "| `" + std::string(field.path) + "` | `" + default_text(field) + "` | " + allowed_values(field) + " | " +
+            std::string(field.unit) + " | " + std::string(field.effect) + " |\n";
   }
   return text;
 }

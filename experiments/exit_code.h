@@ -4,11 +4,11 @@
 namespace deliso {
 
 enum class ExitCode : int {
-  kDone = 0,        // done; where something is proven: proven
-  kNotProven = 1,   // finished, but the result differs or a check failed
-  kBadInput = 2,    // bad usage or bad input: one line on stderr, no output file
-  kStopped = 3,     // stopped by a budget or a signal: the output is a valid partial result
-  kInternal = 70,   // a broken invariant of ours
+  kDone = 0,       // done; where something is proven: proven
+  kNotProven = 1,  // finished, but the result differs or a check failed
+  kBadInput = 2,   // bad usage or bad input: one line on stderr, no output file
+  kStopped = 3,    // stopped by a budget or a signal: the output is a valid partial result
+  kInternal = 70,  // a broken invariant of ours
 };
 
 }  // namespace deliso

@@ -16,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A device or a pipe: there is no file to replace.
+// A device, a pipe or a stream that is already open (/dev/stdout): there is no file to replace.
 bool is_special(const fs::path& path) {
+  if (path.string().starts_with("/dev/")) return true;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
@@ -41,7 +42,7 @@ std::string read_text(const fs::path& path) {
 
 void write_text(const std::string& text, const fs::path& path) {
   if (is_special(path)) {
-    std::ofstream stream(path, std::ios::binary);
+    std::ofstream stream(path, std::ios::binary | std::ios::app);
     stream << text;
     stream.close();
     if (!stream) throw InputError(path.string() + ": writing failed");

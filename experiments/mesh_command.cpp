@@ -94,8 +94,8 @@ void print_summary(const MeshingResult& result) {
 // What a reader of stderr must know beyond the table.
 void print_remarks(const MeshRun& run, const MeshingResult& result) {
   if (result.isovalue_used != run.isovalue) {
-    std::cerr << "deliso: a sample equals the isovalue " << number_text(run.isovalue) << ", so the isosurface is singular; used "
-              << Json(result.isovalue_used).dump() << " instead\n";
+    std::cerr << "deliso: a sample equals the isovalue " << number_text(run.isovalue)
+              << ", so the isosurface is singular; used " << Json(result.isovalue_used).dump() << " instead\n";
   }
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
@@ -123,10 +123,10 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
   meshing.keep_stage1_mesh = !options.stage1_output.empty();
   check_outputs(options);
+  meshing.stop = &catch_stop_signals();
   const ScalarGrid grid = load_volume(options.volume);
 
-  // Mesh, watched on a terminal and stopped by a signal.
-  meshing.stop = &catch_stop_signals();
+  // Mesh, watched on a terminal.
   const MeshRun run{options.volume.path, grid, isovalue, meshing};
   const MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
@@ -147,16 +147,22 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<MeshCommandOptions>();
   CLI::App* command = app.add_subcommand("mesh", "Mesh an isosurface and certify the mesh");
   add_volume_options(*command, options->volume);
-  command->add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")->required();
-  command->add_option("-o,--output", options->output, "The mesh: .ply, .off, .obj or .stl")->required();
-  command->add_option("--config", options->config, "Parameters in a JSON file");
+  command->add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")
+      ->type_name("K")
+      ->required();
+  command->add_option("-o,--output", options->output, "The mesh: .ply, .off, .obj or .stl")
+      ->type_name("MESH")
+      ->required();
+  command->add_option("--config", options->config, "Parameters in a JSON file")->type_name("FILE");
   command->add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
+      ->type_name("KEY=VALUE")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("--seed", options->seed, "Seed of the random choices")->capture_default_str();
-  command->add_option("--report", options->report, "Write a JSON report of the run");
-  command->add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)");
-  command->add_option("--threads", options->threads, "Threads to use")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the random choices")->type_name("N")->capture_default_str();
+  command->add_option("--report", options->report, "Write a JSON report of the run")->type_name("FILE");
+  command->add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
+      ->type_name("MESH");
+  command->add_option("--threads", options->threads, "Threads to use")->type_name("N")->capture_default_str();
   command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
   command->add_flag("--ascii", options->ascii, "Write PLY as text");
   command->footer(parameters_help());

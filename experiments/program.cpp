@@ -30,8 +30,9 @@ ExitCode fail(ExitCode code, const std::string& message) {
 
 ExitCode fail_internally(const std::string& what) {
   const ProgramInfo info = program_info();
-  return fail(ExitCode::kInternal, "internal error: " + what + "; please report this line, the command and its input (version " +
-                                       info.version + ", commit " + info.commit + ")");
+  return fail(ExitCode::kInternal, "internal error: " + what +
+                                       "; please report this line, the command and its input (version " + info.version +
+                                       ", commit " + info.commit + ")");
 }
 
 std::string version_text() {
@@ -47,16 +48,16 @@ void check_command_name(const CLI::App& app, int argc, const char* const* argv) 
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  throw InputError("unknown command '" + std::string(name) + "', the nearest is '" +
-                   nearest_name(name, names) + "' (deliso --help lists all)");
+  throw InputError("unknown command '" + std::string(name) + "', the nearest is '" + nearest_name(name, names) +
+                   "' (deliso --help lists all)");
 }
 
 ExitCode run(int argc, const char* const* argv) {
   CLI::App app("Certified Delaunay meshes of isosurfaces of scalar volumes", "deliso");
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
-  app.option_defaults()->always_capture_default();
-  app.footer("Exit codes: 0 done (and proven), 1 not proven, 2 bad usage or input, 3 stopped early, 70 internal error.");
+  app.footer(
+      "Exit codes: 0 done (and proven), 1 not proven, 2 bad usage or input, 3 stopped early, 70 internal error.");
   ExitCode exit_code = ExitCode::kDone;
   add_mesh_command(app, exit_code);
   add_verify_command(app, exit_code);

@@ -2,7 +2,7 @@
 
 #include "experiments/config.h"
 #include "experiments/program_info.h"
-#include "volume/sha256.h"
+#include "volume/io/sha256.h"
 
 namespace deliso {
 namespace {
@@ -34,8 +34,7 @@ Json recover_json(const RecoverStats& recover) {
   json["extract_manifold"] = recover.extract_manifold;
   json["approximate_geometry"] = recover.approximate_geometry;
   json["refused_by_size_bound"] = recover.refused_by_size_bound;
-  json["share_restricted"] =
-      recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
+  json["share_restricted"] = recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
   return json;
 }
 
@@ -49,18 +48,24 @@ Json refine_json(const RefineStats& refine) {
   return json;
 }
 
-// In the order of the pipeline.
-Json stages_json(const MeshingResult& result) {
-  return Json{{"index", stage_json(result.index)},   {"initial", stage_json(result.initial)},
-              {"recover", recover_json(result.recover)}, {"poles", stage_json(result.poles)},
-              {"build", stage_json(result.build)},   {"refine", refine_json(result.refine)},
-              {"certify", stage_json(result.certify_stage)}};
+// Finding the exact topology is part of certifying (the seeds use it too), so its time is counted there.
+Json certify_json(const MeshingResult& result) {
+  return Json{{"seconds", result.certify_stage.seconds + result.topology.seconds},
+              {"exact_topology_seconds", result.topology.seconds}};
 }
 
-Json certificate_json(const Certificate& certificate) {
-  return Json{{"verdict", verdict_name(certificate.verdict)}, {"manifold", certificate.manifold},
-              {"oriented", certificate.oriented},             {"mesh", topology_json(certificate.mesh)},
-              {"isosurface", topology_json(certificate.isosurface)}, {"differences", certificate.differences}};
+Json initial_json(const MeshingResult& result) {
+  return Json{{"seconds", result.initial.seconds},
+              {"searches", result.initial_search.searches},
+              {"solves", result.initial_search.solves}};
+}
+
+// In the order of the pipeline.
+Json stages_json(const MeshingResult& result) {
+  return Json{{"index", stage_json(result.index)},       {"initial", initial_json(result)},
+              {"recover", recover_json(result.recover)}, {"poles", stage_json(result.poles)},
+              {"build", stage_json(result.build)},       {"refine", refine_json(result.refine)},
+              {"certify", certify_json(result)}};
 }
 
 }  // namespace
@@ -94,6 +99,15 @@ Json topology_json(const std::vector<TopologyCount>& counts) {
   return list;
 }
 
+Json certificate_json(const Certificate& certificate) {
+  return Json{{"verdict", verdict_name(certificate.verdict)},
+              {"manifold", certificate.manifold},
+              {"oriented", certificate.oriented},
+              {"mesh", topology_json(certificate.mesh)},
+              {"isosurface", topology_json(certificate.isosurface)},
+              {"differences", certificate.differences}};
+}
+
 Json quality_json(const MeshQuality& quality) {
   return Json{{"min_angle_degrees", quality.min_angle_degrees},
               {"mean_min_angle_degrees", quality.mean_min_angle_degrees},
@@ -105,10 +119,14 @@ Json quality_json(const MeshQuality& quality) {
 
 std::string verdict_name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kHomeomorphic: return "homeomorphic";
-    case Verdict::kDifferent: return "different";
-    case Verdict::kSingularIsovalue: return "singular_isovalue";
-    case Verdict::kNotChecked: return "not_checked";
+    case Verdict::kHomeomorphic:
+      return "homeomorphic";
+    case Verdict::kDifferent:
+      return "different";
+    case Verdict::kSingularIsovalue:
+      return "singular_isovalue";
+    case Verdict::kNotChecked:
+      return "not_checked";
   }
   return "not_checked";
 }
@@ -125,7 +143,7 @@ TopologySum sum_of(const std::vector<TopologyCount>& counts) {
 
 std::vector<TopologyCount> mesh_topology(const MeshingResult& result) {
   if (!result.certificate.mesh.empty()) return result.certificate.mesh;
-  return certify(result.mesh, {}).mesh;
+  return certify(result.mesh, std::vector<ComponentTopology>()).mesh;
 }
 
 std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result) {

@@ -1,8 +1,8 @@
 // The record of one run (`--report`): everything needed to repeat it and what came out of it, as one JSON object.
 //
 // Times are wall-clock seconds on the steady clock. `total_seconds` is the mesher's own time, from the volume in memory
-// to the certified mesh; reading the volume, hashing it and writing files is outside it. `stages.*.seconds` add up to it.
-// A quotient without a denominator (seconds per insertion without insertions) is null.
+// to the certified mesh; reading the volume, hashing it and writing files is outside it. `stages.*.seconds` add up to
+// it. A quotient without a denominator (seconds per insertion without insertions) is null.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,9 @@ Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid);
 
 // [{euler_characteristic, boundary_loops, count}].
 Json topology_json(const std::vector<TopologyCount>& counts);
+
+// verdict, manifold, oriented, mesh, isosurface, differences.
+Json certificate_json(const Certificate& certificate);
 
 Json quality_json(const MeshQuality& quality);
 

@@ -21,8 +21,10 @@ void TextTable::print(std::ostream& stream, bool header) const {
     std::string rule;
     for (std::size_t c = 0; c < rows_[r].size(); ++c) {
       const std::string padding(widths[c] - rows_[r][c].size(), ' ');
-      line += (c > 0 ? "  " : "") + (c == 0 ? rows_[r][c] + padding : padding + rows_[r][c]);
-      rule += (c > 0 ? "  " : "") + std::string(widths[c], '-');
+      if (c > 0) line.append("  ").append(padding).append(rows_[r][c]);
+      if (c == 0) line.append(rows_[r][c]).append(padding);
+      if (c > 0) rule.append("  ");
+      rule.append(widths[c], '-');
     }
     stream << line << '\n';
     if (header && r == 0) stream << rule << '\n';

@@ -1,5 +1,4 @@
 // deliso topology: the exact topology of an isosurface, without a mesh.
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -12,6 +11,7 @@
 #include "experiments/files.h"
 #include "experiments/record.h"
 #include "experiments/text_table.h"
+#include "surface/certificate.h"
 #include "volume/exact_topology.h"
 
 namespace deliso {
@@ -23,17 +23,6 @@ struct TopologyCommandOptions {
   std::string report;
   bool closed = false;
 };
-
-// Equal components counted together, in ascending order.
-std::vector<TopologyCount> counted(std::vector<ComponentTopology> components) {
-  std::sort(components.begin(), components.end());
-  std::vector<TopologyCount> counts;
-  for (const ComponentTopology& component : components) {
-    if (counts.empty() || counts.back().topology != component) counts.push_back({component, 0});
-    ++counts.back().count;
-  }
-  return counts;
-}
 
 // What a component with this topology is called where it has a common name.
 std::string common_name(const ComponentTopology& topology) {
@@ -71,7 +60,8 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
     throw InputError("--isovalue: the isosurface at " + number_text(isovalue) + " has no point");
   }
 
-  const std::vector<TopologyCount> counts = counted(topology.components);
+  // A certificate counts equal components; it needs no mesh for that.
+  const std::vector<TopologyCount> counts = certify(TriangleMesh(), topology.components).isosurface;
   if (!options.report.empty()) {
     const TopologySum sum = sum_of(counts);
     const Json report = {{"schema", "deliso-topology-1"},
@@ -84,6 +74,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
                          {"euler_characteristic", sum.euler_characteristic},
                          {"boundary_loops", sum.boundary_loops},
                          {"crossings", topology.crossings.size()},
+                         {"singular_cells", topology.singular_cells.size()},
                          {"isosurface", topology_json(counts)},
                          {"total_seconds", seconds}};
     write_text(json_text(report), options.report);
@@ -98,8 +89,8 @@ void add_topology_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<TopologyCommandOptions>();
   CLI::App* command = app.add_subcommand("topology", "Exact topology of an isosurface, without a mesh");
   add_volume_options(*command, options->volume);
-  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->required();
-  command->add_option("--report", options->report, "Write the result as JSON");
+  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
+  command->add_option("--report", options->report, "Write the result as JSON")->type_name("FILE");
   command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command->callback([options, &exit_code] { exit_code = run_topology(*options); });
 }

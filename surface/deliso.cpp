@@ -143,10 +143,11 @@ void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshing
 
   // The tetrahedra go as soon as the surface mesh stands.
   SurfaceMesh surface = timed(result.build, [&] {
-    SurfaceMesh built = build_triangle_mesh(*restricted, pole_heights);
+    BuiltMesh built = build_triangle_mesh(*restricted);
     restricted.reset();
-    if (options.keep_stage1_mesh) result.stage1_mesh = to_world(built, grid, isosurface->step());
-    return built;
+    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(pole_heights[v.index()]);
+    if (options.keep_stage1_mesh) result.stage1_mesh = to_world(built.mesh, grid, isosurface->step());
+    return std::move(built.mesh);
   });
   if (parameters.algorithm == Algorithm::kTwoStage) {
     timed(result.refine,

@@ -74,12 +74,11 @@ Vec3 TextScanner::point() {
 
 void TextScanner::fail(const std::string& what, std::string_view found) const {
   constexpr std::size_t kLongest = 40;  // of a culprit quoted in a message
-  std::string message = file_;
-  message.append(", line ").append(std::to_string(line_)).append(": expected ").append(what).append(", found ");
+  std::string message = file_ + ", line " + std::to_string(line_) + ": expected " + what + ", found ";
   if (found.empty()) {
-    message.append("nothing");
+    message += "nothing";
   } else {
-    message.append("'").append(found.substr(0, kLongest)).append("'");
+    message.append(1, '\'').append(found.substr(0, kLongest)).append(1, '\'');
   }
   throw InputError(message);
 }

@@ -29,10 +29,10 @@ int orient2d(std::size_t axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   return sign(orient3d({a[u], a[v], 0}, {b[u], b[v], 0}, {c[u], c[v], 0}, {a[u], a[v], 1}));
 }
 
-// An axis along which abc keeps an area; 3 when the points are collinear.
+// An axis along which abc keeps an area. Precondition: not collinear.
 std::size_t projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   std::size_t axis = 0;
-  while (axis < 3 && orient2d(axis, a, b, c) == 0) ++axis;
+  while (axis < 2 && orient2d(axis, a, b, c) == 0) ++axis;
   return axis;
 }
 
@@ -177,8 +177,6 @@ Corners corners_from(const TriangleMesh& mesh, std::uint32_t t, std::size_t firs
 
 }  // namespace
 
-bool is_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) { return projection_axis(a, b, c) == 3; }
-
 TriangleContact triangle_contact(const TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
   const auto &vs = mesh.triangles[s], &vt = mesh.triangles[t];
   // The places of shared and of unshared corners.
@@ -216,7 +214,7 @@ SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep)
   triangle_of_box.reserve(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Corners corners = corners_from(mesh, t, 0);
-    if (is_zero_area(corners[0], corners[1], corners[2])) {
+    if (collinear(corners[0], corners[1], corners[2])) {
       ++found.zero_area_triangles;
       continue;
     }

@@ -38,10 +38,8 @@ struct SelfIntersections {
 // How the triangles s and t of the mesh meet beyond what they share. Precondition: neither has zero area.
 TriangleContact triangle_contact(const TriangleMesh& mesh, std::uint32_t s, std::uint32_t t);
 
-// Whether the three points are exactly collinear.
-bool is_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
-
-// All pairs; at most `keep` of each kind are kept. Precondition: indices in range, coordinates finite.
+// All pairs; at most `keep` of each kind are kept. Precondition: indices in range, coordinates as orient3d
+// wants them (delaunay/predicates.h).
 SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10);
 
 }  // namespace deliso

@@ -28,7 +28,7 @@ struct SurfaceMesh {
   std::vector<double> pole_heights;  // of each vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<TriangleSide, 3>> neighbours;
-  std::vector<SurfaceDelaunayBall> balls;
+  std::vector<SurfaceDelaunayBall> balls;  // of each triangle, kept by stage 2
 };
 
 // In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "surface/certificate.h"
+#include "surface/delaunay_balls.h"
 #include "surface/mesh_quality.h"
 #include "surface/self_intersection.h"
+#include "surface/surface_distance.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 
@@ -47,12 +49,7 @@ struct SelfIntersectionCheck {
   SelfIntersections found;
 };
 
-struct DistanceFigure {
-  double max_voxels = 0;
-  double mean_voxels = 0;
-  Vec3 worst;  // where the maximum is, in the world
-};
-
+// In a DistanceFigure `worst` is in the world.
 struct ResidualCheck {
   bool pass = false;        // max <= 1e-3 voxel
   DistanceFigure distance;  // of the referenced vertices to the isosurface
@@ -70,12 +67,6 @@ struct NormalCheck {
   double fraction_against = 0;
   double min_cosine = 1;  // the smallest of those cosines; at the point of the isosurface next to the centroid
   double mean_cosine = 1;
-};
-
-struct DelaunayBallCheck {
-  bool pass = false;             // every ball is empty, every triangle has one
-  std::int64_t occupied = 0;     // balls that hold another vertex strictly inside
-  std::int64_t without_hit = 0;  // triangles whose dual line has no hit
 };
 
 struct Verification {

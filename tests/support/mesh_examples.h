@@ -1,6 +1,8 @@
 // Small meshes with known shape and topology.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>

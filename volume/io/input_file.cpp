@@ -120,7 +120,7 @@ Samples read_samples(InputFile& file, const SampleLayout& layout) {
   ByteReader reader(file, layout.compression);
   skip_bytes(reader, file, layout.skipped_bytes);
   // Compare the size that the header claims with what the file can hold, before any allocation.
-  const std::size_t count = checked_sample_count(layout.dims);
+  const std::size_t count = sample_count_of(file, layout.dims);
   const std::uint64_t expected = static_cast<std::uint64_t>(count) * sample_size(layout.type);
   if (expected > reader.bound()) {
     if (layout.compression == Compression::kNone) fail_truncated(file, reader.bound(), expected);
@@ -139,6 +139,23 @@ Samples read_samples(InputFile& file, const SampleLayout& layout) {
     file.fail("the data go on after the " + counted(expected, "bytes") + " that the dimensions and the type need");
   if (layout.endian != kHostEndian) swap_bytes(samples);
   return samples;
+}
+
+std::size_t sample_count_of(const InputFile& file, const Dims& dims) {
+  try {
+    return checked_sample_count(dims);
+  } catch (const InputError& error) {
+    file.fail(error.what());
+  }
+}
+
+ScalarGrid make_grid(const InputFile& file, const Dims& dims, Samples samples, const Vec3& spacing,
+                     const Vec3& origin) {
+  try {
+    return {dims, std::move(samples), spacing, origin};
+  } catch (const InputError& error) {
+    file.fail(error.what());
+  }
 }
 
 }  // namespace deliso

@@ -57,4 +57,8 @@ struct SampleLayout {
 // Throws InputError when the data are too short, too long or corrupt, or memory does not suffice.
 Samples read_samples(InputFile& file, const SampleLayout& layout);
 
+// The same checks as checked_sample_count and the constructor of ScalarGrid, with errors that name the file.
+std::size_t sample_count_of(const InputFile& file, const Dims& dims);
+ScalarGrid make_grid(const InputFile& file, const Dims& dims, Samples samples, const Vec3& spacing, const Vec3& origin);
+
 }  // namespace deliso

@@ -21,7 +21,7 @@ void skip_to_data(InputFile& file, const NrrdHeader& header) {
       file.fail("the data end after " + std::to_string(n) + " lines, but \"line skip\" is " +
                 std::to_string(header.skipped_lines));
   if (!header.skip_from_end) return;
-  const std::uint64_t bytes = checked_sample_count(header.layout.dims) * sample_size(header.layout.type);
+  const std::uint64_t bytes = sample_count_of(file, header.layout.dims) * sample_size(header.layout.type);
   if (bytes <= file.remaining()) file.skip(file.remaining() - bytes);
 }
 
@@ -71,17 +71,17 @@ ScalarGrid read_nrrd(const std::filesystem::path& path) {
   InputFile file(path);
   NrrdHeader header = read_nrrd_header(file);
   std::optional<InputFile> detached;
-  if (!header.data_file.empty()) detached.emplace(header.data_file);
+  try {
+    if (!header.data_file.empty()) detached.emplace(header.data_file);
+  } catch (const InputError& error) {
+    file.fail(std::string("the data file ") + error.what());
+  }
   InputFile& data = detached ? *detached : file;
   skip_to_data(data, header);
   Samples samples = read_samples(data, header.layout);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (header.flipped[axis]) reverse_axis(samples, header.layout.dims, axis);
-  try {
-    return {header.layout.dims, std::move(samples), header.spacing, header.origin};
-  } catch (const InputError& error) {
-    file.fail(error.what());
-  }
+  return make_grid(file, header.layout.dims, std::move(samples), header.spacing, header.origin);
 }
 
 void write_nrrd(const ScalarGrid& grid, const std::filesystem::path& path, NrrdEncoding encoding) {

@@ -1,0 +1,77 @@
+// deliso generate: writes a built-in volume.
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "delaunay/base/check.h"
+#include "experiments/command_line.h"
+#include "experiments/commands.h"
+#include "experiments/files.h"
+#include "experiments/text_table.h"
+#include "volume/analytic_fields.h"
+#include "volume/io/volume_file.h"
+
+namespace deliso {
+namespace {
+
+struct GenerateCommandOptions {
+  std::string name;
+  std::string output;
+  std::string size;
+  std::string seed = "1";
+  bool list = false;
+};
+
+void print_list() {
+  TextTable table;
+  table.row({"name", "size", "isovalue", "type"});
+  for (const AnalyticField& field : analytic_fields()) {
+    table.row({field.name, std::to_string(field.default_size), number_text(field.isovalue), field.type_name});
+  }
+  table.print(std::cout, true);
+  std::cout << '\n';
+  for (const AnalyticField& field : analytic_fields()) std::cout << field.name << ": " << field.description << '\n';
+}
+
+ExitCode run_generate(const GenerateCommandOptions& options) {
+  if (options.list) {
+    print_list();
+    return ExitCode::kDone;
+  }
+  if (options.name.empty()) throw InputError("generate: NAME is required (--list names all)");
+  if (options.output.empty()) throw InputError("generate: -o VOLUME is required");
+  const AnalyticField& field = find_analytic_field(options.name);
+  const auto size = options.size.empty()
+                        ? field.default_size
+                        : static_cast<std::int32_t>(parse_count(options.size, "--size", 2, kLargestFieldSize));
+  const std::uint64_t seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  check_writable(options.output, "-o");
+  const ScalarGrid grid = generate_field(field.name, size, seed);
+  write_volume(grid, options.output);
+  const std::string side = std::to_string(size);
+  TextTable()
+      .row({"volume", options.output})
+      .row({"dims", side + " " + side + " " + side})
+      .row({"type", grid.type_name()})
+      .row({"suggested isovalue", number_text(field.isovalue)})
+      .print(std::cout);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_generate_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<GenerateCommandOptions>();
+  CLI::App* command = app.add_subcommand("generate", "Write a built-in volume");
+  command->add_option("NAME", options->name, "Which one")->type_name("");
+  command->add_option("-o,--output", options->output, "The volume: .nrrd or .raw")->type_name("VOLUME");
+  command->add_option("--size", options->size, "Samples along each axis (default: the field's own)")->type_name("N");
+  command->add_option("--seed", options->seed, "Seed of the fields that are random")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--list", options->list, "List the built-in volumes");
+  command->callback([options, &exit_code] { exit_code = run_generate(*options); });
+}
+
+}  // namespace deliso

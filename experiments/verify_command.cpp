@@ -1,0 +1,149 @@
+// deliso verify: judges any mesh as an image of an isosurface, with code that the mesher does not use.
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "experiments/command_line.h"
+#include "experiments/commands.h"
+#include "experiments/files.h"
+#include "experiments/record.h"
+#include "experiments/text_table.h"
+#include "surface/mesh_io.h"
+#include "surface/verification.h"
+
+namespace deliso {
+namespace {
+
+struct VerifyCommandOptions {
+  std::string mesh;
+  VolumeOptions volume;
+  std::string isovalue;
+  std::string report;
+  bool closed = false;
+};
+
+Json distance_json(const DistanceFigure& figure) {
+  return Json{{"max_voxels", figure.max_voxels},
+              {"mean_voxels", figure.mean_voxels},
+              {"worst", Json::array({figure.worst.x, figure.worst.y, figure.worst.z})}};
+}
+
+Json manifold_json(const ManifoldCheck& check) {
+  return Json{{"pass", check.pass},
+              {"non_manifold_edges", check.non_manifold_edges},
+              {"non_manifold_vertices", check.non_manifold_vertices},
+              {"repeated_vertices", check.repeated_vertices},
+              {"duplicate_triangles", check.duplicate_triangles},
+              {"zero_area_triangles", check.zero_area_triangles},
+              {"unreferenced_vertices", check.unreferenced_vertices},
+              {"components", check.components},
+              {"euler_characteristic", check.euler_characteristic},
+              {"boundary_loops", check.boundary_loops}};
+}
+
+// Every check under its name: `pass` and its figures.
+Json checks_json(const Verification& v) {
+  Json topology = certificate_json(v.topology);
+  topology["pass"] = v.topology.verdict == Verdict::kHomeomorphic;
+  return Json{{"manifold", manifold_json(v.manifold)},
+              {"orientation",
+               {{"pass", v.orientation.pass},
+                {"misoriented_edges", v.orientation.misoriented_edges},
+                {"reversed_components", v.orientation.reversed_components}}},
+              {"boundary",
+               {{"pass", v.boundary.pass},
+                {"boundary_edges", v.boundary.boundary_edges},
+                {"off_box_edges", v.boundary.off_box_edges},
+                {"outside_vertices", v.boundary.outside_vertices}}},
+              {"topology", topology},
+              {"self_intersection",
+               {{"pass", v.self_intersection.pass},
+                {"crossing_pairs", v.self_intersection.found.crossing_pairs},
+                {"touching_pairs", v.self_intersection.found.touching_pairs}}},
+              {"residual", {{"pass", v.residual.pass}, {"distance", distance_json(v.residual.distance)}}},
+              {"distance",
+               {{"pass", v.distance.pass},
+                {"mesh_to_isosurface", distance_json(v.distance.mesh_to_isosurface)},
+                {"isosurface_to_mesh", distance_json(v.distance.isosurface_to_mesh)}}},
+              {"normals",
+               {{"pass", v.normals.pass},
+                {"against", v.normals.against},
+                {"fraction_against", v.normals.fraction_against},
+                {"min_cosine", v.normals.min_cosine},
+                {"mean_cosine", v.normals.mean_cosine}}},
+              {"delaunay_balls",
+               {{"pass", v.delaunay_balls.pass},
+                {"occupied", v.delaunay_balls.occupied},
+                {"without_hit", v.delaunay_balls.without_hit}}}};
+}
+
+Json verify_report(const VerifyCommandOptions& options, const ScalarGrid& grid, const Verification& v) {
+  return Json{{"schema", "deliso-verification-1"},
+              {"program", program_json()},
+              {"mesh", options.mesh},
+              {"volume", volume_json(options.volume.path, grid)},
+              {"closed", options.closed},
+              {"isovalue", v.isovalue},
+              {"isovalue_used", v.isovalue_used},
+              {"vertices", v.vertices},
+              {"triangles", v.triangles},
+              {"proven", v.proven},
+              {"failures", v.failures},
+              {"checks", checks_json(v)},
+              {"quality", quality_json(v.quality)},
+              {"total_seconds", v.seconds}};
+}
+
+std::string figure_text(const Json& figure) {
+  if (figure.is_number_float()) return number_text(figure.get<double>());
+  return figure.is_string() ? figure.get<std::string>() : figure.dump();
+}
+
+// One row per figure of the report; lists are left to the report.
+void print_checks(const Json& report) {
+  TextTable table;
+  table.row({"check", "figure", "value", "result"});
+  for (const auto& [check, figures] : report["checks"].items()) {
+    table.row({check, "", "", figures["pass"].get<bool>() ? "pass" : "fail"});
+    for (const auto& [name, figure] : figures.items()) {
+      if (name == "pass" || figure.is_array()) continue;
+      if (!figure.is_object()) table.row({"", name, figure_text(figure), ""});
+      if (figure.is_object()) table.row({"", name + ".max_voxels", figure_text(figure["max_voxels"]), ""});
+      if (figure.is_object()) table.row({"", name + ".mean_voxels", figure_text(figure["mean_voxels"]), ""});
+    }
+  }
+  for (const auto& [name, figure] : report["quality"].items()) table.row({"quality", name, figure_text(figure), ""});
+  table.print(std::cout, true);
+}
+
+ExitCode run_verify(const VerifyCommandOptions& options) {
+  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  if (!options.report.empty()) check_writable(options.report, "--report");
+  const TriangleMesh mesh = read_mesh(options.mesh);
+  const ScalarGrid grid = load_volume(options.volume);
+  check_isovalue(grid, isovalue);
+  const Verification verification =
+      verify_mesh(mesh, options.closed ? padded(grid, grid.range().first) : grid, isovalue);
+
+  const Json report = verify_report(options, grid, verification);
+  if (!options.report.empty()) write_text(json_text(report), options.report);
+  print_checks(report);
+  std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
+  for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
+  return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<VerifyCommandOptions>();
+  CLI::App* command = app.add_subcommand("verify", "Check any mesh against an isosurface");
+  command->add_option("MESH", options->mesh, "The mesh: .ply, .off, .obj or .stl")->type_name("")->required();
+  add_volume_options(*command, options->volume);
+  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
+  command->add_option("--report", options->report, "Write every figure as JSON")->type_name("FILE");
+  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command->callback([options, &exit_code] { exit_code = run_verify(*options); });
+}
+
+}  // namespace deliso

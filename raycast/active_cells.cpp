@@ -1,0 +1,98 @@
+#include "raycast/active_cells.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace deliso {
+
+namespace {
+
+using Word = std::uint64_t;
+constexpr std::size_t kWordBits = 64;
+
+// Bit i of a row of words: is sample i of the row above the isovalue?
+template <class Sample>
+void pack_row(const Sample* samples, std::size_t count, double isovalue, Word* row) {
+  std::array<std::uint8_t, kWordBits> above{};
+  for (std::size_t first = 0; first < count; first += kWordBits) {
+    const std::size_t here = std::min(kWordBits, count - first);
+    above.fill(0);
+    for (std::size_t i = 0; i < here; ++i)
+      above[i] = static_cast<std::uint8_t>(static_cast<double>(samples[first + i]) > isovalue);
+    Word word = 0;
+    for (std::size_t i = 0; i < kWordBits; ++i) word |= static_cast<Word>(above[i]) << i;
+    row[first / kWordBits] = word;
+  }
+}
+
+// The signs of all samples, in rows of whole words.
+struct SampleSigns {
+  std::size_t words_per_row = 0;
+  std::size_t rows_per_slice = 0;
+  std::vector<Word> words;
+
+  SampleSigns(const ScalarGrid& grid, double isovalue) {
+    const auto n = static_cast<std::size_t>(grid.dims()[0]);
+    words_per_row = n / kWordBits + 1;  // one spare bit: extended cells outnumber samples by one
+    rows_per_slice = static_cast<std::size_t>(grid.dims()[1]);
+    const std::size_t rows = rows_per_slice * static_cast<std::size_t>(grid.dims()[2]);
+    words.resize(rows * words_per_row);
+    visit_samples(grid.samples(), [&](const auto& samples) {
+      for (std::size_t row = 0; row < rows; ++row)
+        pack_row(samples.data() + row * n, n, isovalue, words.data() + row * words_per_row);
+    });
+  }
+  [[nodiscard]] const Word* row(std::int32_t j, std::int32_t k) const {
+    return words.data() + words_per_row * (static_cast<std::size_t>(j) + rows_per_slice * static_cast<std::size_t>(k));
+  }
+};
+
+// Active bits of a row of extended cells from the four rows of samples around it.
+void activate_row(const std::array<const Word*, 4>& rows, std::size_t samples, std::vector<Word>& active) {
+  Word any_carry = 0;  // last bit of the word before
+  Word all_carry = 1;
+  for (std::size_t w = 0; w < active.size(); ++w) {
+    const Word any = rows[0][w] | rows[1][w] | rows[2][w] | rows[3][w];
+    Word all = rows[0][w] & rows[1][w] & rows[2][w] & rows[3][w];
+    // Cell e has samples e - 1 and e; cells 0 and n have only one of the two.
+    if (w == samples / kWordBits) all |= Word{1} << (samples % kWordBits);
+    active[w] = (any | (any << 1) | any_carry) & ~(all & ((all << 1) | all_carry));
+    any_carry = any >> (kWordBits - 1);
+    all_carry = all >> (kWordBits - 1);
+  }
+}
+
+}  // namespace
+
+ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
+  const Dims& n = grid.dims();
+  const auto lines = [&n](std::size_t a) { return static_cast<std::size_t>(n[a]) / 8 + 1; };
+  lines_x_ = lines(0);
+  lines_y_ = lines(1);
+  words_.assign(8 * lines_x_ * lines_y_ * lines(2), 0);
+  const SampleSigns signs(grid, isovalue);
+  std::vector<Word> active(signs.words_per_row);
+  for (std::int32_t z = 0; z <= n[2]; ++z)
+    for (std::int32_t y = 0; y <= n[1]; ++y) {
+      const std::int32_t j0 = std::max(y - 1, 0);
+      const std::int32_t j1 = std::min(y, n[1] - 1);
+      const std::int32_t k0 = std::max(z - 1, 0);
+      const std::int32_t k1 = std::min(z, n[2] - 1);
+      activate_row({signs.row(j0, k0), signs.row(j1, k0), signs.row(j0, k1), signs.row(j1, k1)},
+                   static_cast<std::size_t>(n[0]), active);
+      // Deal the row out to its bricks, four cells each.
+      for (std::int32_t x = 0; x <= n[0]; x += 4) {
+        const auto word = static_cast<std::size_t>(x) / kWordBits;
+        const Word four = (active[word] >> (static_cast<std::size_t>(x) % kWordBits)) & 15u;
+        if (four != 0) words_[word_index({x, y, z})] |= four << (((y & 3) << 2) | ((z & 3) << 4));
+      }
+    }
+}
+
+std::size_t ActiveCells::count() const {
+  std::size_t cells = 0;
+  for (const Word word : words_) cells += static_cast<std::size_t>(std::popcount(word));
+  return cells;
+}
+
+}  // namespace deliso

@@ -1,0 +1,178 @@
+// A line on its way through the voxel cells.
+//
+// Index space: sample (i, j, k) sits at (i, j, k). The *extended cells* of an axis with n samples are numbered 0 to n:
+// cell e covers [e - 1, e], cell 0 everything before the first sample and cell n everything behind the last. The field
+// is constant across cells 0 and n, so a line of any length crosses at most n faces per axis and needs no clipping.
+//
+// One rule orders the face crossings of a line, wherever they are computed: by line parameter, equal ones by axis. Two
+// cells that follow each other always share a face, and the crossing of that face is one and the same `Crossing` for
+// both. Every way to traverse the volume (cell by cell, or leaving blocks of cells in one jump) follows this order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "delaunay/base/vec3.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+using Cell = std::array<std::int32_t, 3>;
+using AxisValues = std::array<double, 3>;
+
+// Stands for an infinite line parameter; a product with zero is still zero.
+inline constexpr double kNever = 1e300;
+
+// The extended cell that holds coordinate x on an axis of n samples. Precondition: x is not NaN.
+inline std::int32_t extended_cell(double x, std::int32_t n) {
+  if (!(x >= 0)) return 0;
+  if (x >= n - 1) return n;
+  return static_cast<std::int32_t>(x) + 1;
+}
+
+// The cell of the grid whose samples an extended cell uses.
+inline Cell grid_cell(const Cell& extended, const Dims& dims) {
+  return {std::clamp(extended[0] - 1, 0, dims[0] - 2), std::clamp(extended[1] - 1, 0, dims[1] - 2),
+          std::clamp(extended[2] - 1, 0, dims[2] - 2)};
+}
+
+// A line in index space: position(s) = base + s * direction, where the caller's parameter is t = t_origin + s.
+struct IndexLine {
+  AxisValues base{};
+  AxisValues direction{};
+  AxisValues inverse{};  // 1 / direction, 0 where direction is 0
+  double t_origin = 0;
+
+  // The line parameter at which coordinate `axis` is `plane`. Precondition: direction[axis] is not zero.
+  [[nodiscard]] double crossing(std::size_t axis, double plane) const { return (plane - base[axis]) * inverse[axis]; }
+};
+
+// A place on the line: its parameter and, for a face crossing, the face's axis and plane.
+struct Crossing {
+  double s = 0;
+  std::int32_t axis = -1;  // -1: an end of the segment
+  double plane = 0;
+};
+
+// Extended cells from `low` to `high`, inclusive.
+struct CellBlock {
+  Cell low{};
+  Cell high{};
+};
+
+// Steps from cell to cell along a line: towards growing s, or (kBackward) towards falling s, in the exactly reversed
+// order.
+template <bool kBackward = false>
+class CellWalk {
+ public:
+  // From `start`, entered at parameter s_start, to `end`, which ends at s_end. Crossings are clamped to that range.
+  CellWalk(const IndexLine& line, const Cell& start, const Cell& end, double s_start, double s_end)
+      : line_(&line), cell_(start), entry_{s_start, -1, 0}, key_low_(signed_(s_start)), key_high_(signed_(s_end)) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      step_[a] = end[a] < start[a] ? -1 : 1;
+      remaining_[a] = step_[a] * (end[a] - start[a]);
+      set_next(a);
+    }
+    set_exit();
+  }
+
+  [[nodiscard]] const Cell& cell() const { return cell_; }
+  // Where the walk came into the cell and where it will leave it; axis -1 where it starts or ends.
+  [[nodiscard]] const Crossing& entry() const { return entry_; }
+  [[nodiscard]] const Crossing& exit() const { return exit_; }
+
+  // Goes on to the next cell; false when this was the last.
+  bool step() {
+    if (exit_.axis < 0) return false;
+    const auto a = static_cast<std::size_t>(exit_.axis);
+    entry_ = exit_;
+    cell_[a] += step_[a];
+    --remaining_[a];
+    set_next(a);
+    set_exit();
+    return true;
+  }
+
+  // Goes on to the first cell beyond the block, which holds the present cell; false when the walk ends within it. The
+  // same as calling step() until then, only faster.
+  bool leave(const CellBlock& block);
+
+ private:
+  // Crossings are compared by key: it grows along the walk.
+  static double signed_(double s) { return kBackward ? -s : s; }
+  // Of crossings with equal keys the lower axis comes first, or last when the walk goes backward.
+  static bool precedes(double key_a, std::size_t a, double key_b, std::size_t b) {
+    return key_a < key_b || (key_a == key_b && (kBackward ? a > b : a < b));
+  }
+  // The face behind the next `count` cells of an axis, count >= 1.
+  [[nodiscard]] std::int32_t plane_after(std::size_t a, std::int32_t count) const {
+    return step_[a] > 0 ? cell_[a] + count - 1 : cell_[a] - count;
+  }
+  [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return signed_(line_->crossing(a, plane)); }
+  void set_next(std::size_t a) { next_[a] = remaining_[a] > 0 ? key(a, plane_after(a, 1)) : kNever; }
+  void set_exit() {
+    const bool y_first = precedes(next_[1], 1, next_[0], 0);
+    const std::size_t xy = y_first ? 1 : 0;
+    const std::size_t a = precedes(next_[2], 2, next_[xy], xy) ? 2 : xy;
+    exit_ = next_[a] < kNever ? crossing(a, next_[a], plane_after(a, 1)) : Crossing{signed_(key_high_), -1, 0};
+  }
+  [[nodiscard]] Crossing crossing(std::size_t a, double key, std::int32_t plane) const {
+    return {signed_(std::clamp(key, key_low_, key_high_)), static_cast<std::int32_t>(a), static_cast<double>(plane)};
+  }
+  // How many steps along axis b come before the crossing (key, a); at most `most`.
+  [[nodiscard]] std::int32_t steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const;
+
+  const IndexLine* line_;
+  Cell cell_;
+  Cell step_{};
+  Cell remaining_{};   // steps still to do
+  AxisValues next_{};  // key of the next crossing
+  Crossing entry_;
+  Crossing exit_;
+  double key_low_;
+  double key_high_;
+};
+
+template <bool kBackward>
+std::int32_t CellWalk<kBackward>::steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const {
+  if (most == 0) return 0;
+  // Guess from the rounded position, then settle by the order of crossings.
+  const double x = line_->base[b] + signed_(key_a) * line_->direction[b];
+  const double guess = step_[b] > 0 ? std::floor(x) + 1 - cell_[b] : cell_[b] - (std::floor(x) + 1);
+  auto count = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(most)));
+  while (count < most && precedes(key(b, plane_after(b, count + 1)), b, key_a, a)) ++count;
+  while (count > 0 && !precedes(key(b, plane_after(b, count)), b, key_a, a)) --count;
+  return count;
+}
+
+template <bool kBackward>
+bool CellWalk<kBackward>::leave(const CellBlock& block) {
+  // The first crossing out of the block.
+  Cell count{};  // steps to the first cell beyond
+  double key_out = kNever;
+  std::size_t out = 3;
+  for (std::size_t a = 0; a < 3; ++a) {
+    count[a] = 1 + (step_[a] > 0 ? block.high[a] - cell_[a] : cell_[a] - block.low[a]);
+    if (count[a] > remaining_[a]) continue;
+    const double key_a = key(a, plane_after(a, count[a]));
+    if (out < 3 && !precedes(key_a, a, key_out, out)) continue;
+    key_out = key_a;
+    out = a;
+  }
+  if (out == 3) return false;
+  entry_ = crossing(out, key_out, plane_after(out, count[out]));
+  // All crossings before it.
+  for (std::size_t a = 0; a < 3; ++a)
+    if (a != out) count[a] = steps_before(a, std::min(count[a] - 1, remaining_[a]), key_out, out);
+  for (std::size_t a = 0; a < 3; ++a) {
+    cell_[a] += step_[a] * count[a];
+    remaining_[a] -= count[a];
+    set_next(a);
+  }
+  set_exit();
+  return true;
+}
+
+}  // namespace deliso

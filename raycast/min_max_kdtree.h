@@ -1,0 +1,62 @@
+// A kd-tree over the voxel cells of a grid, with the smallest and largest sample of every node.
+//
+// A node covers a box of cells. The root covers all; every level halves the boxes of the level above along one axis,
+// the one with the longest side, at the multiple of a power of two nearest the middle. So all boxes of a level have one
+// size (cut off at the volume's far faces), a level is a small regular grid of nodes, and the tree needs no pointers:
+// the node of a level that holds a cell is found by shifting the cell's coordinates, and the smallest node that holds
+// two cells from the highest bit in which they differ. It takes two samples per cell and is built bottom-up by pairwise
+// minima.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raycast/cell_walk.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+class MinMaxKdTree {
+ public:
+  // Leaves hold at most `leaf_cells` cells (the largest power of two that is not above it). Precondition: >= 1.
+  MinMaxKdTree(const ScalarGrid& grid, std::int32_t leaf_cells);
+
+  // Levels are counted from the cells up: a node of level l covers up to 2^l cells. Levels below leaf_level() are not
+  // kept, nor is level 0, where a cell's own samples tell.
+  [[nodiscard]] int leaf_level() const { return leaf_level_; }
+  [[nodiscard]] int root_level() const { return static_cast<int>(levels_.size()) - 1; }
+  // The level of the smallest node that holds both cells of the grid; 0 for one and the same.
+  [[nodiscard]] int common_level(const Cell& a, const Cell& b) const;
+  // Smallest and largest sample of the node that holds `cell` (a cell of the grid). Precondition: the level is kept.
+  [[nodiscard]] std::pair<double, double> range(int level, const Cell& cell) const;
+  [[nodiscard]] bool holds(double isovalue, int level, const Cell& cell) const {
+    const auto [low, high] = range(level, cell);
+    return low < isovalue && isovalue < high;
+  }
+  // The box of that node in extended cells; nodes at the volume's faces go on outward for ever.
+  [[nodiscard]] CellBlock block(int level, const Cell& cell) const;
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  // One level: how often each axis has been halved, counted from the cells, and where its nodes are stored.
+  struct Level {
+    std::array<int, 3> shift{};
+    std::array<std::size_t, 3> dims{};
+    std::size_t first = 0;  // index of its first node; all nodes of a level in x-fastest order
+  };
+  [[nodiscard]] static std::size_t node(const Level& level, const Cell& cell) {
+    const auto at = [&](std::size_t a) { return static_cast<std::size_t>(cell[a]) >> level.shift[a]; };
+    return level.first + at(0) + level.dims[0] * (at(1) + level.dims[1] * at(2));
+  }
+  void lay_out(std::int32_t leaf_cells);
+
+  Cell cells_{};  // cells per axis
+  Dims dims_{};   // samples per axis
+  int leaf_level_ = 0;
+  std::vector<Level> levels_;
+  std::array<std::array<std::int8_t, 32>, 3> level_of_bit_{};  // level whose nodes first join cells that differ there
+  Samples low_;                                                // smallest sample of every node
+  Samples high_;                                               // largest sample of every node
+};
+
+}  // namespace deliso

@@ -1,0 +1,138 @@
+#include "surface/isosurface_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delaunay/base/check.h"
+#include "volume/trilinear_cell.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
+constexpr double kSuspicious = 0.5;  // voxels beyond which the crossings are asked too
+constexpr int kRefinements = 2;      // walks along the gradient of the foot found so far
+
+}  // namespace
+
+IsosurfaceProbe::IsosurfaceProbe(const ScalarGrid& grid, double isovalue, std::span<const EdgeCrossing> crossings)
+    : grid_(grid),
+      isovalue_(isovalue),
+      crossings_(crossings),
+      voxel_(std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z})),
+      step_(grid.spacing() / voxel_) {
+  DELISO_CHECK(!crossings.empty(), "an isosurface crosses some grid edge");
+  const auto& dims = grid.dims();
+  box_ = {{0, 0, 0}, scaled(step_, {double(dims[0] - 1), double(dims[1] - 1), double(dims[2] - 1)})};
+}
+
+IsosurfaceProbe::Place IsosurfaceProbe::place(const Vec3& p) const {
+  std::array<std::int32_t, 3> cell{};
+  Place result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t last = grid_.dims()[axis] - 2;
+    const double x = std::clamp(p[axis] / step_[axis], 0.0, static_cast<double>(last + 1));
+    cell[axis] = std::min(static_cast<std::int32_t>(x), last);
+    result.uvw[axis] = x - cell[axis];
+  }
+  result.corners = grid_.cell(cell[0], cell[1], cell[2]);
+  return result;
+}
+
+double IsosurfaceProbe::value(const Vec3& p) const {
+  const Place at = place(p);
+  return trilinear_value(at.corners, at.uvw) - isovalue_;
+}
+
+Vec3 IsosurfaceProbe::gradient(const Vec3& p) const {
+  const Place at = place(p);
+  const Vec3 g = trilinear_gradient(at.corners, at.uvw);
+  return {g.x / step_.x, g.y / step_.y, g.z / step_.z};
+}
+
+// Walks from p by growing steps until the value changes sign, then closes in by false position (Illinois rule). The
+// foot is clamped to the box: beyond it the value is that of the clamped point.
+std::optional<FootPoint> IsosurfaceProbe::along_line(const Vec3& p, double value_at_p, const Vec3& direction,
+                                                     double first_step) const {
+  const auto foot = [&](double t) {
+    const Vec3 x = box_.clamp(p + t * direction);
+    return FootPoint{x, deliso::distance(p, x)};
+  };
+  double t0 = 0, f0 = value_at_p;
+  double t1 = std::clamp(first_step, 1e-14, kReach), f1 = value(p + t1 * direction);
+  while ((f1 < 0) == (f0 < 0) && f1 != 0) {
+    if (t1 >= kReach) return std::nullopt;
+    t0 = t1;
+    f0 = f1;
+    t1 = std::min(2 * t1, kReach);
+    f1 = value(p + t1 * direction);
+  }
+  // The root lies between t0 and t1, the latest guess. An end that stays twice counts half from then on.
+  for (int i = 0; i < 60 && f1 != 0; ++i) {
+    double t = t1 - f1 * (t1 - t0) / (f1 - f0);
+    if (!(std::min(t0, t1) < t && t < std::max(t0, t1))) t = 0.5 * (t0 + t1);
+    const double f = value(p + t * direction), moved = std::abs(t - t1);
+    if ((f < 0) == (f1 < 0)) {
+      f0 *= 0.5;
+    } else {
+      t0 = t1;
+      f0 = f1;
+    }
+    t1 = t;
+    f1 = f;
+    if (moved < 1e-13) break;
+  }
+  return foot(t1);
+}
+
+void IsosurfaceProbe::look_among_crossings(const Vec3& p, FootPoint& best) {
+  if (!tree_) {
+    points_ = crossing_points();
+    std::vector<Box3> boxes;
+    boxes.reserve(points_.size());
+    for (const Vec3& point : points_) boxes.push_back({point, point});
+    tree_.emplace(boxes);
+  }
+  const auto [nearest, squared] = tree_->nearest(p, best.distance * best.distance,
+                                                 [&](std::uint32_t i) { return squared_distance(p, points_[i]); });
+  if (nearest != BoxTree::kNone) best = {points_[nearest], std::sqrt(squared)};
+}
+
+FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
+  FootPoint best{p, std::numeric_limits<double>::infinity()};
+  const double f = value(p);
+  if (f == 0) {
+    best.point = box_.clamp(p);
+    best.distance = deliso::distance(p, best.point);
+  } else {
+    // Down or up the gradient at p, then along the gradient at the foot, which is the surface's normal there.
+    Vec3 normal = gradient(p);
+    for (int i = 0; i <= kRefinements; ++i) {
+      const double slope = norm(normal);
+      if (!(slope > 0)) break;
+      const Vec3 direction = (f > 0 ? -1 : 1) / slope * normal;
+      const double guess = i == 0 ? 1.0625 * std::abs(f) / slope : 1.0625 * best.distance;
+      const std::optional<FootPoint> found = along_line(p, f, direction, guess);
+      if (!found || found->distance >= best.distance) break;
+      const bool is_settled = found->distance > 0.999 * best.distance;
+      best = *found;
+      if (is_settled) break;
+      normal = gradient(best.point);
+    }
+  }
+  if (best.distance > kSuspicious) look_among_crossings(p, best);
+  return best;
+}
+
+std::vector<Vec3> IsosurfaceProbe::crossing_points() const {
+  std::vector<Vec3> points;
+  points.reserve(crossings_.size());
+  for (const EdgeCrossing& crossing : crossings_) {
+    points.push_back(scaled(step_, crossing_position(grid_, crossing)));
+  }
+  return points;
+}
+
+}  // namespace deliso

@@ -1,0 +1,33 @@
+// How far a mesh is from an isosurface and the isosurface from the mesh, in voxels, by sampling both.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "delaunay/base/vec3.h"
+#include "surface/isosurface_probe.h"
+#include "surface/triangle_mesh.h"
+
+namespace deliso {
+
+struct DistanceFigure {
+  double max_voxels = 0;
+  double mean_voxels = 0;
+  Vec3 worst;  // where the maximum is: the sampled point
+};
+
+// The squared distance from p to the triangle abc, which may be degenerate.
+double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+// Referenced vertices to the isosurface; the mean is over vertices. All in voxel space.
+DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+
+// Triangles to the isosurface: edge midpoints and centroid of each, on triangles with an edge longer than two voxels
+// more, one about every voxel (at most 16 to an edge). The mean is over area. The vertices are not sampled again.
+DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+
+// The given points to the mesh: their nearest triangles, exactly but for rounding. A mesh without triangles has the
+// distance `if_empty`.
+DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty);
+
+}  // namespace deliso

@@ -1,0 +1,222 @@
+#include "surface/verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/stopwatch.h"
+#include "surface/delaunay_balls.h"
+#include "surface/isosurface_probe.h"
+#include "surface/mesh_connectivity.h"
+#include "volume/exact_topology.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kOnBox = 1e-3;        // voxels that a point of a boundary edge may be off its face
+constexpr double kMaxResidual = 1e-3;  // voxels that a vertex may be off the isosurface
+constexpr double kMaxDistance = 1.0;   // voxels that the isosurface may be off the mesh
+
+// Triangles with the same three vertices as an earlier one, whatever their order.
+std::int64_t count_duplicates(const TriangleMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> sorted = mesh.triangles;
+  for (auto& triangle : sorted) std::sort(triangle.begin(), triangle.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.end() - std::unique(sorted.begin(), sorted.end());
+}
+
+ManifoldCheck check_manifold(const TriangleMesh& mesh, const MeshTopology& topology, std::int64_t zero_area) {
+  ManifoldCheck check;
+  check.non_manifold_edges = topology.non_manifold_edges;
+  check.non_manifold_vertices = topology.non_manifold_vertices;
+  check.repeated_vertices = topology.repeated_vertices;
+  check.duplicate_triangles = count_duplicates(mesh);
+  check.zero_area_triangles = zero_area;
+  check.unreferenced_vertices = topology.unreferenced_vertices;
+  check.components = static_cast<std::int64_t>(topology.components.size());
+  for (const MeshComponent& component : topology.components) {
+    check.euler_characteristic += component.euler_characteristic();
+    check.boundary_loops += component.boundary_loops;
+  }
+  check.pass = topology.is_manifold() && !mesh.triangles.empty();
+  return check;
+}
+
+// `voxels` is the mesh in voxel space.
+OrientationCheck check_orientation(const TriangleMesh& voxels, const MeshTopology& topology,
+                                   const IsosurfaceProbe& probe) {
+  OrientationCheck check;
+  check.misoriented_edges = topology.misoriented_edges;
+  // The flux of the descent direction through each component.
+  std::vector<double> flux(topology.components.size(), 0);
+  for (const auto& [ia, ib, ic] : voxels.triangles) {
+    const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
+    flux[topology.component_of_vertex[ia]] += dot(cross(b - a, c - a), -probe.gradient((a + b + c) / 3));
+  }
+  check.reversed_components = std::count_if(flux.begin(), flux.end(), [](double f) { return f < 0; });
+  check.pass = topology.is_oriented() && check.reversed_components == 0;
+  return check;
+}
+
+// The faces of the box that p lies on, as bits.
+unsigned faces_at(const Box3& box, const Vec3& p) {
+  unsigned faces = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(p[axis] - box.low[axis]) <= kOnBox) faces |= 1u << (2 * axis);
+    if (std::abs(p[axis] - box.high[axis]) <= kOnBox) faces |= 2u << (2 * axis);
+  }
+  return faces;
+}
+
+BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshConnectivity& connectivity, const Box3& box) {
+  BoundaryCheck check;
+  for (std::size_t e = 0; e < connectivity.edge_count(); ++e) {
+    if (!connectivity.is_boundary(e)) continue;
+    ++check.boundary_edges;
+    const MeshEdge& edge = connectivity.edge(e);
+    const unsigned common = faces_at(box, voxels.points[edge.low]) & faces_at(box, voxels.points[edge.high]);
+    check.off_box_edges += common == 0 ? 1 : 0;
+  }
+  check.outside_vertices = std::count_if(voxels.points.begin(), voxels.points.end(),
+                                         [&](const Vec3& p) { return distance(p, box.clamp(p)) > kOnBox; });
+  check.pass = check.off_box_edges == 0;
+  return check;
+}
+
+NormalCheck check_normals(const TriangleMesh& voxels, IsosurfaceProbe& probe) {
+  NormalCheck check;
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const auto& [ia, ib, ic] : voxels.triangles) {
+    const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
+    const Vec3 normal = cross(b - a, c - a);
+    const Vec3 descent = -probe.gradient(probe.foot_point((a + b + c) / 3).point);
+    const double lengths = norm(normal) * norm(descent);
+    if (!(lengths > 0)) continue;
+    const double cosine = dot(normal, descent) / lengths;
+    check.min_cosine = std::min(check.min_cosine, cosine);
+    check.against += cosine < 0 ? 1 : 0;
+    sum += cosine;
+    ++count;
+  }
+  if (count > 0) {
+    check.fraction_against = static_cast<double>(check.against) / static_cast<double>(count);
+    check.mean_cosine = sum / static_cast<double>(count);
+  }
+  check.pass = check.against == 0;
+  return check;
+}
+
+void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
+
+void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, Verification& v) {
+  v.residual.distance = vertices_to_isosurface(voxels, probe);
+  v.residual.pass = v.residual.distance.max_voxels <= kMaxResidual;
+  v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe);
+  v.distance.isosurface_to_mesh = points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal());
+  v.distance.pass = v.distance.isosurface_to_mesh.max_voxels <= kMaxDistance;
+  in_world(v.residual.distance, probe);
+  in_world(v.distance.mesh_to_isosurface, probe);
+  in_world(v.distance.isosurface_to_mesh, probe);
+}
+
+std::string count_of(std::int64_t count, const char* what) { return std::to_string(count) + " " + what; }
+
+// One sentence for each condition that fails.
+std::vector<std::string> list_failures(const Verification& v) {
+  std::vector<std::string> failures;
+  const ManifoldCheck& m = v.manifold;
+  if (v.triangles == 0) {
+    failures.emplace_back("the mesh has no triangle");
+  } else if (!m.pass) {
+    failures.push_back("not manifold: " + count_of(m.non_manifold_edges, "edges with three or more triangles, ") +
+                       count_of(m.non_manifold_vertices, "vertices with several umbrellas, ") +
+                       count_of(m.repeated_vertices, "triangles that name a vertex twice"));
+  }
+  if (!v.orientation.pass) {
+    failures.push_back("not oriented towards lower values: " +
+                       count_of(v.orientation.misoriented_edges, "edges whose triangles disagree, ") +
+                       count_of(v.orientation.reversed_components, "reversed components"));
+  }
+  if (!v.boundary.pass) {
+    failures.push_back("not closed up to the box: " +
+                       count_of(v.boundary.off_box_edges, "boundary edges off its faces"));
+  }
+  if (v.topology.verdict != Verdict::kHomeomorphic) {
+    failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
+                              ? "the isosurface is singular at this isovalue"
+                              : "the topology differs from that of the isosurface");
+  }
+  if (!v.self_intersection.pass) {
+    failures.push_back(count_of(v.self_intersection.found.crossing_pairs, "pairs of triangles cross"));
+  }
+  if (!v.residual.pass) {
+    failures.push_back("a vertex is " + std::to_string(v.residual.distance.max_voxels) + " voxels off the isosurface");
+  }
+  if (!v.distance.pass) {
+    failures.push_back("a point of the isosurface is " + std::to_string(v.distance.isosurface_to_mesh.max_voxels) +
+                       " voxels off the mesh");
+  }
+  return failures;
+}
+
+void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  if (const std::size_t bad = first_bad_triangle(mesh); bad < mesh.triangles.size()) {
+    throw InputError("triangle " + std::to_string(bad) + " of the mesh names a vertex that is not there; it has " +
+                     std::to_string(mesh.points.size()) + " vertices");
+  }
+  const auto [lowest, highest] = grid.range();
+  if (!(lowest <= isovalue && isovalue <= highest)) {
+    throw InputError("the isovalue is " + std::to_string(isovalue) +
+                     ", expected a number in the range of the volume, " + std::to_string(lowest) + " to " +
+                     std::to_string(highest));
+  }
+}
+
+}  // namespace
+
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  const Stopwatch stopwatch;
+  check_input(mesh, grid, isovalue);
+  Verification v;
+  v.vertices = static_cast<std::int64_t>(mesh.points.size());
+  v.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  v.isovalue = isovalue;
+  v.isovalue_used = regular_isovalue(grid, isovalue);
+
+  // The truth.
+  const IsosurfaceTopology truth = exact_topology(grid, v.isovalue_used);
+  if (truth.crossings.empty()) {
+    throw InputError("the isosurface of " + std::to_string(isovalue) + " has no point in this volume");
+  }
+  IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
+  TriangleMesh voxels = mesh;
+  for (Vec3& p : voxels.points) p = probe.to_voxels(p);
+
+  // Combinatorics.
+  v.self_intersection.found = self_intersections(mesh);
+  v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
+  {
+    const MeshConnectivity connectivity(mesh);
+    const MeshTopology topology = mesh_topology(connectivity);
+    v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
+    v.orientation = check_orientation(voxels, topology, probe);
+    v.boundary = check_boundary(voxels, connectivity, probe.box());
+  }
+  v.topology = certify(mesh, truth);
+
+  // Geometry.
+  check_distances(voxels, probe, v);
+  v.normals = check_normals(voxels, probe);
+  v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);
+  v.quality = measure_quality(mesh);
+
+  v.failures = list_failures(v);
+  v.proven = v.failures.empty();
+  v.seconds = stopwatch.seconds();
+  return v;
+}
+
+}  // namespace deliso

@@ -1,0 +1,82 @@
+#include "tests/support/program_runner.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+#include "delaunay/base/stopwatch.h"
+
+namespace deliso::testing {
+namespace {
+
+// In the child: the streams go to files (a pipe could fill up while nobody reads), then the program takes over.
+[[noreturn]] void become_program(std::vector<std::string> arguments, const std::string& out, const std::string& err) {
+  arguments.insert(arguments.begin(), DELISO_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
+  dup2(open(out.c_str(), kFlags, 0600), STDOUT_FILENO);
+  dup2(open(err.c_str(), kFlags, 0600), STDERR_FILENO);
+  execv(DELISO_PROGRAM, pointers.data());
+  _exit(127);
+}
+
+}  // namespace
+
+ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optional<SignalAfter> signal) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const std::string err = folder / "err";
+  const Stopwatch stopwatch;
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) become_program(arguments, out, err);
+  if (signal) {
+    std::this_thread::sleep_for(signal->delay);
+    kill(child, signal->signal);  // a program that has ended is not waited for yet, so its id is still its own
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {exit_code, read_file(out), read_file(err), stopwatch.seconds()};
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "deliso-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<std::string> TemporaryFolder::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
+    names.push_back(std::filesystem::relative(entry.path(), path_).string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << bytes;
+  if (!stream) throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace deliso::testing

@@ -1,0 +1,50 @@
+// Runs the program `deliso` as a user would: as a process, judged by its exit code, its output and the files it leaves.
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace deliso::testing {
+
+struct ProgramResult {
+  int exit_code = 0;  // 128 + signal when a signal ended it
+  std::string out;    // standard output
+  std::string err;    // standard error
+  double seconds = 0;
+};
+
+// A signal to send while the program runs.
+struct SignalAfter {
+  int signal = SIGINT;
+  std::chrono::milliseconds delay{0};
+};
+
+// Runs the program of this build to its end.
+ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optional<SignalAfter> signal = std::nullopt);
+
+// An empty folder, removed with all it holds at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  // The path of a file in it.
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  // Names of all it holds, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::filesystem::path& path);
+void write_file(const std::filesystem::path& path, const std::string& bytes);
+
+}  // namespace deliso::testing

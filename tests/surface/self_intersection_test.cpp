@@ -1,0 +1,193 @@
+#include "surface/self_intersection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "delaunay/predicates.h"
+#include "surface/box_tree.h"
+#include "tests/support/mesh_examples.h"
+#include "tests/support/triangle_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::IntPoint;
+
+TriangleContact contact(const TriangleMesh& mesh) {
+  const TriangleContact there = triangle_contact(mesh, 0, 1), back = triangle_contact(mesh, 1, 0);
+  EXPECT_EQ(there, back) << "not symmetric";
+  return there;
+}
+
+// Random triangles on a tiny grid, where every degeneracy is frequent, sharing 0, 1 or 2 vertices.
+TEST(TriangleContact, AgreesWithExactSeparatingPlanesOnIntegerGrids) {
+  std::array<std::array<std::int64_t, 3>, 3> seen{};  // by shared vertices and answer
+  for (std::uint64_t seed = 1; seed <= 60000; ++seed) {
+    Rng rng(seed);
+    const std::uint32_t shared = static_cast<std::uint32_t>(rng.below(3));
+    const std::int64_t size = 2 + static_cast<std::int64_t>(rng.below(4));
+    std::vector<IntPoint> points(6 - shared);
+    for (IntPoint& p : points) {
+      for (std::int64_t& c : p) c = static_cast<std::int64_t>(rng.below(static_cast<std::uint64_t>(size)));
+    }
+    // The second triangle takes its shared vertices from the first; both are turned at random.
+    std::array<std::uint32_t, 3> vs = {0, 1, 2}, vt = {3 - shared, 4 - shared, 5 - shared};
+    const auto turn = [&rng](std::array<std::uint32_t, 3>& v) {
+      std::rotate(v.begin(), v.begin() + std::ptrdiff_t(rng.below(3)), v.end());
+      if (rng.below(2) == 0) std::swap(v[0], v[1]);
+    };
+    turn(vs);
+    turn(vt);
+    const auto corners = [&](const std::array<std::uint32_t, 3>& v) {
+      return std::array<IntPoint, 3>{points[v[0]], points[v[1]], points[v[2]]};
+    };
+    const auto flat = [](const std::array<IntPoint, 3>& c) {
+      return testing::is_zero(testing::times(testing::minus(c[1], c[0]), testing::minus(c[2], c[0])));
+    };
+    TriangleMesh mesh{{}, {vs, vt}};
+    for (const IntPoint& p : points) mesh.points.push_back({double(p[0]), double(p[1]), double(p[2])});
+    for (const auto& v : {vs, vt}) {
+      ASSERT_EQ(collinear(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]), flat(corners(v)));
+    }
+    if (flat(corners(vs)) || flat(corners(vt))) continue;
+    const TriangleContact expected = testing::expected_contact(corners(vs), corners(vt), vs, vt);
+    ASSERT_EQ(contact(mesh), expected) << "seed " << seed;
+    ++seen[shared][static_cast<std::size_t>(expected)];
+  }
+  for (std::size_t shared = 0; shared < 3; ++shared) {
+    for (std::size_t answer = 0; answer < 3; ++answer) {
+      if (shared == 2 && answer == 1) continue;  // triangles at an edge cannot merely touch
+      EXPECT_GT(seen[shared][answer], 100) << shared << " shared, answer " << answer;
+    }
+  }
+}
+
+// The same configurations far from the origin, and coordinates one rounding apart.
+TEST(TriangleContact, DecidesOneRoundingApart) {
+  const double a = 0.1, above = std::nextafter(a, 1.0), below = std::nextafter(a, 0.0);
+  const auto corner_on_face = [](double z_face, double z_corner) {
+    return TriangleMesh{{{0, 0, z_face}, {3, 0, z_face}, {0, 3, z_face}, {1, 1, z_corner}, {1, 1, 5}, {2, 1, 5}},
+                        {{0, 1, 2}, {3, 4, 5}}};
+  };
+  EXPECT_EQ(contact(corner_on_face(a, a)), TriangleContact::kTouching);
+  EXPECT_EQ(contact(corner_on_face(a, above)), TriangleContact::kNone);
+  EXPECT_EQ(contact(corner_on_face(a, below)), TriangleContact::kCrossing);
+  EXPECT_EQ(contact(corner_on_face(1e15, 1e15)), TriangleContact::kTouching) << "from the other side";
+  EXPECT_EQ(contact(corner_on_face(-0x1p-160, 0)), TriangleContact::kNone);
+}
+
+TEST(TriangleContact, KnowsHandmadeConfigurations) {
+  using C = TriangleContact;
+  const std::vector<Vec3> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const auto with = [&](const Vec3& x, const Vec3& y, const Vec3& z) {
+    return TriangleMesh{{p[0], p[1], p[2], x, y, z}, {{0, 1, 2}, {3, 4, 5}}};
+  };
+  EXPECT_EQ(contact(with({1, 1, -1}, {1, 1, 1}, {2, 1, 1})), C::kCrossing);
+  EXPECT_EQ(contact(with({1, 1, 0}, {1, 2, 0}, {2, 1, 0})), C::kCrossing) << "contained in one plane";
+  EXPECT_EQ(contact(with({0, 0, 0}, {4, 0, 0}, {0, 4, 0})), C::kCrossing) << "equal places, other vertices";
+  EXPECT_EQ(contact(with({2, 2, 0}, {4, 4, 0}, {4, 2, 0})), C::kTouching) << "corner on edge in one plane";
+  EXPECT_EQ(contact(with({4, 0, 0}, {0, 4, 0}, {4, 4, 0})), C::kTouching) << "same edge, other vertices";
+  EXPECT_EQ(contact(with({1, 1, 0}, {2, 1, 0}, {1, 1, 3})), C::kTouching) << "edge lying on the face";
+  EXPECT_EQ(contact(with({2, 0, -1}, {2, 0, 1}, {2, -3, 0})), C::kTouching) << "edge across edge";
+  EXPECT_EQ(contact(with({9, 9, -1}, {9, 9, 1}, {8, 9, 1})), C::kNone);
+  // Sharing a vertex: a fold that pierces, one that lies on the face, one that leaves.
+  const auto at_vertex = [&](const Vec3& x, const Vec3& y) {
+    return TriangleMesh{{p[0], p[1], p[2], x, y}, {{0, 1, 2}, {0, 3, 4}}};
+  };
+  EXPECT_EQ(contact(at_vertex({1, 1, -1}, {1, 1, 1})), C::kCrossing);
+  EXPECT_EQ(contact(at_vertex({1, 1, 0}, {1, 1, 1})), C::kTouching);
+  EXPECT_EQ(contact(at_vertex({-1, -1, 0}, {1, 1, 1})), C::kNone);
+  EXPECT_EQ(contact(at_vertex({2, 0, 0}, {1, -1, 0})), C::kTouching) << "edges overlap";
+  EXPECT_EQ(contact(at_vertex({-2, 0, 0}, {1, -1, 0})), C::kNone);
+}
+
+TEST(BoxTree, FindsThePairsAndTheNearestOfBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Rng rng(seed);
+    std::vector<Box3> boxes(rng.below(120));
+    for (Box3& box : boxes) {
+      const Vec3 p{rng.uniform(), rng.uniform(), rng.uniform()};
+      box.extend(p);
+      box.extend(p + 0.2 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()});
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      for (std::uint32_t j = i + 1; j < boxes.size(); ++j) {
+        const Box3 &a = boxes[i], &b = boxes[j];
+        bool touch = true;
+        for (std::size_t k = 0; k < 3; ++k) touch = touch && a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
+        if (touch) expected.emplace_back(i, j);
+      }
+    }
+    const BoxTree tree(boxes);
+    tree.for_each_touching_pair([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected) << "seed " << seed;
+
+    const Vec3 p{rng.uniform(-1, 2), rng.uniform(-1, 2), rng.uniform(-1, 2)};
+    const auto measure = [&](std::uint32_t i) { return squared_distance(p, 0.5 * (boxes[i].low + boxes[i].high)); };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) nearest = std::min(nearest, measure(i));
+    EXPECT_EQ(tree.nearest(p, std::numeric_limits<double>::infinity(), measure).second, nearest) << "seed " << seed;
+    EXPECT_EQ(tree.nearest(p, nearest, measure).first, BoxTree::kNone) << "seed " << seed;
+  }
+}
+
+TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    TriangleMesh mesh = testing::random_soup(rng, 40, 60);
+    std::int64_t crossing = 0, touching = 0, flat = 0;
+    std::vector<TrianglePair> pairs;
+    const auto has_area = [&](std::uint32_t t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      return !collinear(mesh.points[a], mesh.points[b], mesh.points[c]);
+    };
+    for (std::uint32_t s = 0; s < mesh.triangles.size(); ++s) {
+      if (!has_area(s)) {
+        ++flat;
+        continue;
+      }
+      for (std::uint32_t t = s + 1; t < mesh.triangles.size(); ++t) {
+        if (!has_area(t)) continue;
+        const TriangleContact c = triangle_contact(mesh, s, t);
+        touching += c == TriangleContact::kTouching ? 1 : 0;
+        crossing += c == TriangleContact::kCrossing ? 1 : 0;
+        if (c == TriangleContact::kCrossing) pairs.push_back({s, t, c, {}});
+      }
+    }
+    const SelfIntersections found = self_intersections(mesh, 7);
+    EXPECT_EQ(found.crossing_pairs, crossing) << "seed " << seed;
+    EXPECT_EQ(found.touching_pairs, touching) << "seed " << seed;
+    EXPECT_EQ(found.zero_area_triangles, flat) << "seed " << seed;
+    ASSERT_EQ(found.crossing.size(), std::min<std::size_t>(7, pairs.size()));
+    for (std::size_t i = 0; i < found.crossing.size(); ++i) {
+      EXPECT_EQ(found.crossing[i].first, pairs[i].first) << "seed " << seed;
+      EXPECT_EQ(found.crossing[i].second, pairs[i].second) << "seed " << seed;
+    }
+  }
+}
+
+TEST(SelfIntersections, CleanMeshesHaveNoneAndOverlappingSpheresHaveSome) {
+  const TriangleMesh sphere = testing::sphere_mesh(4);
+  EXPECT_EQ(self_intersections(sphere).crossing_pairs + self_intersections(sphere).touching_pairs, 0);
+  EXPECT_EQ(self_intersections(testing::torus_mesh(40, 30)).crossing_pairs, 0);
+  EXPECT_EQ(self_intersections({}).crossing_pairs, 0);
+
+  // Two spheres that cross along a circle, and two that touch at one octahedron corner.
+  const SelfIntersections crossing =
+      self_intersections(testing::disjoint_union(sphere, testing::sphere_mesh(4, 1, {0.7, 0.3, 0.1})));
+  EXPECT_GT(crossing.crossing_pairs, 50);
+  for (const TrianglePair& pair : crossing.crossing) EXPECT_LT(pair.first, pair.second);
+  const SelfIntersections touching =
+      self_intersections(testing::disjoint_union(sphere, testing::sphere_mesh(4, 1, {2, 0, 0})));
+  EXPECT_EQ(touching.crossing_pairs, 0);
+  EXPECT_EQ(touching.touching_pairs, 16);  // four triangles at the corner of either
+}
+
+}  // namespace
+}  // namespace deliso

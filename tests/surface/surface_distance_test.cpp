@@ -1,0 +1,152 @@
+#include "surface/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "delaunay/base/rng.h"
+#include "tests/support/mesh_examples.h"
+#include "tests/support/mesh_fields.h"
+
+namespace deliso {
+namespace {
+
+TEST(PointTriangleDistance, AgreesWithDenseSampling) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    const auto random_point = [&rng] { return Vec3{rng.uniform(), rng.uniform(), rng.uniform()}; };
+    const Vec3 a = random_point(), b = random_point(), p = 2.0 * random_point();
+    // Every fourth triangle is degenerate: collinear or a single point.
+    const Vec3 c = seed % 8 == 0 ? a + 0.3 * (b - a) : seed % 8 == 4 ? a : random_point();
+    constexpr int kOrder = 150;
+    double sampled = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kOrder; ++i) {
+      for (int j = 0; i + j <= kOrder; ++j) {
+        sampled = std::min(sampled, distance(p, (i * a + j * b + (kOrder - i - j) * c) / double(kOrder)));
+      }
+    }
+    const double found = std::sqrt(squared_distance_to_triangle(p, a, b, c));
+    EXPECT_LE(found, sampled + 1e-12) << "seed " << seed;
+    EXPECT_GE(found, sampled - 1.8 / kOrder) << "seed " << seed;
+  }
+}
+
+TEST(PointsToMesh, AgreesWithTestingEveryTriangle) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const TriangleMesh mesh = testing::random_soup(rng, 50, 80);
+    std::vector<Vec3> points = testing::random_soup(rng, 100, 0).points;
+    double largest = 0, sum = 0;
+    Vec3 worst;
+    for (Vec3& p : points) {
+      p = 3.0 * p - Vec3{1, 1, 1};
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b, c] : mesh.triangles) {
+        nearest = std::min(nearest, squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]));
+      }
+      nearest = std::sqrt(nearest);
+      sum += nearest;
+      if (nearest > largest) {
+        largest = nearest;
+        worst = p;
+      }
+    }
+    const DistanceFigure found = points_to_mesh(points, mesh, 99);
+    EXPECT_EQ(found.max_voxels, largest) << "seed " << seed;
+    EXPECT_EQ(found.worst, worst) << "seed " << seed;
+    EXPECT_NEAR(found.mean_voxels, sum / 100, 1e-12) << "seed " << seed;
+  }
+  EXPECT_EQ(points_to_mesh(std::vector<Vec3>{{1, 2, 3}}, {}, 99).max_voxels, 99);
+}
+
+// Trilinear interpolation reproduces linear fields, whose isosurface is a plane.
+TEST(IsosurfaceProbe, KnowsTheDistanceToAPlane) {
+  const Vec3 slope{0.3, -0.2, 1};
+  const auto height = [&](const Vec3& p) { return dot(slope, p) - 6.137; };
+  const ScalarGrid grid = testing::sampled({13, 12, 14}, height);
+  const IsosurfaceTopology truth = exact_topology(grid, 0);
+  IsosurfaceProbe probe(grid, 0, truth.crossings);
+  Rng rng(1);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p{rng.uniform(4, 8), rng.uniform(4, 8), rng.uniform(2, 11)};
+    const FootPoint foot = probe.foot_point(p);
+    const double expected = std::abs(height(p)) / norm(slope);
+    if (expected < 1.9) {
+      EXPECT_NEAR(foot.distance, expected, 1e-12) << "point " << i;
+    } else {  // beyond the reach of a walk: the nearest grid-edge crossing
+      EXPECT_GE(foot.distance, expected - 1e-12) << "point " << i;
+      EXPECT_LE(foot.distance, expected + 0.6) << "point " << i;
+    }
+  }
+}
+
+// On any field: the foot is a point of the isosurface in the box, at the distance that is claimed; and hardly any other
+// point is nearer: those where lines through a finer grid cross it.
+TEST(IsosurfaceProbe, FindsPointsOfTheIsosurfaceAndHardlyMissesNearerOnes) {
+  const auto wavy = [](const Vec3& p) { return std::sin(0.5 * p.x) + std::cos(0.45 * p.y) * std::sin(0.4 * p.z); };
+  const ScalarGrid grid = testing::sampled({12, 11, 10}, wavy, {1, 1.25, 2}, {3, -2, 5});
+  const double isovalue = 0.123;
+  const IsosurfaceTopology truth = exact_topology(grid, isovalue);
+  IsosurfaceProbe probe(grid, isovalue, truth.crossings);
+  const Vec3 size = probe.box().size();
+
+  std::vector<Vec3> cloud;
+  constexpr double kStep = 0.1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (double s = 0; s <= size[u]; s += kStep) {
+      for (double t = 0; t <= size[v]; t += kStep) {
+        Vec3 p;
+        p[u] = s;
+        p[v] = t;
+        double before = probe.value(p);
+        for (double r = kStep; r <= size[axis]; r += kStep) {
+          p[axis] = r;
+          const double after = probe.value(p);
+          if ((before < 0) != (after < 0)) {
+            Vec3 root = p;
+            root[axis] -= kStep * after / (after - before);
+            cloud.push_back(root);
+          }
+          before = after;
+        }
+      }
+    }
+  }
+  Rng rng(2);
+  double sum_of_excess = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = scaled(size, {rng.uniform(), rng.uniform(), rng.uniform()});
+    const FootPoint foot = probe.foot_point(p);
+    EXPECT_LT(std::abs(probe.value(foot.point)), 1e-9) << "point " << i;
+    EXPECT_TRUE(probe.box().contains(foot.point)) << "point " << i;
+    EXPECT_NEAR(foot.distance, distance(p, foot.point), 1e-15) << "point " << i;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec3& q : cloud) nearest = std::min(nearest, squared_distance(p, q));
+    nearest = std::sqrt(nearest);
+    const double excess = foot.distance - nearest;
+    EXPECT_LT(excess, nearest < 0.4 ? 0.06 : 0.4) << "point " << i << " at distance " << nearest;
+    sum_of_excess += std::max(0.0, excess);
+  }
+  EXPECT_LT(sum_of_excess / 300, 0.05);
+}
+
+TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
+  // Great-circle edges of an octahedron inscribed in a ball: the face centres are farthest in.
+  const double radius = 6.03;
+  const ScalarGrid grid = testing::sampled({17, 17, 17}, testing::ball_field({8, 8, 8}, radius));
+  const IsosurfaceTopology truth = exact_topology(grid, 0);
+  IsosurfaceProbe probe(grid, 0, truth.crossings);
+  const TriangleMesh mesh = testing::on_isosurface(testing::sphere_mesh(0, radius, {8, 8, 8}), grid, 0);
+  EXPECT_LT(vertices_to_isosurface(mesh, probe).max_voxels, 1e-12);
+  const DistanceFigure figure = triangles_to_isosurface(mesh, probe);
+  EXPECT_NEAR(figure.max_voxels, radius * (1 - 1 / std::sqrt(3.0)), 0.1);
+  EXPECT_LT(figure.mean_voxels, figure.max_voxels);
+  EXPECT_NEAR(distance(figure.worst, {8, 8, 8}), radius / std::sqrt(3.0), 0.3);
+}
+
+}  // namespace
+}  // namespace deliso

@@ -1,0 +1,113 @@
+// The front of all formats: raw files, extensions, and the public volumes.
+#include "volume/io/volume_file.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+#include "tests/support/volume_files.h"
+#include "volume/io/sha256.h"
+
+namespace deliso {
+namespace {
+
+template <class Sample>
+class RawOfType : public testing::Test {};
+using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::int32_t, float, double>;
+TYPED_TEST_SUITE(RawOfType, SampleTypes);
+
+TYPED_TEST(RawOfType, FilesNamedAsInOpenSciVisReadBack) {
+  const TemporaryDirectory directory;
+  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 1));
+  const std::string type = nrrd_type_name(sample_type(grid.samples()));
+  const auto path = directory / ("my_volume_3x4x5_" + type + ".raw");
+  write_volume(grid, path);
+  EXPECT_EQ(std::filesystem::file_size(path), 60 * sizeof(TypeParam));
+  EXPECT_EQ(read_volume(path).samples(), grid.samples());
+}
+
+TYPED_TEST(RawOfType, OptionsGoBeforeTheName) {
+  // Written little endian, read with swapped byte order: swapping twice must give the samples back.
+  const TemporaryDirectory directory;
+  const Samples samples = random_samples<TypeParam>(60, 2);
+  Samples swapped = samples;
+  swap_bytes(swapped);
+  const auto bytes = sample_bytes(swapped);
+  write_text(directory / "v_9x9x9_uint8.RAW",
+             "head" + std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  RawOptions options;
+  options.dims = Dims{3, 4, 5};
+  options.type = ScalarGrid({3, 4, 5}, samples).type_name();
+  options.endian = kHostEndian == Endian::kLittle ? Endian::kBig : Endian::kLittle;
+  options.spacing = {1, 2, 3};
+  options.origin = {-1, -2, -3};
+  options.header_bytes = 4;
+  const ScalarGrid grid = read_volume(directory / "v_9x9x9_uint8.RAW", options);
+  EXPECT_EQ(grid.samples(), samples);
+  EXPECT_EQ(grid.dims(), (Dims{3, 4, 5}));
+  EXPECT_EQ(grid.spacing(), (Vec3{1, 2, 3}));
+  EXPECT_EQ(grid.origin(), (Vec3{-1, -2, -3}));
+}
+
+TEST(VolumeFile, RawNamesMayHaveMoreWords) {
+  const TemporaryDirectory directory;
+  const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
+  for (const char* name :
+       {"2x3x4_float32.raw", "a_2x3x4_float32.raw", "a_b_2x3x4_float32_c.raw", "a.b_2x3x4_float.raw"}) {
+    write_volume(grid, directory / name);
+    EXPECT_EQ(read_volume(directory / name).samples(), grid.samples()) << name;
+  }
+}
+
+TEST(VolumeFile, RawFilesThatCouldNotBeReadBackAreNotWritten) {
+  const TemporaryDirectory directory;
+  const std::vector<float> samples(24);
+  const ScalarGrid grid({2, 3, 4}, samples);
+  expect_input_error([&] { write_volume(grid, directory / "v.raw"); }, {"v.raw", "_2x3x4_float.raw"});
+  expect_input_error([&] { write_volume(grid, directory / "v_2x3x5_float.raw"); }, {"_2x3x4_float.raw"});
+  expect_input_error([&] { write_volume(grid, directory / "v_2x3x4_double.raw"); }, {"_2x3x4_float.raw"});
+  const ScalarGrid scaled_grid({2, 3, 4}, samples, {1, 1, 2});
+  expect_input_error([&] { write_volume(scaled_grid, directory / "v_2x3x4_float.raw"); }, {"spacing", ".nrrd"});
+  const ScalarGrid moved({2, 3, 4}, samples, {1, 1, 1}, {0, 0, 1});
+  expect_input_error([&] { write_volume(moved, directory / "v_2x3x4_float.raw"); }, {"origin", ".nrrd"});
+  expect_input_error([&] { write_volume(grid, directory / "v.nhdr"); }, {"\".nhdr\"", ".nrrd or .raw"});
+  expect_input_error([&] { write_volume(grid, directory / "v.vtk"); }, {"\".vtk\""});
+  EXPECT_EQ(directory.entries(), 0);
+}
+
+TEST(VolumeFile, ExtensionsInCapitalsCount) {
+  const TemporaryDirectory directory;
+  const ScalarGrid grid({2, 3, 4}, random_samples<std::int16_t>(24, 1), {1, 2, 3});
+  write_volume(grid, directory / "V.NRRD");
+  EXPECT_EQ(read_volume(directory / "V.NRRD").samples(), grid.samples());
+}
+
+// Name and hash of the public volumes, from the list beside them.
+std::map<std::string, std::string> published_hashes(const std::filesystem::path& data) {
+  std::map<std::string, std::string> out;
+  std::istringstream lines(read_text(data / "sha256.txt"));
+  std::string hash;
+  std::string name;
+  std::string rest;
+  while (lines >> hash >> name && std::getline(lines, rest)) out[name] = hash;
+  return out;
+}
+
+TEST(PublicVolumes, SamplesHaveThePublishedHashes) {
+  const auto data = data_directory();
+  if (!data || !std::filesystem::exists(*data / "sha256.txt"))
+    GTEST_SKIP() << "set DELISO_DATA to the directory of the public volumes";
+  const auto hashes = published_hashes(*data);
+  EXPECT_FALSE(hashes.empty());
+  for (const auto& [name, hash] : hashes) {
+    const auto path = *data / (name + ".nrrd");
+    if (!std::filesystem::exists(path)) continue;
+    const ScalarGrid grid = read_volume(path);
+    EXPECT_EQ(sample_sha256(grid), hash) << name;
+    EXPECT_EQ(grid.type_name(), "u8") << name;
+  }
+}
+
+}  // namespace
+}  // namespace deliso
