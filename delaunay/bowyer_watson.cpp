@@ -14,6 +14,9 @@ namespace {
 // where the infinite vertex of a ghost is, comes last.
 constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
 
+// Insertions from reading a point of the input to needing it.
+constexpr std::size_t kAhead = 8;
+
 // Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
                                                        std::span<const std::uint32_t> order) {
@@ -76,7 +79,9 @@ void BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std:
   for (const std::uint32_t input : order.first(4)) add_vertex(input);
   make_first_tet();
   TetId hint(std::size_t{0});
-  for (const std::uint32_t input : order.subspan(4)) {
+  for (std::size_t i = 4; i < order.size(); ++i) {
+    const std::uint32_t input = order[i];
+    if (i + kAhead < order.size()) __builtin_prefetch(&points[order[i + kAhead]]);
     // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
     const Vec3& p = points[input];
     if (const auto duplicate = find_conflicts_from_located(p, VertexId(input), locate(p, hint))) {
@@ -140,6 +145,7 @@ void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
   region_size_ = 0;
   rim_size_ = 0;
   rows_.start(p, points_.size());
+  rows_.reserve_more(4);
   reserve_more();
   for (const VertexId v : vertices(first)) {
     if (v != kInfiniteVertex) rows_.add(v, point(v));
@@ -147,7 +153,11 @@ void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
   region_[region_size_++] = first;
   set_mark(first, kInside);
   for (std::uint32_t i = 0; i < region_size_; ++i) {
-    reserve_more();
+    const bool is_full = region_size_ + 4 > region_.size() || rim_size_ + 4 > rim_.size();
+    if (is_full) [[unlikely]] {
+      reserve_more();
+    }
+    rows_.reserve_more(4);
     test_neighbours(i, p, p_rank);
   }
   for (const TetId t : conflict_region()) set_mark(t, kUnknown);
@@ -156,7 +166,6 @@ void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
 
 void BowyerWatson::reserve_more() {
   // One tetrahedron adds at most four of each.
-  rows_.reserve_more(4);
   if (region_size_ + 4 > region_.size()) [[unlikely]] {
     region_.resize(2 * region_.size() + 64);
     region_corners_.resize(region_.size());
@@ -185,16 +194,17 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
   const std::array<FacetId, 4> mirrors = tets_[t.index()].mirrors;
   std::array<unsigned, 4> untested{};
   unsigned untested_count = 0;
+  std::uint32_t rim_size = rim_size_;
+  std::uint32_t region_size = region_size_;
   for (unsigned face = 0; face < 4; ++face) {
     const FacetId mirror(mirrors[face].value & kMirrorMask);
     const std::uint32_t known = mark(mirror.tet());
     untested[untested_count] = face;
     untested_count += static_cast<unsigned>(known == kUnknown);
-    rim_[rim_size_] = mirror;
-    rim_from_[rim_size_] = 4 * i + face;
-    rim_size_ += static_cast<std::uint32_t>(known == kOutside);
+    rim_[rim_size] = mirror;
+    rim_from_[rim_size] = 4 * i + face;
+    rim_size += static_cast<std::uint32_t>(known == kOutside);
   }
-  if (untested_count == 0) return;
 
   // Step 2: a neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the
   // minors of two rows serve for the two faces opposite the other two.
@@ -222,12 +232,14 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
     // Two faces may lead to the same neighbour: then it is known by now.
     const bool is_new = mark(outside) == kUnknown;
     set_mark(outside, inside ? kInside : kOutside);
-    region_[region_size_] = outside;
-    region_size_ += static_cast<std::uint32_t>(inside && is_new);
-    rim_[rim_size_] = mirror;
-    rim_from_[rim_size_] = 4 * i + face;
-    rim_size_ += static_cast<std::uint32_t>(!inside);
+    region_[region_size] = outside;
+    region_size += static_cast<std::uint32_t>(inside && is_new);
+    rim_[rim_size] = mirror;
+    rim_from_[rim_size] = 4 * i + face;
+    rim_size += static_cast<std::uint32_t>(!inside);
   }
+  region_size_ = region_size;
+  rim_size_ = rim_size;
 }
 
 VertexId BowyerWatson::fill_cavity() {

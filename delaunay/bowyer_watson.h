@@ -100,7 +100,7 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<Corners> region_corners_;  // of region_[i]
   std::vector<std::uint32_t> rim_from_;  // rim_[i] seen from inside, as 4 * position in region_ + face
   SquareEdgeTable edges_;
-  std::vector<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
+  LargeArray<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
 };
 
 }  // namespace deliso

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
@@ -100,7 +101,7 @@ class LiftedRows {
 
   Vec3 origin_;
   std::uint32_t size_ = 1;
-  std::vector<std::uint32_t> position_;  // of each vertex of the triangulation; right only if ids_ agrees
+  LargeArray<std::uint32_t> position_;  // of each vertex of the triangulation; right only if ids_ agrees
   std::vector<VertexId> ids_;
   std::vector<LiftedRow> rows_;
 };
