@@ -190,12 +190,11 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
     }
   }
 
-  // Step 1: tell the neighbours to be tested from those that are known.
+  // Tell the neighbours to be tested from those that are known.
   const std::array<FacetId, 4> mirrors = tets_[t.index()].mirrors;
   std::array<unsigned, 4> untested{};
   unsigned untested_count = 0;
   std::uint32_t rim_size = rim_size_;
-  std::uint32_t region_size = region_size_;
   for (unsigned face = 0; face < 4; ++face) {
     const FacetId mirror(mirrors[face].value & kMirrorMask);
     const std::uint32_t known = mark(mirror.tet());
@@ -206,15 +205,24 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
     rim_size += static_cast<std::uint32_t>(known == kOutside);
   }
 
-  // Step 2: a neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the
+  rim_size_ = rim_size;
+  test_unknown_neighbours(i, std::span(untested).first(untested_count), p, p_rank);
+}
+
+void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p,
+                                           VertexId p_rank) {
+  const std::array<FacetId, 4> mirrors = tets_[region_[i].index()].mirrors;
+  const Corners corners = region_corners_[i];
+  std::uint32_t rim_size = rim_size_;
+  std::uint32_t region_size = region_size_;
+  // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the
   // minors of two rows serve for the two faces opposite the other two.
   const std::array<LiftedRow, 4> rows = {rows_.row(corners[0]), rows_.row(corners[1]), rows_.row(corners[2]),
                                          rows_.row(corners[3])};
   const std::array<RowMinors, 2> minors = {RowMinors(rows[2], rows[3]), RowMinors(rows[0], rows[1])};
   const std::array<double, 2> products = {rows[2].w * rows[3].w, rows[0].w * rows[1].w};
   const std::array<double, 2> greatest = {std::max(rows[2].w, rows[3].w), std::max(rows[0].w, rows[1].w)};
-  for (unsigned k = 0; k < untested_count; ++k) {
-    const unsigned face = untested[k];
+  for (const unsigned face : faces) {
     const FacetId mirror(mirrors[face].value & kMirrorMask);
     const TetId outside = mirror.tet();
     const VertexId far = vertices(outside)[mirror.face()];

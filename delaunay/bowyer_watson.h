@@ -76,6 +76,7 @@ class BowyerWatson : public Tetrahedralization {
   void grow_region(const Vec3& p, VertexId p_rank, TetId first);
   void reserve_more();
   void test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank);
+  void test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p, VertexId p_rank);
   void take_slots();
   void star_rim(VertexId apex);
   template <class EdgeTable>
