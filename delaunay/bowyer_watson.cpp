@@ -14,6 +14,9 @@ namespace {
 // where the infinite vertex of a ghost is, comes last.
 constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
 
+// Insertions from reading a point of the input to needing it.
+constexpr std::size_t kAhead = 8;
+
 // Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
                                                        std::span<const std::uint32_t> order) {
@@ -76,7 +79,9 @@ void BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std:
   for (const std::uint32_t input : order.first(4)) add_vertex(input);
   make_first_tet();
   TetId hint(std::size_t{0});
-  for (const std::uint32_t input : order.subspan(4)) {
+  for (std::size_t i = 4; i < order.size(); ++i) {
+    const std::uint32_t input = order[i];
+    if (i + kAhead < order.size()) __builtin_prefetch(&points[order[i + kAhead]]);
     // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
     const Vec3& p = points[input];
     if (const auto duplicate = find_conflicts_from_located(p, VertexId(input), locate(p, hint))) {
@@ -113,7 +118,7 @@ bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_rank) const {
 
 std::optional<VertexId> BowyerWatson::find_conflicts(const Vec3& p, TetId start) {
   DELISO_CHECK(box_.contains(p), "the point lies in the box");
-  DELISO_CHECK(region_.empty(), "no other cavity is open");
+  DELISO_CHECK(region_size_ == 0, "no other cavity is open");
   DELISO_CHECK(start.index() < tets_.size() && is_live(start), "the search starts from a live tetrahedron");
   const VertexId p_rank(points_.size());
   pending_ = p;
@@ -137,68 +142,116 @@ std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p,
 }
 
 void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
-  region_.clear();
-  region_corners_.clear();
-  rim_.clear();
-  rim_corners_.clear();
+  region_size_ = 0;
+  rim_size_ = 0;
   rows_.start(p, points_.size());
+  rows_.reserve_more(4);
+  reserve_more();
   for (const VertexId v : vertices(first)) {
     if (v != kInfiniteVertex) rows_.add(v, point(v));
   }
-  add_to_region(first);
-  for (std::size_t i = 0; i < region_.size(); ++i) test_neighbours(i, p, p_rank);
-  for (const TetId t : region_) set_mark(t, kUnknown);
-  for (const FacetId f : rim_) set_mark(f.tet(), kUnknown);
+  region_[region_size_++] = first;
+  set_mark(first, kInside);
+  for (std::uint32_t i = 0; i < region_size_; ++i) {
+    const bool is_full = region_size_ + 4 > region_.size() || rim_size_ + 4 > rim_.size();
+    if (is_full) [[unlikely]] {
+      reserve_more();
+    }
+    rows_.reserve_more(4);
+    test_neighbours(i, p, p_rank);
+  }
+  for (const TetId t : conflict_region()) set_mark(t, kUnknown);
+  for (const FacetId f : rim()) set_mark(f.tet(), kUnknown);
 }
 
-void BowyerWatson::add_to_region(TetId t) {
+void BowyerWatson::reserve_more() {
+  // One tetrahedron adds at most four of each.
+  if (region_size_ + 4 > region_.size()) [[unlikely]] {
+    region_.resize(2 * region_.size() + 64);
+    region_corners_.resize(region_.size());
+  }
+  if (rim_size_ + 4 > rim_.size()) [[unlikely]] {
+    rim_.resize(2 * rim_.size() + 64);
+    rim_from_.resize(rim_.size());
+  }
+}
+
+// The outcome of a test is as good as random, and a branch on it would cost more than the test: hence results are
+// appended without branches, to the place beyond the end, and the end moves or does not.
+void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank) {
+  const TetId t = region_[i];
   const auto& v = vertices(t);
-  region_.push_back(t);
-  region_corners_.push_back({rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])});
-  // Its neighbours are tested a little later: fetch them meanwhile.
-  for (unsigned face = 0; face < 4; ++face) prefetch(neighbour(t, face));
-  set_mark(t, kInside);
+  const Corners corners = {rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])};
+  region_corners_[i] = corners;
+  // Fetch what the next round will read.
+  if (i + 1 < region_size_) {
+    for (const FacetId mirror : tets_[region_[i + 1].index()].mirrors) {
+      prefetch(FacetId(mirror.value & kMirrorMask).tet());
+    }
+  }
+
+  // Tell the neighbours to be tested from those that are known.
+  const std::array<FacetId, 4> mirrors = tets_[t.index()].mirrors;
+  std::array<unsigned, 4> untested{};
+  unsigned untested_count = 0;
+  std::uint32_t rim_size = rim_size_;
+  for (unsigned face = 0; face < 4; ++face) {
+    const FacetId mirror(mirrors[face].value & kMirrorMask);
+    const std::uint32_t known = mark(mirror.tet());
+    untested[untested_count] = face;
+    untested_count += static_cast<unsigned>(known == kUnknown);
+    rim_[rim_size] = mirror;
+    rim_from_[rim_size] = 4 * i + face;
+    rim_size += static_cast<std::uint32_t>(known == kOutside);
+  }
+
+  rim_size_ = rim_size;
+  test_unknown_neighbours(i, std::span(untested).first(untested_count), p, p_rank);
 }
 
-void BowyerWatson::test_neighbours(std::size_t i, const Vec3& p, VertexId p_rank) {
-  const auto mirrors = tets_[region_[i].index()].mirrors;
+void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p,
+                                           VertexId p_rank) {
+  const std::array<FacetId, 4> mirrors = tets_[region_[i].index()].mirrors;
   const Corners corners = region_corners_[i];
-  // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the minors of
-  // two rows serve for the two faces opposite the other two.
+  std::uint32_t rim_size = rim_size_;
+  std::uint32_t region_size = region_size_;
+  // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the
+  // minors of two rows serve for the two faces opposite the other two.
   const std::array<LiftedRow, 4> rows = {rows_.row(corners[0]), rows_.row(corners[1]), rows_.row(corners[2]),
                                          rows_.row(corners[3])};
   const std::array<RowMinors, 2> minors = {RowMinors(rows[2], rows[3]), RowMinors(rows[0], rows[1])};
   const std::array<double, 2> products = {rows[2].w * rows[3].w, rows[0].w * rows[1].w};
   const std::array<double, 2> greatest = {std::max(rows[2].w, rows[3].w), std::max(rows[0].w, rows[1].w)};
-
-  for (unsigned face = 0; face < 4; ++face) {
+  for (const unsigned face : faces) {
     const FacetId mirror(mirrors[face].value & kMirrorMask);
     const TetId outside = mirror.tet();
-    const std::uint32_t known = mark(outside);
-    if (known == kInside) continue;
-    if (known == kUnknown) {
-      const VertexId far = vertices(outside)[mirror.face()];
-      const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
-      const LiftedRow& partner = rows[face ^ 1u];
-      // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
-      // the row stands before its partner, which is a swap when the face is odd.
-      const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
-      const bool certain = is_certain(det, products[face >> 1] * (row.w * partner.w),
-                                      std::max(greatest[face >> 1], std::max(row.w, partner.w)));
-      if (certain ? (face % 2 == 0 ? det > 0 : det < 0) : conflicts(outside, p, p_rank)) {
-        add_to_region(outside);
-        continue;
-      }
-      set_mark(outside, kOutside);
+    const VertexId far = vertices(outside)[mirror.face()];
+    const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
+    const LiftedRow& partner = rows[face ^ 1u];
+    // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
+    // the row stands before its partner, which is a swap when the face is odd.
+    const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
+    const bool certain = is_certain(det, products[face >> 1] * (row.w * partner.w),
+                                    std::max(greatest[face >> 1], std::max(row.w, partner.w)));
+    bool inside = (det > 0) != ((face & 1u) != 0);
+    if (!certain) [[unlikely]] {
+      inside = conflicts(outside, p, p_rank);
     }
-    rim_.push_back(mirror);
-    const auto& slots = kStarSlots[face];
-    rim_corners_.push_back({corners[slots[0]], corners[slots[1]], corners[slots[2]]});
+    // Two faces may lead to the same neighbour: then it is known by now.
+    const bool is_new = mark(outside) == kUnknown;
+    set_mark(outside, inside ? kInside : kOutside);
+    region_[region_size] = outside;
+    region_size += static_cast<std::uint32_t>(inside && is_new);
+    rim_[rim_size] = mirror;
+    rim_from_[rim_size] = 4 * i + face;
+    rim_size += static_cast<std::uint32_t>(!inside);
   }
+  region_size_ = region_size;
+  rim_size_ = rim_size;
 }
 
 VertexId BowyerWatson::fill_cavity() {
-  DELISO_CHECK(!region_.empty(), "find_conflicts has found a region");
+  DELISO_CHECK(region_size_ > 0, "find_conflicts has found a region");
   const VertexId v(points_.size());
   points_.push_back(pending_);
   incident_.emplace_back();
@@ -207,20 +260,19 @@ VertexId BowyerWatson::fill_cavity() {
 }
 
 void BowyerWatson::abandon_cavity() {
-  region_.clear();
-  rim_.clear();
+  region_size_ = 0;
+  rim_size_ = 0;
 }
 
 void BowyerWatson::take_slots() {
   // The slots of the region first, then free ones, then new ones; what is left of the region is free.
-  const std::size_t reused = std::min(region_.size(), rim_.size());
-  const auto split = region_.begin() + static_cast<std::ptrdiff_t>(reused);
-  created_.assign(region_.begin(), split);
-  for (auto t = split; t != region_.end(); ++t) {
-    tets_[t->index()].vertices[0] = VertexId::none();
-    free_.push_back(*t);
+  const std::size_t reused = std::min(region_size_, rim_size_);
+  created_.assign(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(reused));
+  for (std::size_t i = reused; i < region_size_; ++i) {
+    tets_[region_[i].index()].vertices[0] = VertexId::none();
+    free_.push_back(region_[i]);
   }
-  while (created_.size() < rim_.size()) {
+  while (created_.size() < rim_size_) {
     if (free_.empty()) {
       DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
       created_.push_back(TetId(tets_.size()));
@@ -234,34 +286,53 @@ void BowyerWatson::take_slots() {
 
 void BowyerWatson::star_rim(VertexId apex) {
   take_slots();
-  edges_.start(rows_.size(), 3 * rim_.size());
-  // Step 1: one tetrahedron over each facet of the rim, glued to the facet. Each of its other three faces stands on a
-  // directed edge of the rim.
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    const auto [x, y, z] = rim_corners_[i];
-    const TetId t = created_[i];
-    Tet& tet = tets_[t.index()];
-    tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
-    tet.mirrors[0] = rim_[i];
-    tets_[rim_[i].tet().index()].mirrors[rim_[i].face()] = FacetId(t, 0);
-    edges_.at(y, z) = FacetId(t, 1);
-    edges_.at(z, x) = FacetId(t, 2);
-    edges_.at(x, y) = FacetId(t, 3);
-    incident_[tet.vertices[1].index()] = t;
-    incident_[tet.vertices[2].index()] = t;
-    if (z != LiftedRows::kInfinite) incident_[tet.vertices[3].index()] = t;
-  }
-  // Step 2: the mirror of a face stands on the reversed edge.
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    const auto [x, y, z] = rim_corners_[i];
-    auto& mirrors = tets_[created_[i].index()].mirrors;
-    mirrors[1] = edges_.at(z, y);
-    mirrors[2] = edges_.at(x, z);
-    mirrors[3] = edges_.at(y, x);
+  if (rows_.size() <= SquareEdgeTable::kMostNumbers) {
+    edges_.start(rows_.size());
+    star_rim(apex, edges_);
+  } else {
+    HashedEdgeTable edges(3 * std::size_t{rim_size_});
+    star_rim(apex, edges);
   }
   incident_[apex.index()] = created_.front();
-  region_.clear();
-  rim_.clear();
+  region_size_ = 0;
+  rim_size_ = 0;
+}
+
+template <class EdgeTable>
+void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
+  // Step 1: one tetrahedron over each facet of the rim, glued to the facet. Each of its other three faces stands on a
+  // directed edge of the rim.
+  for (std::uint32_t i = 0; i < rim_size_; ++i) {
+    const Corners& corners = region_corners_[rim_from_[i] >> 2];
+    const auto& slots = kStarSlots[rim_from_[i] & 3u];
+    const std::uint32_t x = corners[slots[0]];
+    const std::uint32_t y = corners[slots[1]];
+    const std::uint32_t z = corners[slots[2]];
+    const TetId t = created_[i];
+    const FacetId outside = rim_[i];
+    Tet& tet = tets_[t.index()];
+    tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
+    tet.mirrors[0] = outside;
+    tets_[outside.tet().index()].mirrors[outside.face()] = FacetId(t, 0);
+    edges.at(y, z) = FacetId(t, 1);
+    edges.at(z, x) = FacetId(t, 2);
+    edges.at(x, y) = FacetId(t, 3);
+    incident_[rows_.id(x).index()] = t;
+    incident_[rows_.id(y).index()] = t;
+    if (z != LiftedRows::kInfinite) incident_[rows_.id(z).index()] = t;
+  }
+  // Step 2: the mirror of a face stands on the reversed edge.
+  for (std::uint32_t i = 0; i < rim_size_; ++i) {
+    const Corners& corners = region_corners_[rim_from_[i] >> 2];
+    const auto& slots = kStarSlots[rim_from_[i] & 3u];
+    const std::uint32_t x = corners[slots[0]];
+    const std::uint32_t y = corners[slots[1]];
+    const std::uint32_t z = corners[slots[2]];
+    auto& mirrors = tets_[created_[i].index()].mirrors;
+    mirrors[1] = edges.at(z, y);
+    mirrors[2] = edges.at(x, z);
+    mirrors[3] = edges.at(y, x);
+  }
 }
 
 void BowyerWatson::make_first_tet() {
@@ -272,7 +343,7 @@ void BowyerWatson::make_first_tet() {
   tets_.resize(5);
   const TetId inner(std::size_t{0});
   tets_[0].vertices = v;
-  edges_.start(4, 12);
+  edges_.start(4);
   for (unsigned face = 0; face < 4; ++face) {
     const TetId t(std::size_t{face} + 1);
     Tet& ghost = tets_[t.index()];
@@ -298,8 +369,8 @@ void BowyerWatson::clear() {
   incident_.clear();
   tets_.clear();
   free_.clear();
-  region_.clear();
-  rim_.clear();
+  region_size_ = 0;
+  rim_size_ = 0;
   created_.clear();
   ranks_.clear();
 }

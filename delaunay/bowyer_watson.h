@@ -43,9 +43,9 @@ class BowyerWatson : public Tetrahedralization {
   // The conflict region of p. `start`: a live tetrahedron, best one in conflict with p; if it is not, a walk from it
   // finds one. Returns the vertex that p duplicates, if any; then there is no region.
   std::optional<VertexId> find_conflicts(const Vec3& p, TetId start);
-  [[nodiscard]] std::span<const TetId> conflict_region() const { return region_; }
+  [[nodiscard]] std::span<const TetId> conflict_region() const { return std::span(region_).first(region_size_); }
   // The facets around the region, each as the tetrahedron outside knows it.
-  [[nodiscard]] std::span<const FacetId> rim() const { return rim_; }
+  [[nodiscard]] std::span<const FacetId> rim() const { return std::span(rim_).first(rim_size_); }
 
   // Stars p over the rim. The new tetrahedra are created(): created()[i] has p in slot 0, and its face 0 is the mirror
   // of what was rim()[i]. Their ids may be those of destroyed tetrahedra.
@@ -55,9 +55,8 @@ class BowyerWatson : public Tetrahedralization {
   void abandon_cavity();
 
  private:
-  // Positions in rows_ of the vertices of a tetrahedron or facet.
+  // Positions in rows_ of the vertices of a tetrahedron.
   using Corners = std::array<std::uint32_t, 4>;
-  using RimCorners = std::array<std::uint32_t, 3>;
 
   // While the region grows, the two highest bits of a tetrahedron's first mirror say what is known about it.
   enum Mark : std::uint32_t { kUnknown = 0, kInside = 1, kOutside = 2 };
@@ -75,10 +74,13 @@ class BowyerWatson : public Tetrahedralization {
   [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_rank) const;
   std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located);
   void grow_region(const Vec3& p, VertexId p_rank, TetId first);
-  void add_to_region(TetId t);
-  void test_neighbours(std::size_t i, const Vec3& p, VertexId p_rank);
+  void reserve_more();
+  void test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank);
+  void test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p, VertexId p_rank);
   void take_slots();
   void star_rim(VertexId apex);
+  template <class EdgeTable>
+  void star_rim(VertexId apex, EdgeTable& edges);
   void make_first_tet();
   void insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order, std::vector<VertexId>& vertex_of);
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
@@ -87,16 +89,19 @@ class BowyerWatson : public Tetrahedralization {
   Box3 box_;
   StaticFilter filter_;
   std::vector<TetId> free_;  // free slots
+  // Region and rim are the first so many of these; what lies beyond is room for branch-free appending.
   std::vector<TetId> region_;
   std::vector<FacetId> rim_;
+  std::uint32_t region_size_ = 0;
+  std::uint32_t rim_size_ = 0;
   std::vector<TetId> created_;
   Vec3 pending_;  // the point of the open cavity
 
   LiftedRows rows_;                      // of the vertices met by the last search
   std::vector<Corners> region_corners_;  // of region_[i]
-  std::vector<RimCorners> rim_corners_;  // of rim_[i], so that the apex before them makes a positive tetrahedron
-  RimEdges edges_;
-  std::vector<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
+  std::vector<std::uint32_t> rim_from_;  // rim_[i] seen from inside, as 4 * position in region_ + face
+  SquareEdgeTable edges_;
+  LargeArray<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
 };
 
 }  // namespace deliso

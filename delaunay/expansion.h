@@ -82,8 +82,8 @@ struct DoubleDouble {
 // No expansion of doubles has more terms than there are bit positions in the range of a double.
 inline constexpr std::size_t kMostTerms = 2100;
 
-// An exact number with room for kCapacity terms; lives on the stack. Zero has no terms.
-template <std::size_t kCapacity>
+// An exact number with room for Capacity terms; lives on the stack. Zero has no terms.
+template <std::size_t Capacity>
 class Expansion {
  public:
   Expansion() {}  // NOLINT: the terms stay uninitialized on purpose, only size_ of them are ever read
@@ -115,7 +115,7 @@ class Expansion {
 
  private:
   std::size_t size_ = 0;
-  std::array<double, kCapacity> terms_;
+  std::array<double, Capacity> terms_;
 };
 
 // sum = a + b (Shewchuk's fast expansion sum with zero elimination): merges by magnitude, carries the rounded sum up.

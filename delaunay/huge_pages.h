@@ -1,17 +1,20 @@
-// An allocator for large flat arrays that are read all over: asks the system for huge pages, which saves most of the
-// address translation misses. Where it cannot, it behaves as std::allocator.
+// An allocator for large flat arrays that are read all over: takes them from the system in huge pages, which saves most
+// of the misses in address translation, and gives them back at once. Where that is not to be had it is std::allocator.
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
 
 namespace deliso {
+
+#ifdef __linux__
 
 template <class T>
 class HugePageAllocator {
@@ -20,24 +23,27 @@ class HugePageAllocator {
 
   HugePageAllocator() = default;
   template <class U>
-  HugePageAllocator(const HugePageAllocator<U>& /*other*/) {}  // NOLINT: implicit conversion as allocators need
+  HugePageAllocator(const HugePageAllocator<U>& /*other*/) {}  // NOLINT: implicit conversion, as allocators need
 
   T* allocate(std::size_t count) {
     if (count < kFewest) return std::allocator<T>().allocate(count);
     if (count > kMost) throw std::bad_array_new_length();
-    const std::size_t bytes = (count * sizeof(T) + kPage - 1) / kPage * kPage;
-    void* memory = std::aligned_alloc(kPage, bytes);
-    if (memory == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-    madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-    return static_cast<T*>(memory);
+    // Reserve one page more than needed and give back what lies around the aligned part.
+    const std::size_t bytes = rounded_bytes(count);
+    void* const mapped = mmap(nullptr, bytes + kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) throw std::bad_alloc();
+    const std::size_t before = (kPage - reinterpret_cast<std::uintptr_t>(mapped) % kPage) % kPage;
+    char* const begin = static_cast<char*>(mapped) + before;
+    if (before > 0) munmap(mapped, before);
+    munmap(begin + bytes, kPage - before);
+    madvise(begin, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost when it is not granted
+    return reinterpret_cast<T*>(begin);
   }
   void deallocate(T* memory, std::size_t count) {
     if (count < kFewest) {
       std::allocator<T>().deallocate(memory, count);
     } else {
-      std::free(memory);
+      munmap(memory, rounded_bytes(count));
     }
   }
 
@@ -45,8 +51,21 @@ class HugePageAllocator {
 
  private:
   static constexpr std::size_t kPage = std::size_t{1} << 21;
-  static constexpr std::size_t kFewest = 4 * kPage / sizeof(T);
-  static constexpr std::size_t kMost = (std::size_t{1} << 40) / sizeof(T);
+  static constexpr std::size_t kFewest = kPage / sizeof(T);
+  static constexpr std::size_t kMost = (std::size_t{1} << 46) / sizeof(T);
+
+  static std::size_t rounded_bytes(std::size_t count) { return (count * sizeof(T) + kPage - 1) / kPage * kPage; }
 };
+
+#else
+
+template <class T>
+using HugePageAllocator = std::allocator<T>;
+
+#endif
+
+// A vector for one large flat array.
+template <class T>
+using LargeArray = std::vector<T, HugePageAllocator<T>>;
 
 }  // namespace deliso

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
@@ -62,18 +63,26 @@ class LiftedRows {
     size_ = 1;
   }
 
-  // The position of v, which is at `point`; added if it is new.
-  std::uint32_t add(VertexId v, const Vec3& point) {
-    std::uint32_t& position = position_[v.index()];
-    if (position < size_ && ids_[position] == v) return position;
-    if (size_ == ids_.size()) [[unlikely]] {
+  // Makes room for so many more vertices.
+  void reserve_more(std::uint32_t count) {
+    if (size_ + count >= ids_.size()) [[unlikely]] {
       grow();
     }
-    position = size_;
+  }
+
+  // The position of v, which is at `point`; added if it is new. There must be room for one more. Whether it is new is
+  // unpredictable, so there is no branch on it: the row is written either way, beyond the end if it is not needed.
+  std::uint32_t add(VertexId v, const Vec3& point) {
+    std::uint32_t& position = position_[v.index()];
+    const std::uint32_t candidate = position < size_ ? position : kInfinite;
+    const bool is_new = ids_[candidate] != v;
+    const std::uint32_t result = is_new ? size_ : candidate;
     const Vec3 d = point - origin_;
     ids_[size_] = v;
     rows_[size_] = {d.x, d.y, d.z, d.x * d.x + d.y * d.y + d.z * d.z};
-    return size_++;
+    position = result;
+    size_ += static_cast<std::uint32_t>(is_new);
+    return result;
   }
 
   // The position of a vertex that has been added, or of the infinite vertex.
@@ -92,7 +101,7 @@ class LiftedRows {
 
   Vec3 origin_;
   std::uint32_t size_ = 1;
-  std::vector<std::uint32_t> position_;  // of each vertex of the triangulation; right only if ids_ agrees
+  LargeArray<std::uint32_t> position_;  // of each vertex of the triangulation; right only if ids_ agrees
   std::vector<VertexId> ids_;
   std::vector<LiftedRow> rows_;
 };

@@ -1,7 +1,7 @@
 // Glues the tetrahedra of a star: for each directed edge of a cavity's rim, the facet that stands on it.
 #pragma once
 
-#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -9,35 +9,31 @@
 
 namespace deliso {
 
-// A map from pairs of small numbers to facets. Every pair is written before it is read, so nothing is ever cleared: a
-// square table for the usual cavities, a hash table for the rare enormous ones.
-class RimEdges {
+// A map from pairs of small numbers to facets, as a square table. Every pair is written before it is read, so nothing
+// is ever cleared.
+class SquareEdgeTable {
  public:
-  // Prepares for numbers below `numbers` and at most `edges` pairs.
-  void start(std::uint32_t numbers, std::size_t edges) {
-    is_square_ = numbers <= kLargestSquare;
-    if (is_square_) {
-      while ((1u << shift_) < numbers) ++shift_;
-      if (square_.size() < std::size_t{1} << (2 * shift_)) square_.resize(std::size_t{1} << (2 * shift_));
-    } else {
-      std::size_t size = 1;
-      while (size < 2 * edges) size *= 2;
-      entries_.assign(size, Entry{});
-    }
-  }
+  static constexpr std::uint32_t kMostNumbers = 512;
 
-  FacetId& at(std::uint32_t from, std::uint32_t to) {
-    return is_square_ ? square_[(from << shift_) | to] : hashed(from, to);
+  // Prepares for numbers below `numbers` <= kMostNumbers.
+  void start(std::uint32_t numbers) {
+    while ((1u << shift_) < numbers) ++shift_;
+    if (table_.size() < std::size_t{1} << (2 * shift_)) table_.resize(std::size_t{1} << (2 * shift_));
   }
+  FacetId& at(std::uint32_t from, std::uint32_t to) { return table_[(from << shift_) | to]; }
 
  private:
-  static constexpr std::uint32_t kLargestSquare = 512;
-  struct Entry {
-    std::uint64_t key = 0;  // no pair is (0, 0)
-    FacetId facet;
-  };
+  unsigned shift_ = 5;
+  std::vector<FacetId> table_;
+};
 
-  FacetId& hashed(std::uint32_t from, std::uint32_t to) {
+// The same for the rare enormous cavity, as a hash table.
+class HashedEdgeTable {
+ public:
+  // Prepares for at most `edges` pairs.
+  explicit HashedEdgeTable(std::size_t edges) : entries_(std::bit_ceil(2 * edges)) {}
+
+  FacetId& at(std::uint32_t from, std::uint32_t to) {
     const std::uint64_t key = (static_cast<std::uint64_t>(from) << 32) | to;
     const std::size_t mask = entries_.size() - 1;
     std::size_t i = ((key * 0x9E3779B97F4A7C15ull) >> 24) & mask;
@@ -46,9 +42,11 @@ class RimEdges {
     return entries_[i].facet;
   }
 
-  bool is_square_ = true;
-  unsigned shift_ = 5;
-  std::vector<FacetId> square_;
+ private:
+  struct Entry {
+    std::uint64_t key = 0;  // no pair is (0, 0)
+    FacetId facet;
+  };
   std::vector<Entry> entries_;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/huge_pages.h"
 
 namespace deliso {
 namespace {
@@ -60,7 +61,7 @@ std::uint64_t round_of(const Vec3& p) {
 }
 
 // Stable.
-void radix_sort(std::span<KeyedPoint> items, std::vector<KeyedPoint>& buffer) {
+void radix_sort(std::span<KeyedPoint> items, LargeArray<KeyedPoint>& buffer) {
   buffer.resize(items.size());
   std::span<KeyedPoint> from = items;
   std::span<KeyedPoint> to = buffer;
@@ -116,13 +117,13 @@ class Sorter {
   }
 
   std::span<const Vec3> points_;
-  std::vector<KeyedPoint> buffer_;
+  LargeArray<KeyedPoint> buffer_;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> spatial_order(std::span<const Vec3> points) {
-  std::vector<KeyedPoint> items(points.size());
+  LargeArray<KeyedPoint> items(points.size());
   for (std::size_t i = 0; i < items.size(); ++i) items[i].index = static_cast<std::uint32_t>(i);
   Sorter(points).sort(items, true);
   std::vector<std::uint32_t> order(points.size());

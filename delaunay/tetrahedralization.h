@@ -52,9 +52,9 @@ class Tetrahedralization {
     std::array<FacetId, 4> mirrors;  // across face i: that facet as the neighbour knows it
   };
 
-  std::vector<Vec3, HugePageAllocator<Vec3>> points_;  // point of each vertex
-  std::vector<TetId> incident_;                        // a live tetrahedron at each vertex
-  std::vector<Tet, HugePageAllocator<Tet>> tets_;      // live and free slots
+  LargeArray<Vec3> points_;     // point of each vertex
+  LargeArray<TetId> incident_;  // a live tetrahedron at each vertex
+  LargeArray<Tet> tets_;        // live and free slots
 };
 
 }  // namespace deliso

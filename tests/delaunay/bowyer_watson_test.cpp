@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <set>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/rng.h"
@@ -270,6 +270,18 @@ TEST(BowyerWatson, SlotsAreReusedAtOnce) {
   std::size_t live = 0;
   for (std::size_t i = 0; i < tets.tet_slots(); ++i) live += tets.is_live(TetId(i));
   EXPECT_LT(tets.tet_slots(), live + 50);
+}
+
+// The center of a sphere is in conflict with everything inside it: a rim of thousands of facets.
+TEST(BowyerWatson, FillsAnEnormousCavity) {
+  Rng rng(16);
+  Points points = test::rounded_sphere(3000, rng);
+  BowyerWatson tets({{-1, -1, -1}, {1, 1, 1}});
+  ASSERT_TRUE(tets.build(points));
+  ASSERT_FALSE(tets.find_conflicts({1e-3, 2e-3, 0}, some_live_tet(tets, rng)));
+  ASSERT_GT(tets.rim().size(), 4000U);
+  tets.fill_cavity();
+  EXPECT_EQ(violation_of(tets), "none");
 }
 
 TEST(BowyerWatson, AbandonedCavityLeavesEverythingUntouched) {

@@ -185,8 +185,8 @@ TEST(PerturbedInsphere, EqualsTheExactDeterminantWithRaisedLifts) {
     std::array<unsigned, 5> ranks = {0, 1, 2, 3, 4};
     for (std::size_t k = 5; k > 1; --k) std::swap(ranks[k - 1], ranks[rng.below(k)]);
     std::array<VertexId, 4> ids;
-    for (unsigned k = 0; k < 4; ++k) ids[k] = VertexId(10 * ranks[k]);
-    const bool inside = perturbed_insphere({p[0], p[1], p[2], p[3]}, ids, p[4], VertexId(10 * ranks[4]));
+    for (unsigned k = 0; k < 4; ++k) ids[k] = VertexId(std::size_t{10} * ranks[k]);
+    const bool inside = perturbed_insphere({p[0], p[1], p[2], p[3]}, ids, p[4], VertexId(std::size_t{10} * ranks[4]));
     const int exact = test::exact_perturbed_insphere(p, ranks, 0);
     ASSERT_NE(exact, 0);
     ASSERT_EQ(inside, exact > 0) << "case " << i;

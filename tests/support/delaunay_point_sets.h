@@ -32,8 +32,10 @@ inline Points random_points(std::size_t count, Rng& rng) {
 
 inline Points lattice(int side, Rng& rng) {
   Points points;
-  for (int i = 0; i < side * side * side; ++i) {
-    points.push_back({double(i % side), double(i / side % side), double(i / side / side)});
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < side; ++z) points.push_back({double(x), double(y), double(z)});
+    }
   }
   shuffle(points, rng);
   return points;
