@@ -111,7 +111,9 @@ TEST(Schema, DefaultsInTheSchemaAreTheDefaults) {
   const Json defaults = parameters_to_json(Parameters{});
   for (const auto& [key, value] : defaults.items()) {
     const Json& property = schema["properties"][key];
-    if (!value.is_object()) EXPECT_EQ(property["default"], value) << key;
+    if (!value.is_object()) {
+      EXPECT_EQ(property["default"], value) << key;
+    }
     if (!value.is_object()) continue;
     for (const auto& [inner_key, inner_value] : value.items()) {
       EXPECT_EQ(property["properties"][inner_key]["default"], inner_value) << key << '.' << inner_key;
