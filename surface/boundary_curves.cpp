@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "volume/exact_topology_crossings.h"
+
 namespace deliso {
 
 namespace {
@@ -23,8 +25,10 @@ struct Face {
   }
   [[nodiscard]] double value(std::int32_t i, std::int32_t j) const {
     const auto s = sample(i, j);
-    return grid.at(s[0], s[1], s[2]) - isovalue;
+    return grid.at(s[0], s[1], s[2]);
   }
+  // Where the edge between two samples of the face is crossed, as a fraction of the edge.
+  [[nodiscard]] double crossing(double from, double to) const { return edge_parameter(from, to, isovalue); }
   // Index-space point at (x, y) in the face.
   [[nodiscard]] Vec3 at(double x, double y) const {
     Vec3 p;
@@ -34,9 +38,6 @@ struct Face {
     return p;
   }
 };
-
-// The crossing of the edge between two values of different sign, as a fraction of the edge.
-double crossing(double from, double to) { return from / (from - to); }
 
 // In a face cell with four crossings: a point inside each of the two arcs. The bilinear function is
 // saddle + k (x - cx)(y - cy); its level set has one branch in each of two opposite quadrants of (cx, cy).
@@ -48,7 +49,7 @@ void add_arc_points(const Face& face, std::int32_t i, std::int32_t j, std::vecto
   const double k = f00 - f10 - f01 + f11;
   const double cx = (f00 - f01) / k;
   const double cy = (f00 - f10) / k;
-  const double saddle = f00 - k * cx * cy;
+  const double saddle = f00 - face.isovalue - k * cx * cy;
   if (saddle == 0) return;
   // k (x - cx)(y - cy) = -saddle: one branch right of cx, one left of it.
   const double side = -saddle / k > 0 ? 1 : -1;
@@ -56,7 +57,7 @@ void add_arc_points(const Face& face, std::int32_t i, std::int32_t j, std::vecto
     // Between the branch's two ends x runs from the vertical side to where the horizontal side is crossed.
     const bool right = direction > 0;
     const bool top = right == (side > 0);
-    const double x_end = top ? crossing(f01, f11) : crossing(f00, f10);
+    const double x_end = top ? face.crossing(f01, f11) : face.crossing(f00, f10);
     const double x = right ? 0.5 * (x_end + 1) : 0.5 * x_end;
     const double y = cy - saddle / (k * (x - cx));
     if (y > 0 && y < 1) points.push_back(face.at(i + x, j + y));
@@ -69,11 +70,12 @@ void add_face(const Face& face, std::vector<Vec3>& points) {
   for (std::int32_t j = 0; j < nv; ++j) {
     for (std::int32_t i = 0; i < nu; ++i) {
       const double here = face.value(i, j);
-      const bool along_u = i + 1 < nu && (here < 0) != (face.value(i + 1, j) < 0);
-      const bool along_v = j + 1 < nv && (here < 0) != (face.value(i, j + 1) < 0);
-      if (along_u) points.push_back(face.at(i + crossing(here, face.value(i + 1, j)), j));
-      if (along_v) points.push_back(face.at(i, j + crossing(here, face.value(i, j + 1))));
-      const bool four = along_u && along_v && (here < 0) == (face.value(i + 1, j + 1) < 0);
+      const bool above = here > face.isovalue;
+      const bool along_u = i + 1 < nu && above != (face.value(i + 1, j) > face.isovalue);
+      const bool along_v = j + 1 < nv && above != (face.value(i, j + 1) > face.isovalue);
+      if (along_u) points.push_back(face.at(i + face.crossing(here, face.value(i + 1, j)), j));
+      if (along_v) points.push_back(face.at(i, j + face.crossing(here, face.value(i, j + 1))));
+      const bool four = along_u && along_v && above == (face.value(i + 1, j + 1) > face.isovalue);
       if (four) add_arc_points(face, i, j, points);
     }
   }

@@ -6,11 +6,15 @@
 #include <tuple>
 
 #include "delaunay/base/check.h"
-#include "delaunay/constructions.h"
 
 namespace deliso {
 
 namespace {
+
+// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their
+// neighbours.
+constexpr double kApart = 2e-4;
+constexpr double kApartFraction = 0.01;
 
 // Disjoint sets with path halving; the smallest member represents its set.
 class DisjointSets {
@@ -32,15 +36,15 @@ class DisjointSets {
 
 class MeshBuilder {
  public:
-  MeshBuilder(const RestrictedDelaunay& restricted, const std::vector<double>& pole_heights)
-      : restricted_(restricted), delaunay_(restricted.delaunay()), pole_heights_(pole_heights) {}
+  explicit MeshBuilder(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}
 
-  SurfaceMesh build() {
+  BuiltMesh build() {
     collect_triangles();
     pair_sides();
     name_vertices();
     subdivide_shared_edges();
-    return std::move(mesh_);
+    move_copies_apart();
+    return std::move(built_);
   }
 
  private:
@@ -56,19 +60,19 @@ class MeshBuilder {
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
-  [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) const;
+  void move_copies_apart();
 
-  const RestrictedDelaunay& restricted_;
+  const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  const std::vector<double>& pole_heights_;
-  SurfaceMesh mesh_;
+  BuiltMesh built_;
+  SurfaceMesh& mesh_ = built_.mesh;
   std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
   std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
   std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
-// One triangle for each restricted facet, counterclockwise seen from below; its ball is centred at x_sigma.
+// One triangle for each restricted facet, counterclockwise seen from below.
 void MeshBuilder::collect_triangles() {
   triangle_of_.assign(4 * delaunay_.tet_slots(), kNoSide);
   for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) {
@@ -84,9 +88,6 @@ void MeshBuilder::collect_triangles() {
       triangle_of_[f.value] = static_cast<std::uint32_t>(mesh_.triangles.size());
       facets_.push_back(f);
       mesh_.triangles.push_back({v[0].value, v[1].value, v[2].value});
-      const DualEdge& edge = restricted_.dual_edge(restricted_.dual_edge_of(f));
-      const Vec3 center = edge.dual.at(surface_hit(edge));
-      mesh_.balls.push_back({center, squared_distance(center, delaunay_.point(v[0]))});
     }
   }
 }
@@ -165,7 +166,12 @@ void MeshBuilder::name_vertices() {
   for (const auto& [vertex, corner] : classes) {
     name[corner] = static_cast<std::uint32_t>(mesh_.points.size());
     mesh_.points.push_back(delaunay_.point(VertexId(vertex)));
-    mesh_.pole_heights.push_back(pole_heights_[vertex]);
+    built_.vertex_of.emplace_back(vertex);
+  }
+  for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
+    if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
+    if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
+    built_.copies.push_back(v);
   }
   for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];
 }
@@ -225,7 +231,7 @@ void MeshBuilder::subdivide(TriangleSide side) {
   }
   const auto m = static_cast<std::uint32_t>(mesh_.points.size());
   mesh_.points.push_back(middle);
-  mesh_.pole_heights.push_back(0.5 * (mesh_.pole_heights[a] + mesh_.pole_heights[b]));
+  built_.vertex_of.push_back(built_.vertex_of[a]);
 
   const auto [to_middle, from_middle] = split_triangle(side, m);
   if (across != kNoSide) {
@@ -254,12 +260,9 @@ std::pair<TriangleSide, TriangleSide> MeshBuilder::split_triangle(TriangleSide s
   mesh_.neighbours[t] = {kNoSide, kNoSide, kNoSide};
   mesh_.triangles.push_back({c, m, b});
   mesh_.neighbours.push_back({kNoSide, kNoSide, kNoSide});
-  mesh_.balls.emplace_back();
   link(4 * t + 1, 4 * part + 2);
   link(4 * t + 2, beyond_b);
   link(4 * part + 1, beyond_a);
-  mesh_.balls[t] = ball_of(t);
-  mesh_.balls[part] = ball_of(part);
   return {4 * t, 4 * part};
 }
 
@@ -275,23 +278,33 @@ Vec3 MeshBuilder::normal_of(std::uint32_t triangle) const {
   return norm(n) > 0 ? n / norm(n) : Vec3{};
 }
 
-SurfaceDelaunayBall MeshBuilder::ball_of(std::uint32_t triangle) const {
-  const auto& v = mesh_.triangles[triangle];
-  const Vec3& a = mesh_.points[v[0]];
-  const Circumcircle circle = circumcircle(a, mesh_.points[v[1]], mesh_.points[v[2]]);
-  Vec3 center = (a + mesh_.points[v[1]] + mesh_.points[v[2]]) / 3;
-  if (std::isfinite(circle.radius)) {
-    const Line line{circle.center, normal_of(triangle)};
-    SearchCounters ignored;
-    center = line.at(restricted_.isosurface().nearest_falling_hit(line, circle.radius, ignored).value_or(0));
+// Copies of a vertex would touch: each moves a little into its own fan, on the box within its face.
+void MeshBuilder::move_copies_apart() {
+  std::vector<Vec3> link_sum(built_.copies.size());
+  std::vector<double> link_size(built_.copies.size(), 0);
+  std::vector<std::uint32_t> place(mesh_.points.size(), kNoSide);
+  for (std::uint32_t i = 0; i < built_.copies.size(); ++i) place[built_.copies[i]] = i;
+  for (const auto& triangle : mesh_.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t at = place[triangle[i]];
+      if (at == kNoSide) continue;
+      link_sum[at] += mesh_.points[triangle[(i + 1) % 3]] + mesh_.points[triangle[(i + 2) % 3]];
+      link_size[at] += 2;
+    }
   }
-  return {center, squared_distance(center, a)};
+  const Box3& box = restricted_.isosurface().box();
+  for (std::size_t i = 0; i < built_.copies.size(); ++i) {
+    Vec3& p = mesh_.points[built_.copies[i]];
+    Vec3 inwards = link_sum[i] / link_size[i] - p;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (p[axis] == box.low[axis] || p[axis] == box.high[axis]) inwards[axis] = 0;
+    }
+    if (norm(inwards) > 0) p += std::min(kApart / norm(inwards), kApartFraction) * inwards;
+  }
 }
 
 }  // namespace
 
-SurfaceMesh build_triangle_mesh(const RestrictedDelaunay& restricted, const std::vector<double>& pole_heights) {
-  return MeshBuilder(restricted, pole_heights).build();
-}
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) { return MeshBuilder(restricted).build(); }
 
 }  // namespace deliso

@@ -14,6 +14,7 @@
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_seeds.h"
 #include "surface/poles.h"
+#include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/surface_mesh.h"
 
@@ -133,8 +134,8 @@ void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshing
   });
 
   timed(result.recover, [&] { recover(*restricted, stage1_options(parameters, lengths), controls, result.recover); });
-  std::vector<double> pole_heights = timed(result.poles, [&] { return compute_poles(*restricted); });
   if (parameters.algorithm == Algorithm::kFull3d) {
+    std::vector<double> pole_heights = timed(result.poles, [&] { return compute_poles(*restricted); });
     timed(result.recover,
           [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
   }
@@ -142,12 +143,21 @@ void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshing
   result.recover.restricted_seconds = restricted->restricted_seconds();
 
   // The tetrahedra go as soon as the surface mesh stands.
-  SurfaceMesh surface = timed(result.build, [&] {
-    SurfaceMesh built = build_triangle_mesh(*restricted, pole_heights);
-    restricted.reset();
-    if (options.keep_stage1_mesh) result.stage1_mesh = to_world(built, grid, isosurface->step());
-    return built;
-  });
+  SurfaceMesh surface;
+  if (parameters.certify && parameters.repair.max_rounds > 0) {
+    surface = timed(result.repair, [&] {
+      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
+    });
+  } else {
+    const std::vector<double> heights = timed(result.poles, [&] { return compute_poles(*restricted); });
+    surface = timed(result.build, [&] {
+      BuiltMesh built = build_triangle_mesh(*restricted);
+      for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+      return std::move(built.mesh);
+    });
+  }
+  restricted.reset();
+  if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage) {
     timed(result.refine,
           [&] { refine(surface, *isosurface, stage2_options(parameters, lengths), controls, result.refine); });

@@ -11,6 +11,7 @@
 #include "surface/parameters.h"
 #include "surface/recover.h"
 #include "surface/refine.h"
+#include "surface/repair.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 
@@ -34,6 +35,7 @@ struct MeshingResult {
   StageStats index, topology, initial, poles, build, certify_stage;  // topology: the exact one, found from the grid
   SearchCounters initial_search;                                     // of the random rays
   RecoverStats recover;
+  RepairStats repair;
   RefineStats refine;
   Certificate certificate;
   double total_seconds = 0;

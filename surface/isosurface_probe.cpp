@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "delaunay/base/check.h"
@@ -12,8 +13,10 @@ namespace deliso {
 namespace {
 
 constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
-constexpr double kSuspicious = 0.5;  // voxels beyond which the crossings are asked too
-constexpr int kRefinements = 2;      // walks along the gradient of the foot found so far
+constexpr double kFirstStep = 0.25;  // voxels that its first step goes at most
+constexpr double kFar = 0.25;        // voxels beyond which all directions are tried and the crossings asked
+constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
+constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
 
 }  // namespace
 
@@ -55,18 +58,18 @@ Vec3 IsosurfaceProbe::gradient(const Vec3& p) const {
 // Walks from p by growing steps until the value changes sign, then closes in by false position (Illinois rule). The
 // foot is clamped to the box: beyond it the value is that of the clamped point.
 std::optional<FootPoint> IsosurfaceProbe::along_line(const Vec3& p, double value_at_p, const Vec3& direction,
-                                                     double first_step) const {
+                                                     double first_step, double reach) const {
   const auto foot = [&](double t) {
     const Vec3 x = box_.clamp(p + t * direction);
     return FootPoint{x, deliso::distance(p, x)};
   };
   double t0 = 0, f0 = value_at_p;
-  double t1 = std::clamp(first_step, 1e-14, kReach), f1 = value(p + t1 * direction);
+  double t1 = std::min(std::max(first_step, 1e-14), reach), f1 = value(p + t1 * direction);
   while ((f1 < 0) == (f0 < 0) && f1 != 0) {
-    if (t1 >= kReach) return std::nullopt;
+    if (t1 >= reach) return std::nullopt;
     t0 = t1;
     f0 = f1;
-    t1 = std::min(2 * t1, kReach);
+    t1 = std::min(2 * t1, reach);
     f1 = value(p + t1 * direction);
   }
   // The root lies between t0 and t1, the latest guess. An end that stays twice counts half from then on.
@@ -106,23 +109,38 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   if (f == 0) {
     best.point = box_.clamp(p);
     best.distance = deliso::distance(p, best.point);
-  } else {
-    // Down or up the gradient at p, then along the gradient at the foot, which is the surface's normal there.
-    Vec3 normal = gradient(p);
-    for (int i = 0; i <= kRefinements; ++i) {
-      const double slope = norm(normal);
-      if (!(slope > 0)) break;
-      const Vec3 direction = (f > 0 ? -1 : 1) / slope * normal;
-      const double guess = i == 0 ? 1.0625 * std::abs(f) / slope : 1.0625 * best.distance;
-      const std::optional<FootPoint> found = along_line(p, f, direction, guess);
-      if (!found || found->distance >= best.distance) break;
-      const bool is_settled = found->distance > 0.999 * best.distance;
-      best = *found;
-      if (is_settled) break;
-      normal = gradient(best.point);
+    return best;
+  }
+  // Keeps the foot in this direction when it is nearer; tells whether it is nearer by something worth another walk.
+  const auto try_direction = [&](const Vec3& direction, double guess) {
+    const double length = norm(direction);
+    if (!(length > 0)) return false;
+    const std::optional<FootPoint> found =
+        along_line(p, f, direction / length, 1.0625 * std::min(guess, kFirstStep), std::min(kReach, best.distance));
+    const bool is_progress = found && found->distance < 0.999 * best.distance;
+    if (found && found->distance < best.distance) best = *found;
+    return is_progress;
+  };
+
+  // Down or up the gradient at p. On a crease the gradient of one cell may lead into another where it does not hold;
+  // then in many directions: those in a grid face or edge have values that all its cells share.
+  const double uphill = f > 0 ? -1 : 1;
+  const Vec3 normal = gradient(p);
+  const double promised = std::abs(f) / norm(normal);
+  try_direction(uphill * normal, promised);
+  if (!(best.distance <= std::min(kSurprising * promised, kFar))) {
+    for (int i = 0; i < 125; ++i) {
+      const int x = i % 5 - 2, y = i / 5 % 5 - 2, z = i / 25 - 2;
+      const Vec3 direction{double(x), double(y), double(z)};
+      const bool is_on_shell = std::max({std::abs(x), std::abs(y), std::abs(z)}) == 2;
+      if (is_on_shell) try_direction(direction, std::min(promised, best.distance / 3));
     }
   }
-  if (best.distance > kSuspicious) look_among_crossings(p, best);
+  if (best.distance > kFar) look_among_crossings(p, best);
+  // Then along the gradient at the foot, which is the surface's normal there.
+  for (int i = 0; i < kRefinements; ++i) {
+    if (!try_direction(uphill * gradient(best.point), best.distance)) break;
+  }
   return best;
 }
 

@@ -38,9 +38,10 @@ class IsosurfaceProbe {
   [[nodiscard]] double value(const Vec3& p) const;
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
-  // A point of the isosurface near p: where lines through p along gradients meet it, or the nearest of its points on
-  // grid edges when that is nearer or no such line meets it soon. So the distance is never below the true one (but for
-  // rounding), and exceeds it only where the isosurface bends strongly within a voxel.
+  // A point of the isosurface near p: where lines through p along gradients (and, far off or near creases, in about a
+  // hundred directions) meet it, or the nearest of its points on grid edges when that is nearer. So the distance is
+  // never below the true one (but for rounding), and exceeds it only where the isosurface bends strongly within a
+  // voxel.
   FootPoint foot_point(const Vec3& p);
 
   // The places of `crossings` in voxel space, in their order.
@@ -53,7 +54,7 @@ class IsosurfaceProbe {
   };
   [[nodiscard]] Place place(const Vec3& p) const;
   [[nodiscard]] std::optional<FootPoint> along_line(const Vec3& p, double value_at_p, const Vec3& direction,
-                                                    double first_step) const;
+                                                    double first_step, double reach) const;
   void look_among_crossings(const Vec3& p, FootPoint& best);
 
   const ScalarGrid& grid_;

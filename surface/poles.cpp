@@ -8,7 +8,7 @@
 
 namespace deliso {
 
-std::vector<double> compute_poles(const RestrictedDelaunay& restricted) {
+std::vector<double> compute_poles(const SignedDelaunay& restricted) {
   const Tetrahedralization& delaunay = restricted.delaunay();
 
   // All four vertices of a tetrahedron are equally far from its Voronoi vertex.

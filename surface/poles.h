@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "surface/restricted_delaunay.h"
+#include "surface/signed_delaunay.h"
 
 namespace deliso {
 
@@ -11,6 +11,6 @@ namespace deliso {
 // each side the pole is the Voronoi vertex farthest from the vertex, and the pole height is the smaller of the two
 // distances. The signs of the tetrahedra tell the sides apart. A side without a finite Voronoi vertex counts as
 // infinite; when both are, the height is the diagonal of the box.
-std::vector<double> compute_poles(const RestrictedDelaunay& restricted);
+std::vector<double> compute_poles(const SignedDelaunay& restricted);
 
 }  // namespace deliso

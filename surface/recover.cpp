@@ -50,7 +50,6 @@ class Recovery {
   [[nodiscard]] std::optional<Vec3> onto_surface(const Vec3& p) const;
   bool insert(ViolationKind kind, const RefinementPoint& candidate);
   void inherit_pole_height();
-  [[nodiscard]] bool on_box(const Vec3& p) const;
 
   RestrictedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
@@ -129,7 +128,7 @@ std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
 std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
   const UmbrellaShape shape = umbrella_.inspect(q);
   if (shape == UmbrellaShape::kDisk) return std::nullopt;
-  if (shape == UmbrellaShape::kHalfDisk && on_box(delaunay_.point(q))) return std::nullopt;
+  if (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q)) return std::nullopt;
   if (auto candidate = farthest_of_umbrella(q)) return candidate;
   return farthest_in_voronoi_cell(q);
 }
@@ -264,7 +263,7 @@ bool Recovery::insert(ViolationKind kind, const RefinementPoint& candidate) {
     return false;
   }
   ++stats_.insertions;
-  if (on_box(*p)) ++stats_.boundary_splits;
+  if (SignedDelaunay::on_box(isosurface_.box(), *p)) ++stats_.boundary_splits;
   switch (kind) {
     case ViolationKind::kMultiIntersect:
       ++stats_.multi_intersect;
@@ -277,12 +276,6 @@ bool Recovery::insert(ViolationKind kind, const RefinementPoint& candidate) {
       break;
   }
   return true;
-}
-
-bool Recovery::on_box(const Vec3& p) const {
-  const Box3& box = isosurface_.box();
-  return p.x == box.low.x || p.y == box.low.y || p.z == box.low.z || p.x == box.high.x || p.y == box.high.y ||
-         p.z == box.high.z;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class Refinement {
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
 
-  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole, bool& has_hit);
+  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
   [[nodiscard]] double badness_of(std::uint32_t triangle, double& radius) const;
   [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
@@ -104,10 +104,15 @@ void Refinement::queue_everything() {
   in_disk_.assign(count, 0);
   on_rim_.assign(mesh_.points.size(), 0);
   rim_edge_from_.assign(mesh_.points.size(), 0);
+  mesh_.balls.resize(count);
   for (std::uint32_t t = 0; t < count; ++t) {
-    double radius = 0;
-    const double bad = badness_of(t, radius);
-    if (bad > 1 && radius > options_.r_min) queue_.push({t, 0}, bad, radius);
+    double mean_pole = 0;
+    for (const std::uint32_t v : mesh_.triangles[t]) mean_pole += mesh_.pole_heights[v] / 3;
+    const NewTriangle measured = measure(corner(t, 0), corner(t, 1), corner(t, 2), mean_pole);
+    mesh_.balls[t] = measured.ball;
+    if (measured.badness > 1 && measured.radius > options_.r_min) {
+      queue_.push({t, 0}, measured.badness, measured.radius);
+    }
   }
 }
 
@@ -268,22 +273,20 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   star_.clear();
   for (const RimEdge& edge : rim_) {
     const double mean_pole = (star_pole_height_ + mesh_.pole_heights[edge.from] + mesh_.pole_heights[edge.to]) / 3;
-    bool has_hit = false;
-    star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole, has_hit));
+    star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole));
   }
   return std::nullopt;
 }
 
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
 // refinement.
-Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole,
-                                            bool& has_hit) {
+Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
   const Circumcircle circle = circumcircle(p, a, b);
   const Vec3 normal = cross(a - p, b - p);
+  if (!std::isfinite(circle.radius) || !(norm(normal) > 0)) return {{p, 0}, 0, 0};  // nothing can be measured on it
   const Line dual{circle.center, normal / norm(normal)};
   const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
-  has_hit = t.has_value();
-  if (!has_hit) return {{circle.center, circle.radius * circle.radius}, 0, circle.radius};
+  if (!t) return {{circle.center, circle.radius * circle.radius}, 0, circle.radius};
   const Vec3 x = dual.at(*t);
   const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
   return {{x, squared_distance(x, p)}, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};

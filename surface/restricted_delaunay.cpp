@@ -13,45 +13,9 @@ namespace deliso {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Guards sit this many box diagonals off the plane of coplanar points.
-constexpr double kGuardDistance = 16;
 // A hit this near to an end of its dual edge (mesh-space units, or this fraction of the edge's distance from the facet)
 // may be an artefact of rounded circumcenters.
 constexpr double kEndTolerance = 1e-7;
-
-Box3 box_with_guards(const Box3& box) {
-  const double reach = (kGuardDistance + 1) * box.diagonal();
-  Box3 large = box;
-  large.extend(box.low - Vec3{reach, reach, reach});
-  large.extend(box.high + Vec3{reach, reach, reach});
-  return large;
-}
-
-// A unit normal of the plane that all the points lie in.
-Vec3 plane_normal(std::span<const Vec3> points) {
-  const Vec3& a = points.front();
-  Vec3 b = a;
-  for (const Vec3& p : points) {
-    if (squared_distance(a, p) > squared_distance(a, b)) b = p;
-  }
-  Vec3 best;
-  for (const Vec3& p : points) {
-    const Vec3 n = cross(b - a, p - a);
-    if (squared_norm(n) > squared_norm(best)) best = n;
-  }
-  if (!(squared_norm(best) > 0)) throw InputError("the isosurface has fewer than three points that are not in line");
-  return best / norm(best);
-}
-
-// The point of the box that a point running to infinity along the line ends at when it is clamped.
-Vec3 clamped_limit(const Box3& box, const Vec3& origin, const Vec3& direction) {
-  Vec3 p = box.clamp(origin);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (direction[axis] > 0) p[axis] = box.high[axis];
-    if (direction[axis] < 0) p[axis] = box.low[axis];
-  }
-  return p;
-}
 
 }  // namespace
 
@@ -65,54 +29,24 @@ double surface_hit(const DualEdge& edge) {
 }
 
 RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points)
-    : isosurface_(isosurface), delaunay_(box_with_guards(isosurface.box())) {
-  if (!delaunay_.build(points)) {
-    if (points.empty()) throw InputError("the isosurface has no point to start from");
-    std::vector<Vec3> guarded(points.begin(), points.end());
-    const Vec3 off = kGuardDistance * isosurface.box().diagonal() * plane_normal(points);
-    guarded.push_back(points.front() + off);
-    guarded.push_back(points.front() - off);
-    DELISO_CHECK(delaunay_.build(guarded), "guards must lift coplanar points into space");
-    guards_ = 2;
-    first_guard_ = static_cast<std::uint32_t>(delaunay_.vertex_count()) - guards_;
-  }
+    : SignedDelaunay(isosurface, points) {
   const Stopwatch watch;
-  take_signs_and_search_everything();
+  search_everything();
   restricted_seconds_ += watch.seconds();
 }
 
-void RestrictedDelaunay::take_signs_and_search_everything() {
+void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
-  sign_.assign(slots, Sign::kBelow);
   edge_of_.assign(slots, {});
   touched_stamp_.assign(delaunay_.vertex_count(), 0);
   leaving_stamp_.assign(slots, 0);
   for (std::size_t i = 0; i < slots; ++i) {
-    if (delaunay_.is_live(TetId(i))) sign_[i] = sign_of(TetId(i));
-  }
-  for (std::size_t i = 0; i < slots; ++i) {
     if (!delaunay_.is_live(TetId(i))) continue;
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(TetId(i), face);
-      if (delaunay_.mirror(f) < f) continue;
-      search_facet(f);
+      if (f < delaunay_.mirror(f)) search_facet(f);
     }
   }
-}
-
-// One sign per tetrahedron: that of the (clamped) field at its circumcenter, or at the far end of a ghost's dual ray.
-RestrictedDelaunay::Sign RestrictedDelaunay::sign_of(TetId t) const {
-  const auto& v = delaunay_.vertices(t);
-  Vec3 where;
-  if (delaunay_.is_ghost(t)) {
-    const Vec3& a = delaunay_.point(v[0]);
-    const Vec3& b = delaunay_.point(v[1]);
-    const Vec3& c = delaunay_.point(v[2]);
-    where = clamped_limit(isosurface_.box(), circumcircle(a, b, c).center, cross(b - a, c - a));
-  } else {
-    where = circumcenter(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), delaunay_.point(v[3]));
-  }
-  return isosurface_.is_above(where) ? Sign::kAbove : Sign::kBelow;
 }
 
 RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& p, TetId start, double min_distance) {

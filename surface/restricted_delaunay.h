@@ -1,10 +1,7 @@
 // The Delaunay triangulation restricted to the isosurface, kept up to date under insertions (stage 1).
 //
-// Every tetrahedron has one sign: that of the field at its circumcenter, taken once. A facet is *restricted* when the
-// signs of its two tetrahedra differ; so the restricted facets always bound a set of tetrahedra, whatever the rounding.
-// For every facet whose dual edge meets the isosurface we keep all hits (algorithm: MultiIntersect needs all of them).
-// The field is extended beyond the box by clamping, so signs exist everywhere, also for ghosts (the limit of their dual
-// ray), and a surface cut by the box needs no special case: its rim shows as restricted facets at the infinite vertex.
+// For every facet whose dual edge meets the isosurface we keep all hits: MultiIntersect needs all of them, and when an
+// insertion shortens a dual edge its hits are filtered, not searched again.
 #pragma once
 
 #include <array>
@@ -13,8 +10,7 @@
 #include <vector>
 
 #include "delaunay/base/counters.h"
-#include "delaunay/bowyer_watson.h"
-#include "raycast/isosurface.h"
+#include "surface/signed_delaunay.h"
 
 namespace deliso {
 
@@ -35,10 +31,9 @@ struct DualEdge {
 // x_sigma of a restricted facet: the hit nearest to its plane among those that cross in the direction of its signs.
 double surface_hit(const DualEdge& edge);
 
-class RestrictedDelaunay {
+class RestrictedDelaunay : public SignedDelaunay {
  public:
-  // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
-  // added; facets with a guard count as infinite. Throws InputError when fewer than three points are distinct.
+  // See SignedDelaunay.
   RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
 
   enum class Outcome { kInserted, kDuplicate, kTooClose };
@@ -51,45 +46,30 @@ class RestrictedDelaunay {
   [[nodiscard]] std::span<const VertexId> touched_vertices() const { return touched_vertices_; }
   [[nodiscard]] VertexId last_vertex() const { return VertexId(delaunay_.vertex_count() - 1); }
 
-  [[nodiscard]] const Isosurface& isosurface() const { return isosurface_; }
-  [[nodiscard]] const Tetrahedralization& delaunay() const { return delaunay_; }
-  [[nodiscard]] bool is_above(TetId t) const { return sign_[t.index()] == Sign::kAbove; }
-  [[nodiscard]] bool is_restricted(FacetId f) const {
-    return sign_[f.tet().index()] != sign_[delaunay_.neighbour(f.tet(), f.face()).index()];
-  }
-  // The infinite vertex or a guard: no point of the surface.
-  [[nodiscard]] bool is_virtual(VertexId v) const {
-    return v == kInfiniteVertex || (v.value >= first_guard_ && v.value < first_guard_ + guards_);
-  }
-
   // Slots of dual edges; `is_alive` tells the used ones.
   [[nodiscard]] std::size_t dual_edge_slots() const { return dual_edges_.size(); }
   [[nodiscard]] bool is_alive(DualEdgeId e) const { return (dual_edges_[e.index()].generation & 1u) != 0; }
   [[nodiscard]] const DualEdge& dual_edge(DualEdgeId e) const { return dual_edges_[e.index()]; }
   // The dual edge of a facet, or none when it has no hit.
   [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return edge_of_[f.tet().index()][f.face()]; }
-  [[nodiscard]] bool is_restricted(DualEdgeId e) const { return is_restricted(dual_edge(e).facet); }
 
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
   // Wall-clock time spent deciding which facets are restricted.
   [[nodiscard]] double restricted_seconds() const { return restricted_seconds_; }
 
  private:
-  enum class Sign : std::uint8_t { kBelow, kAbove };
-
   struct RimEdge {
     DualEdgeId edge;               // of a facet on the rim, or none
     bool inside_is_begin = false;  // its t_begin end was in the region
     bool was_restricted = false;
   };
 
-  void take_signs_and_search_everything();
+  void search_everything();
   void forget_region();
   void renew_star();
   void renew_rim_facet(TetId created, const RimEdge& rim);
   void search_facet(FacetId f);
   void settle_hits(DualEdge& edge) const;
-  [[nodiscard]] Sign sign_of(TetId t) const;
   [[nodiscard]] double dual_end(const DualEdge& edge, TetId t, int side) const;
   [[nodiscard]] double nearest_rim_vertex(const Vec3& p) const;
   void touch_vertices(FacetId f);
@@ -97,12 +77,6 @@ class RestrictedDelaunay {
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
-  const Isosurface& isosurface_;
-  BowyerWatson delaunay_;
-  std::uint32_t first_guard_ = 0;
-  std::uint32_t guards_ = 0;
-
-  std::vector<Sign> sign_;                          // of each tetrahedron
   std::vector<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
   std::vector<std::uint32_t> touched_stamp_;        // of each vertex: the insertion that touched it last
   std::vector<std::uint32_t> leaving_stamp_;        // of each tetrahedron: the insertion that destroyed it

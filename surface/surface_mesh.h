@@ -28,8 +28,12 @@ struct SurfaceMesh {
   std::vector<double> pole_heights;  // of each vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<TriangleSide, 3>> neighbours;
-  std::vector<SurfaceDelaunayBall> balls;
+  std::vector<SurfaceDelaunayBall> balls;  // of each triangle, kept by stage 2
 };
+
+// Appends the wanted pieces of a mesh (without their balls) to another; `piece_of`: of each vertex of `from`.
+void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
+                   SurfaceMesh& to);
 
 // In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.
 TriangleMesh to_world(const SurfaceMesh& mesh, const ScalarGrid& grid, const Vec3& step);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/restricted_delaunay.h"
+#include "surface/signed_delaunay.h"
 
 namespace deliso {
 
@@ -19,7 +19,7 @@ enum class UmbrellaShape {
 // Walks stars. Holds scratch memory; one object serves any number of vertices of one triangulation.
 class UmbrellaInspector {
  public:
-  explicit UmbrellaInspector(const RestrictedDelaunay& restricted) : restricted_(restricted) {}
+  explicit UmbrellaInspector(const SignedDelaunay& restricted) : restricted_(restricted) {}
 
   UmbrellaShape inspect(VertexId q);
 
@@ -31,7 +31,7 @@ class UmbrellaInspector {
  private:
   void collect(VertexId q);
 
-  const RestrictedDelaunay& restricted_;
+  const SignedDelaunay& restricted_;
   std::vector<std::uint32_t> seen_;  // of each tetrahedron: the inspection that saw it last
   std::uint32_t inspection_ = 0;
   std::vector<TetId> star_;

@@ -205,8 +205,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
     v.orientation = check_orientation(voxels, topology, probe);
     v.boundary = check_boundary(voxels, connectivity, probe.box());
   }
-  v.topology = certify(mesh, truth.components);
-  if (!truth.singular_cells.empty()) v.topology.verdict = Verdict::kSingularIsovalue;
+  v.topology = certify(mesh, truth);
 
   // Geometry.
   check_distances(voxels, probe, v);

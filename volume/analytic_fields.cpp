@@ -163,6 +163,7 @@ ScalarGrid bubbles(std::int32_t size, std::uint64_t seed) {
   };
   const std::int32_t side = balls_per_side(size);
   const double box = 2.0 / side;
+  const auto lattice = static_cast<std::size_t>(side);
   Rng rng(seed);
   std::vector<Ball> balls;
   for (std::int32_t k = 0; k < side; ++k)
@@ -184,7 +185,8 @@ ScalarGrid bubbles(std::int32_t size, std::uint64_t seed) {
     for (std::int32_t k = first(p.z); k <= last(p.z); ++k)
       for (std::int32_t j = first(p.y); j <= last(p.y); ++j)
         for (std::int32_t i = first(p.x); i <= last(p.x); ++i) {
-          const Ball& ball = balls[static_cast<std::size_t>((k * side + j) * side + i)];
+          const Ball& ball = balls[(static_cast<std::size_t>(k) * lattice + static_cast<std::size_t>(j)) * lattice +
+                                   static_cast<std::size_t>(i)];
           value = std::max(value, ball.radius - distance(p, ball.center));
         }
     return value * voxels;
@@ -265,8 +267,8 @@ std::vector<AnalyticField> all_fields() {
 }  // namespace
 
 const std::vector<AnalyticField>& analytic_fields() {
-  static const std::vector<AnalyticField> fields = all_fields();
-  return fields;
+  static const std::vector<AnalyticField> kFields = all_fields();
+  return kFields;
 }
 
 const AnalyticField& find_analytic_field(std::string_view name) {

@@ -71,6 +71,7 @@ class TopologyBuilder {
   [[nodiscard]] std::uint32_t crossing_on(const CellIndex& cell, int edge) const;
   void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
   void join_cell(const CellIndex& cell, std::uint8_t pattern);
+  [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
   void number_components();
   void count_on_box();
   [[nodiscard]] bool meets_surface(const CellIndex& corner, std::size_t axis) const;
@@ -101,7 +102,11 @@ void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t patte
 
 void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
   const CellSweep sweep(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
-  if (sweep.singular()) result_.singular_cells.push_back(cell);
+  bool singular = sweep.singular_inside();
+  for (unsigned faces = sweep.saddle_faces(); faces != 0; faces &= faces - 1) {
+    singular = singular || !passes_through(cell, std::countr_zero(faces));
+  }
+  if (singular) result_.singular_cells.push_back(cell);
   std::array<std::uint32_t, kMaxCellPieces> first;
   first.fill(CrossingIndex::kNone);
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
@@ -122,6 +127,19 @@ void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
     const auto piece = static_cast<std::size_t>(sweep.saddle(i).piece);
     result_.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
   }
+}
+
+// Whether the surface, at a saddle of a cell's face at the isovalue, passes from cell to cell: then it is a graph over
+// the face there, a regular point. Else two sheets touch in that point.
+bool TopologyBuilder::passes_through(const CellIndex& cell, int face) const {
+  const auto axis = static_cast<std::size_t>(face / 2);
+  CellIndex neighbour = cell;
+  neighbour[axis] += face % 2 == 1 ? 1 : -1;
+  if (neighbour[axis] < 0 || neighbour[axis] + 1 >= grid_.dims()[axis]) return false;
+  const auto slope = [&](const CellIndex& at, int side) {
+    return saddle_slope_into_cell(grid_.cell(at[0], at[1], at[2]), isovalue_, side);
+  };
+  return slope(cell, face) * slope(neighbour, face ^ 1) < 0;
 }
 
 void TopologyBuilder::number_components() {

@@ -23,6 +23,7 @@ struct ComponentTopology {
   std::int64_t euler_characteristic = 0;
   std::int64_t boundary_loops = 0;
   friend bool operator==(const ComponentTopology&, const ComponentTopology&) = default;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the defaulted comparison for a null pointer
   friend auto operator<=>(const ComponentTopology&, const ComponentTopology&) = default;
 };
 
@@ -40,7 +41,8 @@ struct IsosurfaceTopology {
   CrossingIndex index;                        // index.find(i, j, k, axis) is a place in `crossings`
   std::vector<SurfaceSaddle> saddles;         // by cell, x fastest
   // Cells in or on which the surface has a singular point although no sample equals the isovalue: the isovalue is that
-  // of a saddle, the surface is no manifold there, and the components are those of a nearby isovalue on one side.
+  // of a saddle inside the cell, or of a saddle of a face on the box or where two sheets touch. The surface is no
+  // manifold there, and the components are those of a nearby field.
   std::vector<CellIndex> singular_cells;
 };
 

@@ -111,6 +111,7 @@ bool CellSweep::flips_before(int a, int b) const {
 CellSweep::CellSweep(const CellCorners& corners, double isovalue)
     : corners_(corners), isovalue_(isovalue), pattern_(sign_pattern(corners, isovalue)) {
   piece_of_edge_.fill(-1);
+  scale_values();
   check_faces();
   order_flips();
   start();
@@ -125,7 +126,7 @@ CellSweep::CellSweep(const CellCorners& corners, double isovalue)
 void CellSweep::check_faces() {
   for (int face = 0; face < kCellFaces; ++face) {
     const std::array<int, 4> c = face_corners(face);
-    if (is_ambiguous_face(pattern_, face) && determinant(c[0], c[1], c[3], c[2]) == 0) singular_ = true;
+    if (is_ambiguous_face(pattern_, face) && determinant(c[0], c[1], c[3], c[2]) == 0) saddle_faces_ |= 1u << face;
   }
 }
 
@@ -148,12 +149,12 @@ void CellSweep::start() {
   }
   if (is_ambiguous_slice(slice_.above)) {
     // The bottom and the top side always belong to different arcs; D < 0 cuts off corners 00 and 11.
-    const auto bottom = static_cast<std::int8_t>(new_piece());
-    const auto top = static_cast<std::int8_t>(new_piece());
+    const int bottom = new_piece();
+    const int top = new_piece();
     const bool cuts_00 = det_sign(kBottom) < 0;
     slice_.piece_of_side = {bottom, top, cuts_00 ? bottom : top, cuts_00 ? top : bottom};
   } else if (slice_.above != 0 && slice_.above != 0xFu) {
-    const auto piece = static_cast<std::int8_t>(new_piece());
+    const int piece = new_piece();
     for (int side = 0; side < 4; ++side) {
       if (crossed[at(side)]) slice_.piece_of_side[at(side)] = piece;
     }
@@ -174,7 +175,7 @@ void CellSweep::cross_interval(int interval) {
       // D comes nearest to zero strictly inside: it reaches zero twice, once (a singular point), or not at all.
       const int two_roots = discriminant();
       if (two_roots > 0) add_saddles(2, start, end);
-      if (two_roots == 0) singular_ = true;
+      if (two_roots == 0) singular_inside_ = true;
     }
   }
   history_[at(interval)] = slice_;
@@ -183,8 +184,8 @@ void CellSweep::cross_interval(int interval) {
 // Two arcs meet in a saddle and part again: one node of the graph, two edges leave it.
 void CellSweep::add_saddles(int count, int start, int end) {
   const int piece = merge(slice_.piece_of_side[0], slice_.piece_of_side[1]);
-  slice_.piece_of_side.fill(static_cast<std::int8_t>(piece));
-  euler_[at(piece)] = static_cast<std::int8_t>(euler_[at(piece)] - count);
+  slice_.piece_of_side.fill(piece);
+  euler_[at(piece)] -= count;
 
   // The roots of D as doubles: this only measures.
   const auto det = [&](double w) {
@@ -208,12 +209,12 @@ void CellSweep::add_saddles(int count, int start, int end) {
 
 // A slice corner changes sign: on the two sides that meet there an arc is born, dies, or moves from one to the other.
 void CellSweep::flip(int corner) {
-  std::int8_t& across = slice_.piece_of_side[at(corner / 2)];     // on the bottom or top side
-  std::int8_t& along = slice_.piece_of_side[at(2 + corner % 2)];  // on the left or right side
+  int& across = slice_.piece_of_side[at(corner / 2)];     // on the bottom or top side
+  int& along = slice_.piece_of_side[at(2 + corner % 2)];  // on the left or right side
   int piece = 0;
   if (across < 0 && along < 0) {
     piece = new_piece();
-    across = along = static_cast<std::int8_t>(piece);
+    across = along = piece;
   } else if (across >= 0 && along >= 0) {
     DELISO_CHECK(across == along, "the arc that ends at a corner joins the corner's two sides");
     piece = across;
@@ -224,7 +225,7 @@ void CellSweep::flip(int corner) {
     piece = std::max(across, along);
   }
   slice_.above ^= 1u << corner;
-  piece_of_edge_[at(8 + corner)] = static_cast<std::int8_t>(piece);
+  piece_of_edge_[at(8 + corner)] = piece;
 }
 
 // The arcs on the top face are the last nodes of the graph.
@@ -246,8 +247,8 @@ int CellSweep::new_piece() {
 // Makes pieces a and b one, everywhere they are written down.
 int CellSweep::merge(int a, int b) {
   if (a == b) return a;
-  const auto rename = [&](std::int8_t& piece) {
-    if (piece == b) piece = static_cast<std::int8_t>(a);
+  const auto rename = [&](int& piece) {
+    if (piece == b) piece = a;
   };
   std::for_each(piece_of_edge_.begin(), piece_of_edge_.end(), rename);
   std::for_each(slice_.piece_of_side.begin(), slice_.piece_of_side.end(), rename);
@@ -255,7 +256,7 @@ int CellSweep::merge(int a, int b) {
   for (int i = 0; i < saddle_count_; ++i) {
     if (saddles_[at(i)].piece == b) saddles_[at(i)].piece = a;
   }
-  euler_[at(a)] = static_cast<std::int8_t>(euler_[at(a)] + euler_[at(b)]);
+  euler_[at(a)] += euler_[at(b)];
   euler_[at(b)] = 0;
   return a;
 }
@@ -269,20 +270,20 @@ void CellSweep::record_edges(int first_edge_offset) {
 
 // Numbers the pieces that are left after merging 0, 1, ... in the order of their first edge.
 void CellSweep::renumber() {
-  std::array<std::int8_t, 8> number;
+  std::array<int, 8> number;
   number.fill(-1);
   int count = 0;
-  std::array<std::int8_t, 8> euler{};
-  for (std::int8_t& piece : piece_of_edge_) {
+  std::array<int, 8> euler{};
+  for (int& piece : piece_of_edge_) {
     if (piece < 0) continue;
     if (number[at(piece)] < 0) {
       euler[at(count)] = euler_[at(piece)];
-      number[at(piece)] = static_cast<std::int8_t>(count++);
+      number[at(piece)] = count++;
     }
     piece = number[at(piece)];
   }
   for (Slice& slice : history_) {
-    for (std::int8_t& piece : slice.piece_of_side) {
+    for (int& piece : slice.piece_of_side) {
       if (piece >= 0) piece = number[at(piece)];
     }
   }
@@ -292,6 +293,15 @@ void CellSweep::renumber() {
 }
 
 // --- Where things are: rounded --------------------------------------------------------------------------------------
+
+void CellSweep::scale_values() {
+  double largest = std::abs(isovalue_);
+  for (const double corner : corners_) largest = std::max(largest, std::abs(corner));
+  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    values_[c] = std::ldexp(corners_[c], exponent) - std::ldexp(isovalue_, exponent);
+  }
+}
 
 double CellSweep::position(int end) const {
   if (end == kBottom) return 0;

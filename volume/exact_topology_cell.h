@@ -54,6 +54,9 @@ bool is_ambiguous_face(std::uint8_t pattern, int face);
 // decided the same way by both cells of the face.
 bool above_joined_on_face(const CellCorners& corners, double isovalue, int face);
 
+// For a face with a saddle exactly at the isovalue: the sign of the interpolant's derivative there, into the cell.
+int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face);
+
 // The arcs on one face, from a crossed edge to a crossed edge, each with the region above the isovalue on its right
 // when seen from outside the cell. `above_joined` matters for an ambiguous face only.
 struct CellFaceArcs {
@@ -66,7 +69,7 @@ CellFaceArcs arcs_on_cell_face(std::uint8_t pattern, int face, bool above_joined
 // The arcs in which the surface meets the cell's faces, as successors: on its boundary a piece of the surface runs from
 // crossing e to crossing next[e], counterclockwise around the piece seen from the side of lower values. -1 where edge e
 // has no crossing. `joined` has bit f set when above_joined_on_face(f); it matters for ambiguous faces only.
-using EdgeSuccessors = std::array<std::int8_t, kCellEdges>;
+using EdgeSuccessors = std::array<int, kCellEdges>;
 EdgeSuccessors edge_successors(std::uint8_t pattern, unsigned joined);
 
 class CellSweep {
@@ -79,9 +82,13 @@ class CellSweep {
   // The piece of the crossing on an edge, or -1 when the edge has none.
   [[nodiscard]] int piece_of_edge(int edge) const { return piece_of_edge_[static_cast<std::size_t>(edge)]; }
   [[nodiscard]] int euler_characteristic(int piece) const { return euler_[static_cast<std::size_t>(piece)]; }
-  // True when the surface has a singular point in the cell or on its faces; the pieces are then those of a nearby
-  // isovalue on one side.
-  [[nodiscard]] bool singular() const { return singular_; }
+  // True when the surface has a singular point inside the cell: the isovalue is that of a saddle of the interpolant.
+  // The pieces are then those of a nearby isovalue on one side.
+  [[nodiscard]] bool singular_inside() const { return singular_inside_; }
+  // Bit f is set when face f has a saddle exactly at the isovalue. The surface is regular there when it passes through
+  // the face, from cell to cell (saddle_slope_into_cell has opposite signs); else the pieces are those of a nearby
+  // field.
+  [[nodiscard]] unsigned saddle_faces() const { return saddle_faces_; }
   // The saddles of the sweep: points of the surface (rounded), in cell parameters, with the piece they lie on.
   struct Saddle {
     Vec3 uvw;
@@ -97,7 +104,7 @@ class CellSweep {
   // Sides of a slice: 0 bottom (v = 0), 1 top, 2 left (u = 0), 3 right. Bits of `above` are the slice's corners u + 2v.
   struct Slice {
     unsigned above = 0;
-    std::array<std::int8_t, 4> piece_of_side{-1, -1, -1, -1};
+    std::array<int, 4> piece_of_side{-1, -1, -1, -1};
     int det_sign = 0;  // of D at the interval's start, when the slice is ambiguous
   };
 
@@ -106,10 +113,12 @@ class CellSweep {
   [[nodiscard]] int det_slope(int end) const;
   [[nodiscard]] int det_sign(int end) const;
   [[nodiscard]] bool flips_before(int a, int b) const;
-  [[nodiscard]] double value(int corner) const { return corners_[static_cast<std::size_t>(corner)] - isovalue_; }
+  // The corner minus the isovalue, rounded, times a power of two that keeps products of two in range.
+  [[nodiscard]] double value(int corner) const { return values_[static_cast<std::size_t>(corner)]; }
   [[nodiscard]] double position(int end) const;
   [[nodiscard]] std::array<double, 4> slice_values(double w) const;
   [[nodiscard]] Vec3 slice_saddle(double w) const;
+  void scale_values();
   void order_flips();
   void check_faces();
   void start();
@@ -124,17 +133,19 @@ class CellSweep {
 
   CellCorners corners_;
   double isovalue_;
+  std::array<double, 8> values_{};
   std::uint8_t pattern_ = 0;
   int flip_count_ = 0;
   std::array<int, 4> flips_{};      // slice corners in the order in which they change sign
   Slice slice_;                     // the current one
   std::array<Slice, 5> history_{};  // between the flips
   int pieces_ = 0;
-  std::array<std::int8_t, kCellEdges> piece_of_edge_{};
-  std::array<std::int8_t, 8> euler_{};
+  std::array<int, kCellEdges> piece_of_edge_{};
+  std::array<int, 8> euler_{};
   int saddle_count_ = 0;
   std::array<Saddle, 4> saddles_{};
-  bool singular_ = false;
+  bool singular_inside_ = false;
+  unsigned saddle_faces_ = 0;
 };
 
 }  // namespace deliso

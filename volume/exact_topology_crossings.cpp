@@ -53,7 +53,8 @@ bool mark_row(const Sample* row, std::size_t length, double isovalue, std::uint6
   return !may_be_equal || std::none_of(row, row + length, [&](Sample sample) { return sample == threshold; });
 }
 
-// The place of the zero on an edge with end values `low` and `high`, inside (0, 1) whatever the rounding.
+}  // namespace
+
 double edge_parameter(double low, double high, double isovalue) {
   double before = low - isovalue;
   double length = low - high;
@@ -64,8 +65,6 @@ double edge_parameter(double low, double high, double isovalue) {
   constexpr double kBelowOne = 1 - std::numeric_limits<double>::epsilon() / 2;
   return std::clamp(before / length, std::numeric_limits<double>::min(), kBelowOne);
 }
-
-}  // namespace
 
 CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
     : dims_(grid.dims()), words_per_row_((grid.dims()[0] + kWordBits - 1) / kWordBits) {
@@ -153,8 +152,9 @@ std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
   const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
   const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
-  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(crossing.sample / nx % ny),
-                static_cast<double>(crossing.sample / nx / ny)};
+  const std::uint64_t row = crossing.sample / nx;
+  const std::uint64_t slice = row / ny;
+  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(row % ny), static_cast<double>(slice)};
   position[crossing.axis] += crossing.t;
   return position;
 }

@@ -22,6 +22,11 @@ struct EdgeCrossing {
   double t = 0;                 // position along the edge, in (0, 1)
 };
 
+// Where the field equals `isovalue` on a segment between two values on different sides of it, as a fraction of the
+// segment in (0, 1). Every crossing of a grid edge is computed here, from the lower sample to the higher, so that equal
+// crossings are equal bit by bit.
+double edge_parameter(double low, double high, double isovalue);
+
 // A voxel cell, by its lowest corner.
 using CellIndex = std::array<std::int32_t, 3>;
 

@@ -106,6 +106,22 @@ bool above_joined_on_face(const CellCorners& corners, double isovalue, int face)
   return (sign >= 0) == (corners[at(c[0])] > isovalue);
 }
 
+int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face) {
+  const std::array<int, 4> c = face_corners(face);
+  const int inwards = 1 << face / 2;
+  return exact_sign([&](const auto& kind) {
+    using Number = std::decay_t<decltype(kind)>;
+    // The saddle divides the face's sides in the ratios of these differences: weights of the corners, up to a square.
+    const auto step = [&](std::size_t to, std::size_t from) {
+      return Number::difference(corners[at(c[to])], corners[at(c[from])]);
+    };
+    // There the interpolant is the isovalue on the face; what it is across the cell gives the sign.
+    const auto across = [&](std::size_t i) { return Number::difference(corners[at(c[i] ^ inwards)], isovalue); };
+    return across(0) * step(2, 1) * step(2, 3) + across(1) * step(0, 3) * step(2, 3) +
+           across(2) * step(0, 3) * step(0, 1) + across(3) * step(2, 1) * step(0, 1);
+  });
+}
+
 CellFaceArcs arcs_on_cell_face(std::uint8_t pattern, int face, bool above_joined) {
   const std::array<int, 4> corners = face_corners(face);
   const auto above = [&](int i) { return is_above(pattern, corners[at(i % 4)]); };
@@ -131,7 +147,7 @@ EdgeSuccessors edge_successors(std::uint8_t pattern, unsigned joined) {
   next.fill(-1);
   for (int face = 0; face < kCellFaces; ++face) {
     const CellFaceArcs arcs = arcs_on_cell_face(pattern, face, (joined >> face & 1u) != 0);
-    for (int i = 0; i < arcs.count; ++i) next[at(arcs.from[at(i)])] = static_cast<std::int8_t>(arcs.to[at(i)]);
+    for (int i = 0; i < arcs.count; ++i) next[at(arcs.from[at(i)])] = arcs.to[at(i)];
   }
   return next;
 }

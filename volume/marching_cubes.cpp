@@ -83,6 +83,20 @@ std::size_t split_into_loops(const EdgeSuccessors& next, std::array<Loop, kMaxCe
   return count;
 }
 
+// The one loop of a simple sign pattern (is_simple), from a table.
+const Loop& simple_loop(std::uint8_t pattern) {
+  static const std::array<Loop, 256> kLoops = [] {
+    std::array<Loop, 256> table;
+    for (unsigned p = 0; p < 256; ++p) {
+      std::array<Loop, kMaxCellPieces> loops;
+      split_into_loops(edge_successors(static_cast<std::uint8_t>(p), 0), loops);
+      table[p] = loops[0];
+    }
+    return table;
+  }();
+  return kLoops[pattern];
+}
+
 void MarchingCubes::add_cell(const CellIndex& cell, std::uint8_t pattern) {
   cell_ = cell;
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
@@ -91,17 +105,13 @@ void MarchingCubes::add_cell(const CellIndex& cell, std::uint8_t pattern) {
     vertices_[static_cast<std::size_t>(edge)] =
         index_.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2), e.axis);
   }
-  std::array<Loop, kMaxCellPieces> loops;
-  if (is_simple(pattern)) {
-    split_into_loops(edge_successors(pattern, 0), loops);
-    add_disk(loops[0]);
-    return;
-  }
+  if (is_simple(pattern)) return add_disk(simple_loop(pattern));
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   unsigned joined = 0;
   for (int face = 0; face < kCellFaces; ++face) {
     if (is_ambiguous_face(pattern, face) && above_joined_on_face(corners, isovalue_, face)) joined |= 1u << face;
   }
+  std::array<Loop, kMaxCellPieces> loops;
   const std::size_t count = split_into_loops(edge_successors(pattern, joined), loops);
   add_exact_pieces(corners, loops, count);
 }

@@ -1,7 +1,7 @@
-// An independent way to the topology of an isosurface of the trilinear interpolant: evaluate it exactly, in integers, on
-// a finer lattice, cut every lattice cube into six tetrahedra around its diagonal, and count the polygons in which the
-// surface of the piecewise linear function meets them. For a regular isovalue this is right once the lattice is fine
-// enough. Shares no code with what it checks.
+// An independent way to the topology of an isosurface of the trilinear interpolant: evaluate it exactly, in integers,
+// on a finer lattice, cut every lattice cube into six tetrahedra around its diagonal, and count the polygons in which
+// the surface of the piecewise linear function meets them. For a regular isovalue this is right once the lattice is
+// fine enough. Shares no code with what it checks.
 #pragma once
 
 #include <algorithm>
@@ -108,9 +108,7 @@ class LatticeTopology {
     const Point q = moved(p, d);
     return q[0] < size_[0] && q[1] < size_[1] && q[2] < size_[2];
   }
-  [[nodiscard]] bool differ(const Point& p, unsigned d) const {
-    return above_[index(p)] != above_[index(moved(p, d))];
-  }
+  [[nodiscard]] bool differ(const Point& p, unsigned d) const { return above_[index(p)] != above_[index(moved(p, d))]; }
   // True when p and p + d lie in one plane of the box.
   [[nodiscard]] bool on_box(const Point& p, unsigned d) const {
     for (std::size_t a = 0; a < 3; ++a) {

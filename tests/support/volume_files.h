@@ -54,14 +54,15 @@ inline std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// Expects an InputError of one sentence on one line that has all these parts.
+// Expects an InputError of one line that has all these parts, and `name` too.
 template <class Function>
-void expect_input_error(Function&& f, std::initializer_list<std::string> parts) {
+void expect_input_error(Function&& f, std::initializer_list<std::string> parts, const std::string& name = "") {
   try {
     f();
   } catch (const InputError& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_NE(message.find(name), std::string::npos) << "no \"" << name << "\" in: " << message;
     for (const std::string& part : parts)
       EXPECT_NE(message.find(part), std::string::npos) << "no \"" << part << "\" in: " << message;
     return;

@@ -38,11 +38,13 @@ class TetrahedraTopology {
     for (const std::uint32_t v : facets_) --all[root(parent_, v)].first;
     for (const std::uint32_t v : tetrahedra_) ++all[root(parent_, v)].first;
     std::vector<std::uint32_t> loops;
+    loops.reserve(rim_vertices_.size());
     for (const std::uint32_t v : rim_vertices_) loops.push_back(root(rim_, v));
     std::sort(loops.begin(), loops.end());
     loops.erase(std::unique(loops.begin(), loops.end()), loops.end());
     for (const std::uint32_t v : loops) ++all[root(parent_, v)].second;
     std::vector<std::pair<std::int64_t, std::int64_t>> out;
+    out.reserve(all.size());
     for (const auto& [name, component] : all) out.push_back(component);
     std::sort(out.begin(), out.end());
     return out;

@@ -134,6 +134,17 @@ TEST(IsosurfaceProbe, FindsPointsOfTheIsosurfaceAndHardlyMissesNearerOnes) {
   EXPECT_LT(sum_of_excess / 300, 0.05);
 }
 
+// Noise makes a crease of nearly every grid face and edge, where one cell's gradient is no guide to its neighbour.
+TEST(IsosurfaceProbe, StaysOnTheSurfaceAtCreases) {
+  Rng rng(4);
+  const ScalarGrid grid = testing::sampled({14, 14, 14}, [&rng](const Vec3&) { return double(rng.below(256)); });
+  const IsosurfaceTopology truth = exact_topology(grid, 100.1);
+  IsosurfaceProbe probe(grid, 100.1, truth.crossings);
+  double largest = 0;
+  for (const Vec3& p : probe.crossing_points()) largest = std::max(largest, probe.foot_point(p).distance);
+  EXPECT_LT(largest, 1e-10);
+}
+
 TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
   // Great-circle edges of an octahedron inscribed in a ball: the face centres are farthest in.
   const double radius = 6.03;

@@ -44,8 +44,9 @@ double volume_above(const ScalarGrid& grid, double isovalue) {
       for (std::int32_t i = 0; i < grid.dims()[0] - 1; ++i) {
         const CellCorners corners = grid.cell(i, j, k);
         for (int n = 0; n < kParts * kParts * kParts; ++n) {
-          const Vec3 uvw{(n % kParts + 0.5) / kParts, (n / kParts % kParts + 0.5) / kParts,
-                         (n / kParts / kParts + 0.5) / kParts};
+          const int row = n / kParts;
+          const int slice = row / kParts;
+          const Vec3 uvw{(n % kParts + 0.5) / kParts, (row % kParts + 0.5) / kParts, (slice + 0.5) / kParts};
           count += trilinear_value(corners, uvw) > isovalue ? 1 : 0;
         }
       }

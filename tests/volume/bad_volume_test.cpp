@@ -32,8 +32,7 @@ class BadVolume : public testing::Test {
   void refuse(const std::string& content, std::initializer_list<std::string> parts,
               const std::string& name = "v.nrrd") {
     write_text(directory_ / name, content);
-    expect_input_error([&] { read_volume(directory_ / name); }, {name});
-    expect_input_error([&] { read_volume(directory_ / name); }, parts);
+    expect_input_error([&] { read_volume(directory_ / name); }, parts, name);
   }
   void refuse(const Header& header, std::initializer_list<std::string> parts) {
     refuse(header.text() + kSamples, parts);

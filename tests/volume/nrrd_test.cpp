@@ -88,7 +88,7 @@ TYPED_TEST(NrrdOfType, BothByteOrdersAndEncodingsGiveTheSamples) {
 TEST(Nrrd, DataOfManyChunksReadBack) {
   // 3.1 MiB of incompressible samples: several buffers of the reader, the writer and zlib.
   const TemporaryDirectory directory;
-  const ScalarGrid grid({131, 113, 111}, random_samples<std::int16_t>(131 * 113 * 111, 3));
+  const ScalarGrid grid({131, 113, 111}, random_samples<std::int16_t>(std::size_t{131} * 113 * 111, 3));
   write_nrrd(grid, directory / "a.nrrd");
   EXPECT_EQ(read_nrrd(directory / "a.nrrd").samples(), grid.samples());
 }
@@ -169,7 +169,10 @@ TEST(Nrrd, AxesThatRunBackwardsKeepTheirWorldPositions) {
                                  std::to_string(step.z) + ")\n");
     EXPECT_EQ(grid.spacing(), (Vec3{0.5, 1, 2}));
     for (int n = 0; n < 12; ++n) {
-      const Vec3 world = Vec3{10, 20, 30} + scaled(step, Vec3{double(n % 2), double(n / 2 % 3), double(n / 6)});
+      const int row = n / 2;
+      const int slice = n / 6;
+      const Vec3 place_in_file{double(n % 2), double(row % 3), double(slice)};
+      const Vec3 world = Vec3{10, 20, 30} + scaled(step, place_in_file);
       const Vec3 place = world - grid.origin();
       EXPECT_EQ(grid.at(static_cast<int>(place.x / 0.5), static_cast<int>(place.y), static_cast<int>(place.z / 2)), n)
           << "signs " << signs;
@@ -182,7 +185,10 @@ TEST(Nrrd, AnAxisOfOneSampleMayComeFirstOrLast) {
   for (const std::string& lines :
        {std::string("sizes: 1 2 3 2\nspacings: NaN 1 2 3\n"), std::string("sizes: 2 3 2 1\nspacings: 1 2 3 NaN\n"),
         std::string("sizes: 1 2 3 2\nspace directions: none (1,0,0) (0,2,0) (0,0,3)\nspace dimension: 3\n")}) {
-    write_text(directory / "a.nrrd", "NRRD0005\ntype: uint8\ndimension: 4\nencoding: raw\n" + lines + "\n" + kRawBytes);
+    write_text(directory / "a.nrrd", std::string("NRRD0005\ntype: uint8\ndimension: 4\nencoding: raw\n")
+                                         .append(lines)
+                                         .append("\n")
+                                         .append(kRawBytes));
     const ScalarGrid grid = read_nrrd(directory / "a.nrrd");
     EXPECT_EQ(grid.dims(), (Dims{2, 3, 2}));
     EXPECT_EQ(grid.spacing(), (Vec3{1, 2, 3}));
@@ -202,7 +208,8 @@ TEST(Nrrd, DetachedHeadersFindTheirDataBesideThem) {
   };
   EXPECT_EQ(read("encoding: raw\ndata file: sub/v.raw\n"), Samples(kBytes));
   EXPECT_EQ(read("encoding: gz\ndatafile: ./sub/v.raw.gz"), Samples(kBytes));
-  EXPECT_EQ(read(std::string("encoding: raw\ndata file: ") + (directory / "sub/v.raw").c_str() + "\n\n"), Samples(kBytes));
+  EXPECT_EQ(read(std::string("encoding: raw\ndata file: ") + (directory / "sub/v.raw").c_str() + "\n\n"),
+            Samples(kBytes));
 }
 
 TEST(Nrrd, LinesAndBytesBeforeTheDataAreSkipped) {

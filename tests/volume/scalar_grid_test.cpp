@@ -20,7 +20,7 @@ using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std
 TYPED_TEST_SUITE(ScalarGridOfType, SampleTypes);
 
 TYPED_TEST(ScalarGridOfType, AccessAgreesWithTheSamplesInFileOrder) {
-  const auto samples = random_samples<TypeParam>(3 * 4 * 5, 1);
+  const auto samples = random_samples<TypeParam>(60, 1);
   const ScalarGrid grid({3, 4, 5}, samples);
   EXPECT_EQ(grid.sample_count(), samples.size());
   std::size_t n = 0;
@@ -38,7 +38,7 @@ TYPED_TEST(ScalarGridOfType, AccessAgreesWithTheSamplesInFileOrder) {
 }
 
 TYPED_TEST(ScalarGridOfType, EveryCellHoldsItsEightSamples) {
-  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(3 * 4 * 5, 2));
+  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 2));
   for (std::int32_t k = 0; k < 4; ++k)
     for (std::int32_t j = 0; j < 3; ++j)
       for (std::int32_t i = 0; i < 2; ++i) {
@@ -49,7 +49,7 @@ TYPED_TEST(ScalarGridOfType, EveryCellHoldsItsEightSamples) {
 }
 
 TYPED_TEST(ScalarGridOfType, PaddingAddsOneLayerAndKeepsEverySampleInItsPlace) {
-  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(3 * 4 * 5, 3), {0.5, 1, 2}, {10, 20, 30});
+  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 3), {0.5, 1, 2}, {10, 20, 30});
   const ScalarGrid out = padded(grid, 7);
   EXPECT_EQ(out.dims(), (Dims{5, 6, 7}));
   EXPECT_EQ(out.spacing(), grid.spacing());
@@ -127,7 +127,7 @@ TEST(ScalarGrid, RefusesGeometryThatIsNotFiniteOrNotPositive) {
 }
 
 TEST(ScalarGrid, NamesTheFirstSampleThatIsNotFinite) {
-  std::vector<float> samples(2 * 3 * 4, 1.0f);
+  std::vector<float> samples(24, 1.0f);
   samples[17] = std::numeric_limits<float>::quiet_NaN();
   samples[20] = std::numeric_limits<float>::infinity();
   expect_input_error([&] { ScalarGrid({2, 3, 4}, samples); }, {"(1, 2, 2)", "NaN"});
@@ -146,8 +146,8 @@ TEST(ScalarGrid, PaddingRefusesNaN) {
 TEST(RegularIsovalue, LiesBetweenTheSampleAndTheNextLowerOneForRandomData) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Rng rng(seed);
-    std::vector<double> samples;
-    for (int n = 0; n < 27; ++n) samples.push_back(std::floor(rng.uniform(0, 30)) * std::pow(10.0, rng.uniform(-9, 9)));
+    std::vector<double> samples(27);
+    for (double& s : samples) s = (std::floor(rng.uniform(0, 30)) * std::pow(10.0, rng.uniform(-9, 9)));
     const ScalarGrid grid({3, 3, 3}, samples);
     const double isovalue = samples[rng.below(27)];
     const double regular = regular_isovalue(grid, isovalue);

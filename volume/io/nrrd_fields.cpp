@@ -113,6 +113,7 @@ void NrrdFields::read_line(const std::string& line, int number) {
   const std::optional<std::string> name = field_name(written);
   if (!name) {
     std::vector<std::string> known;
+    known.reserve(kFieldNames.size());
     for (const auto& names : kFieldNames) known.emplace_back(names[0]);
     fail(number, "there is no field " + in_quotes(written) + nearest_name_hint(std::string(written), known));
   }

@@ -27,6 +27,7 @@ Axes read_axes(const NrrdFields& fields) {
   const NrrdField& field = fields.required("sizes");
   const std::vector<std::string> words = fields.words(field, axes.count);
   std::vector<std::int64_t> sizes;
+  sizes.reserve(words.size());
   for (const std::string& word : words) sizes.push_back(fields.integer(field, word));
 
   // Of four axes leave out one with a single sample: the last (one time step) or the first (one component).

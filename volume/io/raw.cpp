@@ -2,7 +2,8 @@
 
 #include <charconv>
 #include <limits>
-#include <regex>
+#include <string_view>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "volume/io/atomic_file.h"
@@ -18,20 +19,34 @@ struct NamedLayout {
   std::string type;
 };
 
-// name_256x256x98_uint8.raw; other words may follow the type.
-std::optional<NamedLayout> layout_in_name(const std::filesystem::path& path) {
-  const std::regex pattern("(?:^|_)([0-9]+)x([0-9]+)x([0-9]+)_([A-Za-z0-9]+)(?:_|\\.|$)");
-  const std::string name = path.filename().string();
-  std::smatch match;
-  if (!std::regex_search(name, match, pattern)) return std::nullopt;
-  NamedLayout layout;
-  layout.type = match[4];
+// 256x256x98, or nothing. Numbers beyond the range of Dims become its largest: they are refused later.
+std::optional<Dims> parsed_dims(std::string_view word) {
+  Dims dims{};
   for (std::size_t n = 0; n < 3; ++n) {
-    const std::string digits = match[n + 1];
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), layout.dims[n]);
-    if (error != std::errc()) layout.dims[n] = std::numeric_limits<std::int32_t>::max();
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), dims[n]);
+    if (error == std::errc::invalid_argument || dims[n] < 0) return std::nullopt;
+    if (error != std::errc()) dims[n] = std::numeric_limits<std::int32_t>::max();
+    word.remove_prefix(static_cast<std::size_t>(end - word.data()));
+    if (n == 2) break;
+    if (word.empty() || word.front() != 'x') return std::nullopt;
+    word.remove_prefix(1);
   }
-  return layout;
+  return word.empty() ? std::optional(dims) : std::nullopt;
+}
+
+// name_256x256x98_uint8.raw: the word after the dims is the type; other words may follow.
+std::optional<NamedLayout> layout_in_name(const std::filesystem::path& path) {
+  std::vector<std::string> words(1);
+  for (const char c : path.stem().string()) {
+    if (c == '_') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  for (std::size_t n = 0; n + 1 < words.size(); ++n)
+    if (const std::optional<Dims> dims = parsed_dims(words[n])) return NamedLayout{*dims, words[n + 1]};
+  return std::nullopt;
 }
 
 std::string text(const Dims& dims, char between) {

@@ -1,0 +1,45 @@
+// Lattice samples: points of the isosurface that determine it up to topology as the lattice gets finer.
+//
+// g is linear along axis-parallel lines within a cell, so the crossings of such lines are exact; and a thin sheet is
+// always crossed on both sides. Where random points of the surface leave the topology open, these settle it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/vec3.h"
+#include "volume/exact_topology.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// A point of the isosurface in index space. Equal keys: the same point, bit by bit, whichever cell asked for it.
+struct LatticeSample {
+  std::uint64_t key = 0;  // never 0
+  Vec3 point;
+};
+
+inline constexpr int kMaxLatticeLevel = 5;
+
+class SampleLattice {
+ public:
+  // Keeps references.
+  SampleLattice(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
+
+  // Appends the samples of one cell at a level: 1, the crossings of its grid edges; 2, also a point inside each arc on
+  // its faces and the saddles of the surface in the cell; 3, 4, 5, also the crossings of the axis-parallel lines at
+  // multiples of 1/2, 1/4, 1/8 of the cell.
+  void append(const CellIndex& cell, int level, std::vector<LatticeSample>& samples) const;
+
+ private:
+  void append_lines(const CellIndex& cell, int parts, std::vector<LatticeSample>& samples) const;
+  void append_arcs(const CellIndex& cell, std::vector<LatticeSample>& samples) const;
+  void append_saddles(const CellIndex& cell, std::vector<LatticeSample>& samples) const;
+  [[nodiscard]] Vec3 arc_point(const FaceArc& arc) const;
+
+  const ScalarGrid& grid_;
+  double isovalue_;
+  const IsosurfaceTopology& topology_;
+};
+
+}  // namespace deliso

@@ -1,0 +1,58 @@
+// A Delaunay triangulation of points on the isosurface, every tetrahedron with one sign.
+//
+// The sign is that of the field at the tetrahedron's circumcenter, taken once. A facet is *restricted* when the signs
+// of its two tetrahedra differ: then its dual edge meets the isosurface an odd number of times. So the restricted
+// facets always bound a set of tetrahedra, whatever the rounding. The field is extended beyond the box by clamping, so
+// signs exist everywhere, also for ghosts (the limit of their dual ray), and a surface cut by the box needs no special
+// case: its rim shows as restricted facets at the infinite vertex.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "delaunay/bowyer_watson.h"
+#include "raycast/isosurface.h"
+
+namespace deliso {
+
+class SignedDelaunay {
+ public:
+  // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
+  // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line.
+  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+
+  [[nodiscard]] const Isosurface& isosurface() const { return isosurface_; }
+  [[nodiscard]] const Tetrahedralization& delaunay() const { return delaunay_; }
+  [[nodiscard]] bool is_above(TetId t) const { return sign_[t.index()] == Sign::kAbove; }
+  [[nodiscard]] bool is_restricted(FacetId f) const {
+    return sign_[f.tet().index()] != sign_[delaunay_.neighbour(f.tet(), f.face()).index()];
+  }
+  // The infinite vertex or a guard: no point of the surface.
+  [[nodiscard]] bool is_virtual(VertexId v) const {
+    return v == kInfiniteVertex || (v.value >= first_guard_ && v.value < first_guard_ + guards_);
+  }
+  // Whether a vertex lies on the box, so that the surface may end there.
+  [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
+  // The tetrahedron that holds p, by a walk from `hint`.
+  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
+  // Gives a tetrahedron the sign of the field at another point than its circumcenter.
+  void take_sign_at(TetId t, const Vec3& p) { sign_[t.index()] = sign_at(p); }
+  void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
+
+  // Whether a point lies on the surface of the box, exactly.
+  static bool on_box(const Box3& box, const Vec3& p);
+
+ protected:
+  enum class Sign : std::uint8_t { kBelow, kAbove };
+  [[nodiscard]] Sign sign_at(const Vec3& p) const { return isosurface_.is_above(p) ? Sign::kAbove : Sign::kBelow; }
+  [[nodiscard]] Sign sign_of(TetId t) const;
+
+  const Isosurface& isosurface_;
+  BowyerWatson delaunay_;
+  std::vector<Sign> sign_;  // of each tetrahedron
+  std::uint32_t first_guard_ = 0;
+  std::uint32_t guards_ = 0;
+};
+
+}  // namespace deliso
