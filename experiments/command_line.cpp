@@ -110,10 +110,9 @@ ScalarGrid load_volume(const VolumeOptions& options) {
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {
   const auto [low, high] = grid.range();
-  if (isovalue < low || isovalue > high) {
-    throw InputError("--isovalue: " + number_text(isovalue) + " is outside the range of the data, " + number_text(low) +
-                     " to " + number_text(high));
-  }
+  if (low < isovalue && isovalue <= high) return;
+  throw InputError("--isovalue: the isosurface at " + number_text(isovalue) + " has no point, the data's range is " +
+                   number_text(low) + " to " + number_text(high));
 }
 
 }  // namespace deliso

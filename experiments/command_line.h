@@ -30,7 +30,7 @@ void add_volume_options(CLI::App& command, VolumeOptions& options);
 // Throws InputError when the file or the options are wrong.
 ScalarGrid load_volume(const VolumeOptions& options);
 
-// Throws InputError unless the isovalue lies in the range of the data.
+// Throws InputError naming the range of the data unless the isosurface has a point: low < isovalue <= high.
 void check_isovalue(const ScalarGrid& grid, double isovalue);
 
 }  // namespace deliso

@@ -99,9 +99,9 @@ void apply_parameters(const Json& document, const std::string& source, Parameter
     }
     // ... or a group of keys.
     if (!is_group(key)) fail_unknown_key(key, source);
-    require_object(value, source + ": " + key);
+    require_object(value, std::string(source).append(": ").append(key));
     for (const auto& [inner_key, inner_value] : value.items()) {
-      const std::string path = key + '.' + inner_key;
+      const std::string path = std::string(key).append(1, '.').append(inner_key);
       const ParameterField* field = find_field(path);
       if (field == nullptr) fail_unknown_key(path, source);
       apply_value(*field, inner_value, source, parameters);

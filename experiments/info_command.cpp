@@ -1,6 +1,7 @@
 // deliso info: what a volume holds, and isovalues worth a try.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -48,7 +49,7 @@ void print_histogram(const SampleHistogram& histogram) {
     // The first bin of the row.
     const std::size_t bin = (r * histogram.counts.size() + kRows - 1) / kRows;
     const double from = histogram.low + static_cast<double>(bin) * histogram.bin_width();
-    std::string bar(static_cast<std::size_t>(kBarWidth * static_cast<double>(counts[r]) / largest + 0.5), '#');
+    std::string bar(static_cast<std::size_t>(std::lround(kBarWidth * static_cast<double>(counts[r]) / largest)), '#');
     bar.resize(static_cast<std::size_t>(kBarWidth), ' ');
     table.row({number_text(from), std::to_string(counts[r]), bar});
   }

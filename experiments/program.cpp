@@ -42,9 +42,13 @@ std::string version_text() {
 }
 
 // CLI11 would only say that a command is missing.
-void check_command_name(const CLI::App& app, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void check_first_argument(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2) return;
   const std::string_view name = argv[1];
+  if (name.starts_with('-')) {
+    if (name == "--version" || name == "--help" || name == "-h") return;
+    throw InputError("unknown option '" + std::string(name) + "', expected a command first (deliso --help lists all)");
+  }
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
@@ -65,7 +69,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_info_command(app, exit_code);
   add_generate_command(app, exit_code);
   add_schema_command(app, exit_code);
-  check_command_name(app, argc, argv);
+  check_first_argument(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help or --version

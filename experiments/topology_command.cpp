@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "delaunay/base/check.h"
 #include "delaunay/base/stopwatch.h"
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
@@ -56,9 +55,6 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   const double used = regular_isovalue(grid, isovalue);
   const IsosurfaceTopology topology = exact_topology(options.closed ? padded(grid, grid.range().first) : grid, used);
   const double seconds = stopwatch.seconds();
-  if (topology.components.empty()) {
-    throw InputError("--isovalue: the isosurface at " + number_text(isovalue) + " has no point");
-  }
 
   // A certificate counts equal components; it needs no mesh for that.
   const std::vector<TopologyCount> counts = certify(TriangleMesh(), topology.components).isosurface;

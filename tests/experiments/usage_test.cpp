@@ -1,6 +1,8 @@
 // What the commands print and write when all is well.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 

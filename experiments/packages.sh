@@ -1,0 +1,61 @@
+# shellcheck shell=bash disable=SC2034
+# What the scripts of this project have in common: the packages they need. Sourced, not run.
+
+# Debian and Ubuntu packages, each with a file that shows it is there.
+build_packages=(
+  "g++:/usr/bin/g++"
+  "cmake:/usr/bin/cmake"
+  "ninja-build:/usr/bin/ninja"
+  "git:/usr/bin/git"
+  "nlohmann-json3-dev:/usr/include/nlohmann/json.hpp"
+  "libcli11-dev:/usr/include/CLI/CLI.hpp"
+  "zlib1g-dev:/usr/include/zlib.h"
+)
+test_packages=("libgtest-dev:/usr/include/gtest/gtest.h")
+tidy_packages=(
+  "clang:/usr/bin/clang++"
+  "clang-tidy:/usr/bin/clang-tidy"
+)
+
+say() { printf '== %s\n' "$*"; }
+
+die() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# Runs a command as root, without ever asking for a password.
+as_root() {
+  if [[ $(id -u) -eq 0 ]]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo -n "$@" || die "sudo needs a password; run this first: sudo $*"
+  else
+    die "this needs root; run it first: $*"
+  fi
+}
+
+# install_missing "package:file" ...: installs the packages whose file is missing. A program that is on the PATH counts
+# as there wherever it lies. Does nothing, and needs no root, when nothing is missing.
+install_missing() {
+  local entry package file missing=()
+  for entry in "$@"; do
+    package=${entry%%:*}
+    file=${entry#*:}
+    if [[ -e $file ]]; then continue; fi
+    if [[ $file == /usr/bin/* ]] && command -v "$(basename "$file")" >/dev/null; then continue; fi
+    missing+=("$package")
+  done
+  if [[ ${#missing[@]} -eq 0 ]]; then return; fi
+  command -v apt-get >/dev/null ||
+    die "missing: ${missing[*]} (names of Debian packages; without apt-get please install them by hand)"
+  say "installing ${missing[*]}"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+# configure_preset PRESET [OPTION ...]: with ccache when it is there.
+configure_preset() {
+  if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+  cmake --preset "$@"
+}
