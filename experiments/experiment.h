@@ -19,6 +19,7 @@ struct Dataset {
   std::string name;
   double isovalue = 0;
   std::string file;        // looked for in the data folder; empty for a built-in field
+  std::string also;        // another name under which the file is taken; may be empty
   std::string sha256;      // of the samples; empty: not checked
   std::string get;         // how a user gets the file, one sentence
   std::string field;       // of volume/analytic_fields.h; empty for a file

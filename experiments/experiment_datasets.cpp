@@ -29,7 +29,7 @@ void check_file_keys(const StrictObject& object) {
 }
 
 void check_field_keys(const StrictObject& object) {
-  for (const std::string_view key : {"sha256", "get"}) {
+  for (const std::string_view key : {"also", "sha256", "get"}) {
     if (object.has(key)) object.fail(key, "belongs to a file, but the data set is a built-in field");
   }
   try {
@@ -50,6 +50,7 @@ Dataset parse_dataset(const Json& value, const std::string& place) {
     check_file_keys(object);
     dataset.isovalue = object.get("isovalue", 0.0);
     dataset.file = object.get<std::string>("file", "");
+    dataset.also = object.get<std::string>("also", "");
     dataset.sha256 = object.get<std::string>("sha256", "");
     dataset.get = object.get<std::string>("get", "");
     return dataset;
@@ -113,6 +114,7 @@ Json datasets_to_json(const std::vector<Dataset>& datasets) {
     Json& item = list.emplace_back(Json{{"name", dataset.name}, {"isovalue", dataset.isovalue}});
     if (dataset.field.empty()) {
       item["file"] = dataset.file;
+      if (!dataset.also.empty()) item["also"] = dataset.also;
       if (!dataset.sha256.empty()) item["sha256"] = dataset.sha256;
       item["get"] = dataset.get;
     } else {
@@ -138,11 +140,15 @@ fs::path default_data_folder(const fs::path& experiment_file) {
 
 bool is_present(const Dataset& dataset, const fs::path& data_folder) {
   std::error_code error;
-  return !dataset.field.empty() || fs::exists(data_folder / dataset.file, error);
+  return !dataset.field.empty() || fs::exists(dataset_path(dataset, data_folder), error);
 }
 
 fs::path dataset_path(const Dataset& dataset, const fs::path& data_folder) {
-  return dataset.field.empty() ? data_folder / dataset.file : fs::path("field:" + dataset.field);
+  if (!dataset.field.empty()) return "field:" + dataset.field;
+  std::error_code error;
+  const bool other_name = !dataset.also.empty() && !fs::exists(data_folder / dataset.file, error) &&
+                          fs::exists(data_folder / dataset.also, error);
+  return data_folder / (other_name ? dataset.also : dataset.file);
 }
 
 ScalarGrid load_dataset(const Dataset& dataset, const fs::path& data_folder) {

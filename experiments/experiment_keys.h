@@ -40,6 +40,7 @@ inline constexpr std::array kDatasetKeys = {
     KeyInfo{"name", KeyType::kText, true, "of the data set in records and tables"},
     KeyInfo{"isovalue", KeyType::kNumber, false, "default for a built-in field: the one it suggests"},
     KeyInfo{"file", KeyType::kText, false, "looked for in the data folder"},
+    KeyInfo{"also", KeyType::kText, false, "another name under which the file is taken"},
     KeyInfo{"sha256", KeyType::kText, false, "of the samples, little endian, x fastest; checked before a run"},
     KeyInfo{"get", KeyType::kText, false, "how to get the file; required with file"},
     KeyInfo{"field", KeyType::kText, false, "a built-in field instead of a file"},
