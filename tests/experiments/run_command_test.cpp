@@ -119,10 +119,10 @@ TEST_F(RunCommand, ResumingAfterACutGivesTheSameTable) {
 
 TEST_F(RunCommand, AnInterruptedRunEndsWithThreeAndGoesOn) {
   Json document = small_document();
-  document["repeats"] = 300;
+  document["repeats"] = 40;
   write_file(folder_ / "long.json", json_text(document));
   const ProgramResult stopped = run_deliso({"run", folder_ / "long.json", "--out", folder_ / "out"},
-                                           SignalAfter{SIGINT, std::chrono::milliseconds(100)});
+                                           SignalAfter{SIGINT, std::chrono::milliseconds(60)});
   EXPECT_EQ(stopped.exit_code, 3) << stopped.err;
   EXPECT_MESSAGE(stopped.err, "--resume goes on");
   EXPECT_EQ(stopped.out, "");
@@ -131,7 +131,7 @@ TEST_F(RunCommand, AnInterruptedRunEndsWithThreeAndGoesOn) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   const std::string after = read_file(folder_ / "out/records.jsonl");
   EXPECT_TRUE(after.starts_with(before));
-  EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), 1200);
+  EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), 160);
   run("whole", {}, "long.json");
   EXPECT_EQ(table({"out"}), table({"whole"}));
 }
