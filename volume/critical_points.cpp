@@ -36,8 +36,8 @@ void append_face_saddles(const CellCorners& corners, std::vector<CriticalPoint>&
   }
 }
 
-// With g = ... + b x + c y + d z + e xy + f yz + k xz + h xyz and the origin moved to (-f/h, -k/h, -e/h), g has only the terms
-// A X + B Y + C Z + h XYZ; its gradient vanishes where YZ = -A/h, XZ = -B/h, XY = -C/h.
+// With g = ... + b x + c y + d z + e xy + f yz + k xz + h xyz and the origin moved to (-f/h, -k/h, -e/h), g has only
+// the terms A X + B Y + C Z + h XYZ; its gradient vanishes where YZ = -A/h, XZ = -B/h, XY = -C/h.
 void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& points) {
   const double b = g[1] - g[0];
   const double c = g[2] - g[0];
