@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace deliso {
 
 namespace {
 
+// After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
+constexpr std::int32_t kMixedPatience = 3;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -34,7 +37,7 @@ class Repair {
         lattice_(grid, isosurface_.isovalue(), topology),
         raised_(grid, isosurface_),
         done_(topology.components.size(), false),
-        mixed_(topology.components.size()) {}
+        best_(topology.components.size(), Agreement::kNone) {}
 
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
@@ -47,11 +50,12 @@ class Repair {
   void take_samples();
   void resample();
   void triangulate();
+  bool try_rule(SignRule rule);
   void try_rules();
   MatchedMesh assemble();
-  void keep_agreeing(const MatchedMesh& mesh);
-  void keep_mixed();
-  void keep_polygonized();
+  void keep(const MatchedMesh& mesh);
+  void accept_mixed();
+  SurfaceMesh assemble_kept();
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
@@ -64,10 +68,10 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::vector<Sample> samples_;
-  MatchedMesh mesh_;                // the best of the current round
-  std::vector<bool> done_;          // of each exact component: kept_ holds its piece
-  std::vector<SurfaceMesh> mixed_;  // of each: the first piece that agrees but is mixed with another component
-  SurfaceMesh kept_;
+  MatchedMesh mesh_;                  // the latest
+  std::vector<bool> done_;            // of each exact component: needs no more work
+  std::vector<Agreement> best_;       // of each: kNone, kMixed or kWithStrays, reached by some mesh in history_
+  std::vector<MatchedMesh> history_;  // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -77,19 +81,20 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   stats_.vertices_before = static_cast<std::int64_t>(mesh_.built.mesh.points.size());
   stats_.components_before = std::count_if(mesh_.match.agreement.begin(), mesh_.match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
-  keep_agreeing(mesh_);
+  keep(mesh_);
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
     raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_));
+    if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
     try_rules();
     stats_.rounds = round;
+    if (round >= kMixedPatience) accept_mixed();
   }
-  keep_mixed();
-  keep_polygonized();
-  stats_.vertices_after = static_cast<std::int64_t>(kept_.points.size());
-  return std::move(kept_);
+  SurfaceMesh kept = assemble_kept();
+  stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
+  return kept;
 }
 
 void Repair::take_samples() {
@@ -128,24 +133,26 @@ void Repair::triangulate() {
   restricted_ = std::make_unique<SignedDelaunay>(isosurface_, points);
 }
 
-// One rule after another until every component is done; the rule with the smallest error stays.
+// Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
+bool Repair::try_rule(SignRule rule) {
+  take_signs(*restricted_, grid_, raised_, rule);
+  overturn_unfounded_signs(*restricted_, grid_);
+  mesh_ = assemble();
+  keep(mesh_);
+  return is_done();
+}
+
+// One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules() {
-  const auto apply = [&](SignRule rule) {
-    take_signs(*restricted_, grid_, raised_, rule);
-    overturn_unfounded_signs(*restricted_, grid_);
-  };
   SignRule best = kRules.front();
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
   for (const SignRule rule : kRules) {
-    apply(rule);
-    MatchedMesh attempt = assemble();
-    keep_agreeing(attempt);
-    if (rule == kRules.front() || attempt.match.error < mesh_.match.error) {
-      mesh_ = std::move(attempt);
-      best = rule;
-    }
-    if (is_done()) return;
+    if (try_rule(rule)) return;
+    if (mesh_.match.error >= least) continue;
+    least = mesh_.match.error;
+    best = rule;
   }
-  apply(best);
+  if (best != kRules.back()) try_rule(best);
 }
 
 // The mesh, its pole heights and its match with the exact components.
@@ -163,42 +170,44 @@ MatchedMesh Repair::assemble() {
   return mesh;
 }
 
-// A component keeps the first main piece that agrees with it; strays beside it are dropped.
-void Repair::keep_agreeing(const MatchedMesh& mesh) {
-  std::vector<bool> wanted(mesh.match.pieces.size(), false);
+// Keeps a mesh when some component agrees with it that agreed with no earlier one.
+void Repair::keep(const MatchedMesh& mesh) {
+  bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
-    const Agreement agreement = mesh.match.agreement[c];
-    if (done_[c] || agreement == Agreement::kNone) continue;
-    if (agreement == Agreement::kMixed) {
-      if (!mixed_[c].points.empty()) continue;
-      std::vector<bool> alone(mesh.match.pieces.size(), false);
-      alone[mesh.match.main_piece[c]] = true;
-      append_pieces(mesh.built.mesh, mesh.match.piece_of, alone, mixed_[c]);
-      continue;
+    if (mesh.match.agreement[c] <= best_[c]) continue;
+    best_[c] = std::min(mesh.match.agreement[c], Agreement::kWithStrays);
+    done_[c] = best_[c] == Agreement::kWithStrays;
+    helps = true;
+  }
+  if (helps) history_.push_back(mesh);
+}
+
+void Repair::accept_mixed() {
+  for (std::size_t c = 0; c < done_.size(); ++c) done_[c] = done_[c] || best_[c] == Agreement::kMixed;
+}
+
+// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
+// dropped.
+SurfaceMesh Repair::assemble_kept() {
+  SurfaceMesh kept;
+  std::vector<bool> taken(done_.size(), false);
+  for (auto mesh = history_.rbegin(); mesh != history_.rend(); ++mesh) {
+    const ComponentMatch& match = mesh->match;
+    std::vector<bool> wanted(match.pieces.size(), false);
+    for (std::size_t c = 0; c < done_.size(); ++c) {
+      if (taken[c] || best_[c] == Agreement::kNone || match.agreement[c] < best_[c]) continue;
+      taken[c] = wanted[match.main_piece[c]] = true;
+      stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
+      stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
-    wanted[mesh.match.main_piece[c]] = true;
-    done_[c] = true;
-    stats_.components_stray += agreement == Agreement::kWithStrays ? 1 : 0;
+    append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
-  append_pieces(mesh.built.mesh, mesh.match.piece_of, wanted, kept_);
-}
-
-void Repair::keep_mixed() {
-  for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (done_[c] || mixed_[c].points.empty()) continue;
-    const std::vector<std::uint32_t> all(mixed_[c].points.size(), 0);
-    append_pieces(mixed_[c], all, {true}, kept_);
-    done_[c] = true;
-    ++stats_.components_mixed;
+  stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
+  if (stats_.components_polygonized > 0) {
+    const SurfaceMesh polygonized = polygonized_components(grid_, isosurface_, topology_, taken);
+    append_pieces(polygonized, std::vector<std::uint32_t>(polygonized.points.size(), 0), {true}, kept);
   }
-}
-
-void Repair::keep_polygonized() {
-  if (is_done()) return;
-  stats_.components_polygonized = std::count(done_.begin(), done_.end(), false);
-  const SurfaceMesh polygonized = polygonized_components(grid_, isosurface_, topology_, done_);
-  const std::vector<std::uint32_t> all(polygonized.points.size(), 0);
-  append_pieces(polygonized, all, {true}, kept_);
+  return kept;
 }
 
 }  // namespace
