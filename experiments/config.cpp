@@ -142,14 +142,18 @@ void set_parameter(std::string_view assignment, Parameters& parameters) {
   if (equals == std::string_view::npos || equals == 0) throw InputError(source + ": expected key.path=value");
   const std::string_view path = assignment.substr(0, equals);
   const std::string text(assignment.substr(equals + 1));
+  // What is not JSON is taken as a string, so that a choice needs no quotes.
+  Json value = Json::parse(text, nullptr, false);
+  if (value.is_discarded()) value = text;
+  set_parameter(path, value, source, parameters);
+}
+
+void set_parameter(std::string_view path, const Json& value, const std::string& source, Parameters& parameters) {
   const ParameterField* field = find_field(path);
   if (field == nullptr && is_group(path)) {
     throw InputError(source + ": '" + std::string(path) + "' is a group of keys, expected one of them");
   }
   if (field == nullptr) fail_unknown_key(path, source);
-  // What is not JSON is taken as a string, so that a choice needs no quotes.
-  Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = text;
   apply_value(*field, value, source, parameters);
 }
 

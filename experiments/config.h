@@ -29,6 +29,9 @@ Json parameters_to_json(const Parameters& parameters);
 // InputError like apply_parameters, and when the '=' is missing.
 void set_parameter(std::string_view assignment, Parameters& parameters);
 
+// The same with the value as JSON and the key path by itself; `source` begins the messages.
+void set_parameter(std::string_view path, const Json& value, const std::string& source, Parameters& parameters);
+
 // JSON Schema (draft 2020-12) of a parameters file. It accepts exactly what apply_parameters accepts.
 Json parameters_schema();
 

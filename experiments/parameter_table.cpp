@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 2> kBoundaryNames = {"open", "closed"};
 constexpr std::array<std::string_view, 2> kSpacingNames = {"use", "ignore"};
 constexpr std::array<std::string_view, 3> kQueueOrderNames = {"worst_first", "fifo", "largest_radius"};
 constexpr std::array<std::string_view, 2> kSolverNames = {"schwarze", "bracketed"};
+constexpr std::array<std::string_view, 2> kTraversalNames = {"kd_tree", "cell_walk"};
 
 constexpr std::span<const std::string_view> names_of(Algorithm) { return kAlgorithmNames; }
 constexpr std::span<const std::string_view> names_of(Seeding) { return kSeedingNames; }
@@ -24,6 +25,7 @@ constexpr std::span<const std::string_view> names_of(Boundary) { return kBoundar
 constexpr std::span<const std::string_view> names_of(SpacingUse) { return kSpacingNames; }
 constexpr std::span<const std::string_view> names_of(QueueOrder) { return kQueueOrderNames; }
 constexpr std::span<const std::string_view> names_of(CubicSolver) { return kSolverNames; }
+constexpr std::span<const std::string_view> names_of(Traversal) { return kTraversalNames; }
 
 template <class T>
 struct OptionalTraits {
@@ -162,6 +164,9 @@ constexpr std::array kTable = {
                                                 "at most this many cells in a leaf of the kd-tree"),
     row<&P::search, &SearchOptions::incremental>("search.incremental", kAny, "",
                                                  "find the nearest hit by growing segments, not over the whole line"),
+    row<&P::search, &SearchOptions::traversal>("search.traversal", kAny, "",
+                                               "how the voxel cells of a segment are found; kd_tree is the paper's, "
+                                               "with the two keys above; cell_walk goes from cell to cell"),
     row<&P::spacing>("spacing", kAny, "", "ignore: treat the volume as if its spacing were 1, as the paper does"),
     row<&P::certify>("certify", kAny, "", "compare the mesh with the exact topology of the isosurface"),
     row<&P::repair, &RepairParameters::max_rounds>("repair.max_rounds", kNotNegative, "rounds",

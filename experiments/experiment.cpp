@@ -1,0 +1,58 @@
+#include "experiments/experiment.h"
+
+#include "delaunay/base/check.h"
+#include "experiments/command_line.h"
+
+namespace deliso {
+
+std::vector<PlannedRun> planned_runs(const Experiment& experiment) {
+  std::vector<PlannedRun> runs;
+  for (std::size_t dataset = 0; dataset < experiment.datasets.size(); ++dataset) {
+    for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
+      for (std::int32_t repeat = 1; repeat <= experiment.repeats; ++repeat) runs.push_back({dataset, variant, repeat});
+    }
+  }
+  return runs;
+}
+
+Shard parse_shard(const std::string& text) {
+  constexpr std::uint64_t kMost = 1'000'000;
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw InputError("--shard: expected I/N, for instance 2/5, found '" + text + "'");
+  Shard shard;
+  shard.count = parse_count(text.substr(slash + 1), "--shard: N of I/N", 1, kMost);
+  shard.index = parse_count(text.substr(0, slash), "--shard: I of I/N", 1, shard.count);
+  return shard;
+}
+
+std::vector<PlannedRun> runs_of(const Experiment& experiment, const Shard& shard) {
+  std::vector<PlannedRun> runs;
+  const std::vector<PlannedRun> all = planned_runs(experiment);
+  for (std::size_t i = shard.index - 1; i < all.size(); i += shard.count) runs.push_back(all[i]);
+  return runs;
+}
+
+Experiment builtin_form(Experiment experiment) {
+  if (experiment.builtin_datasets.empty()) {
+    throw InputError("--builtin: the experiment " + experiment.name + " names no builtin_datasets");
+  }
+  experiment.datasets = std::move(experiment.builtin_datasets);
+  experiment.builtin_datasets.clear();
+  experiment.name += "_builtin";
+  return experiment;
+}
+
+Experiment smoke_form(Experiment experiment) {
+  Dataset tiny;
+  tiny.name = "tiny sphere";
+  tiny.field = "sphere";
+  tiny.size = 8;
+  tiny.isovalue = 0.3;
+  experiment.datasets = {tiny};
+  experiment.builtin_datasets.clear();
+  experiment.repeats = 1;
+  experiment.name += "_smoke";
+  return experiment;
+}
+
+}  // namespace deliso

@@ -1,0 +1,21 @@
+// The results of an experiment in folders: records in, tables out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+
+namespace deliso {
+
+// The experiment of which these folders hold records. Throws InputError when a folder has no experiment.json, or
+// another experiment's.
+Experiment experiment_of(const std::vector<std::filesystem::path>& folders);
+
+// Merges the records of the folders, writes table.md, table.csv and table.json into `target` and returns the Markdown.
+// What a reader should know about the merging is added to `notes`.
+std::string write_tables(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& target,
+                         std::vector<std::string>& notes);
+
+}  // namespace deliso

@@ -1,0 +1,71 @@
+// How far an experiment is, and how long it will still take.
+#pragma once
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "delaunay/base/stopwatch.h"
+#include "surface/controls.h"
+
+namespace deliso {
+
+// "45 s", "12 min", "3 h 20 min".
+std::string duration_text(double seconds);
+
+// The seconds that the runs still to come will take, from those that have ended: a run of the same data set takes as
+// long as those before it on average, one of another data set as long as all on average. Negative: no run has ended.
+class RemainingTime {
+ public:
+  // `datasets` is the data set of each run, in their order.
+  explicit RemainingTime(std::vector<std::size_t> datasets) : datasets_(std::move(datasets)) {}
+
+  // The next run has ended.
+  void finished(double seconds);
+  // The next run was not made (its file is absent).
+  void skipped() { ++next_; }
+  [[nodiscard]] double seconds() const;
+
+ private:
+  struct Finished {
+    std::size_t dataset;
+    double seconds;
+  };
+  std::vector<std::size_t> datasets_;
+  std::vector<Finished> finished_;
+  std::size_t next_ = 0;
+};
+
+// One line that is drawn over and over on a terminal; elsewhere, when asked for, one line for every run that ends.
+class RunProgress {
+ public:
+  enum class Style { kSilent, kBar, kLines };
+  RunProgress(std::ostream& stream, Style style, std::vector<std::size_t> datasets)
+      : stream_(stream), style_(style), count_(datasets.size()), remaining_(std::move(datasets)) {}
+  ~RunProgress() { wipe(); }
+  RunProgress(const RunProgress&) = delete;
+  RunProgress& operator=(const RunProgress&) = delete;
+
+  void begin(const std::string& run_name);
+  void show(const Progress& progress);
+  void finished(double seconds);
+  void skipped();
+  // Removes the line, so that a message can be written.
+  void wipe();
+
+ private:
+  [[nodiscard]] std::string position() const;
+
+  std::ostream& stream_;
+  Style style_;
+  std::size_t count_;
+  RemainingTime remaining_;
+  std::size_t number_ = 0;  // of the current run, from 1
+  std::string name_;
+  bool drawn_ = false;
+  double last_seconds_ = -1;
+  Stopwatch stopwatch_;
+};
+
+}  // namespace deliso

@@ -1,0 +1,111 @@
+#include "experiments/run_record.h"
+
+#include "delaunay/base/stopwatch.h"
+#include "experiments/program_info.h"
+#include "experiments/record.h"
+#include "surface/deliso.h"
+#include "surface/verification.h"
+#include "volume/exact_topology.h"
+
+namespace deliso {
+namespace {
+
+constexpr const char* kRecordSchema = "deliso-record-1";
+
+Json distances_json(const Verification& check) {
+  return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
+              {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
+              {"isosurface_to_mesh_max_voxels", check.distance.isosurface_to_mesh.max_voxels},
+              {"isosurface_to_mesh_mean_voxels", check.distance.isosurface_to_mesh.mean_voxels},
+              {"vertex_residual_max_voxels", check.residual.distance.max_voxels},
+              {"crossing_pairs", check.self_intersection.found.crossing_pairs},
+              {"fraction_normals_against", check.normals.fraction_against}};
+}
+
+// One entry for each kind of component.
+std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& components) {
+  return certify(TriangleMesh{}, components).isosurface;
+}
+
+Json topology_report(const RunInput& input, double isovalue) {
+  const Stopwatch stopwatch;
+  const double used = regular_isovalue(input.grid, isovalue);
+  const std::vector<TopologyCount> counts = counted(exact_topology(input.grid, used).components);
+  const double seconds = stopwatch.seconds();
+  const TopologySum sum = sum_of(counts);
+  return Json{{"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", used},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"isosurface", topology_json(counts)},
+              {"total_seconds", seconds},
+              {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+// The report's own schema is not the record's.
+void append_report(const Json& report, Json& record) {
+  for (const auto& [key, value] : report.items()) {
+    if (key != "schema") record[key] = value;
+  }
+}
+
+Json header(const std::string& experiment, const std::string& dataset, const std::string& variant, std::int32_t repeat,
+            const std::string& status) {
+  return Json{{"schema", kRecordSchema}, {"experiment", experiment}, {"dataset", dataset},
+              {"variant", variant},      {"repeat", repeat},         {"status", status}};
+}
+
+}  // namespace
+
+Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status) {
+  return header(experiment.name, experiment.datasets[run.dataset].name, experiment.variants[run.variant].name,
+                run.repeat, status);
+}
+
+std::string run_key(const Json& record) {
+  return Json::array({record.at("dataset"), record.at("variant"), record.at("repeat")}).dump();
+}
+
+std::string run_key(const Experiment& experiment, const PlannedRun& run) {
+  return run_key(run_header(experiment, run, kStatusDone));
+}
+
+std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {
+  Json record = run_header(experiment, run, kStatusDone);
+  const double isovalue = experiment.datasets[run.dataset].isovalue;
+  if (experiment.task == Task::kTopology) {
+    append_report(topology_report(input, isovalue), record);
+    return record;
+  }
+  // Mesh as `deliso mesh` does.
+  MeshingOptions options;
+  options.parameters = experiment.variants[run.variant].parameters;
+  options.seed = seed_of(experiment, run.repeat);
+  options.threads = input.threads;
+  options.stop = input.stop;
+  options.progress = input.progress;
+  const MeshingResult result = mesh_isosurface(input.grid, isovalue, options);
+  if (input.stop != nullptr && input.stop->load()) return std::nullopt;
+  append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
+  if (experiment.distances) record["distances"] = distances_json(verify_mesh(result.mesh, input.grid, isovalue));
+  return record;
+}
+
+Json empty_record(Task task, bool distances) {
+  const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
+  const RunInput input{"", grid, 1, nullptr, {}};
+  Json record = header("", "", "", 1, kStatusDone);
+  if (task == Task::kTopology) {
+    append_report(topology_report(input, 0.5), record);
+    return record;
+  }
+  const MeshingOptions options;
+  append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
+  if (distances) record["distances"] = distances_json(Verification{});
+  return record;
+}
+
+}  // namespace deliso

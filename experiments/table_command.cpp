@@ -1,0 +1,40 @@
+// deliso table: tables from the records of an experiment.
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/commands.h"
+#include "experiments/results.h"
+
+namespace deliso {
+namespace {
+
+struct TableCommandOptions {
+  std::vector<std::string> folders;
+  std::string output;
+};
+
+ExitCode run_table(const TableCommandOptions& options) {
+  const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  const std::filesystem::path target = options.output.empty() ? folders.front() : std::filesystem::path(options.output);
+  std::vector<std::string> notes;
+  std::cout << write_tables(folders, target, notes);
+  for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_table_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<TableCommandOptions>();
+  CLI::App* command = app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) from the records of a run");
+  command->add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
+      ->type_name("")
+      ->required();
+  command->add_option("-o,--output", options->output, "Folder for table.md, table.csv, table.json (default: the first)")
+      ->type_name("DIR");
+  command->callback([options, &exit_code] { exit_code = run_table(*options); });
+}
+
+}  // namespace deliso
