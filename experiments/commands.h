@@ -14,6 +14,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code);
 void add_topology_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
 void add_generate_command(CLI::App& app, ExitCode& exit_code);
+void add_render_command(CLI::App& app, ExitCode& exit_code);
 void add_schema_command(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace deliso

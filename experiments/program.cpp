@@ -68,6 +68,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_topology_command(app, exit_code);
   add_info_command(app, exit_code);
   add_generate_command(app, exit_code);
+  add_render_command(app, exit_code);
   add_schema_command(app, exit_code);
   check_first_argument(app, argc, argv);
   try {
