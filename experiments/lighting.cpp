@@ -26,6 +26,11 @@ double encoded(double linear) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
+double fortieth_power(double x) {
+  const double x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
+  return x16 * x16 * x8;
+}
+
 }  // namespace
 
 Colour lit(const LitPoint& point) {
@@ -34,7 +39,7 @@ Colour lit(const LitPoint& point) {
   // Narrow places get less of every light, though less so of those that shine into them.
   const double inward = 0.35 + 0.65 * point.openness;
   const double light = kEverywhere * point.openness + inward * (kFromEye * eye + kFromShoulder * shoulder);
-  const double highlight = inward * kHighlight * std::pow(std::max(0.0, dot(point.normal, kHalfWay)), 40);
+  const double highlight = inward * kHighlight * fortieth_power(std::max(0.0, dot(point.normal, kHalfWay)));
   const Colour surface = light * (point.outside ? kOutside : kInside) + highlight * Colour{1, 1, 1};
   return (1 - point.line) * surface + point.line * kLine;
 }

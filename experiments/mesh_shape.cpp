@@ -119,11 +119,11 @@ double MeshShape::edge_distance(std::uint32_t element, const Camera& camera, dou
                    distance_to_segment(p, seen[2], seen[0])});
 }
 
-double MeshShape::element_size(std::uint32_t element, const Camera& camera, double t) const {
+double MeshShape::element_size(std::uint32_t element, const Camera& camera) const {
   const double perimeter = distance(corner(element, 0), corner(element, 1)) +
                            distance(corner(element, 1), corner(element, 2)) +
                            distance(corner(element, 2), corner(element, 0));
-  return perimeter / 3 / camera.pixel_size(t);
+  return perimeter / 3 / camera.pixel_size(camera.in_frame(corner(element, 0)));
 }
 
 }  // namespace deliso

@@ -15,7 +15,7 @@ class MeshShape : public Shape {
   // Ray/Triangle Intersection, Journal of Computer Graphics Techniques 2(1), 2013. Normals are those of the triangles.
   [[nodiscard]] std::optional<SurfacePoint> first_hit(const Line& ray, double t0, double t1) const override;
   [[nodiscard]] double edge_distance(std::uint32_t element, const Camera& camera, double x, double y) const override;
-  [[nodiscard]] double element_size(std::uint32_t element, const Camera& camera, double t) const override;
+  [[nodiscard]] double element_size(std::uint32_t element, const Camera& camera) const override;
   [[nodiscard]] const Box3& box() const override { return box_; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 

@@ -13,15 +13,19 @@
 namespace deliso {
 namespace {
 
-// What one ray has found.
+// What one ray has found, in the camera's frame.
 struct Sample {
-  double t = std::numeric_limits<double>::infinity();  // infinity: nothing
-  std::array<float, 3> normal{};                       // in the camera's frame
-  float line = 0;                                      // how much of it an edge covers
+  std::array<float, 3> point{};
+  std::array<float, 3> normal{};
+  float line = 0;  // how much of it an edge covers
+  bool seen = false;
   bool outside = true;
-
-  [[nodiscard]] bool seen() const { return t < std::numeric_limits<double>::infinity(); }
 };
+
+std::array<float, 3> floats(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 // Calls work(i) for 0 <= i < count, each once, on several threads.
 void for_each_row(std::int32_t count, std::int32_t threads, const std::function<void(std::int32_t)>& work) {
@@ -71,11 +75,10 @@ class SamplePlane {
     if (!part) return sample;
     const auto point = shape_.first_hit(line, std::max(part->first, camera_.first_t()), part->last);
     if (!point) return sample;
-    sample.t = point->t;
+    sample.seen = true;
     sample.outside = point->outside;
-    sample.normal = {static_cast<float>(dot(point->normal, camera_.right())),
-                     static_cast<float>(dot(point->normal, camera_.up())),
-                     static_cast<float>(dot(point->normal, camera_.toward_eye()))};
+    sample.point = floats(camera_.in_frame(line.at(point->t)));
+    sample.normal = floats(camera_.turned(point->normal));
     if (options_.line_width > 0) sample.line = static_cast<float>(line_cover(*point, column, row));
     return sample;
   }
@@ -88,7 +91,7 @@ class SamplePlane {
     const double away = shape_.edge_distance(point.element, camera_, (column + 0.5) / samples, (row + 0.5) / samples);
     const double cover = std::clamp((0.5 * options_.line_width - away) * samples + 0.5, 0.0, 1.0);
     if (cover == 0) return 0;
-    const double size = shape_.element_size(point.element, camera_, point.t) / options_.line_width;
+    const double size = shape_.element_size(point.element, camera_) / options_.line_width;
     return cover * std::min(1.0, size / kWellSeen);
   }
 
@@ -123,18 +126,16 @@ class Surroundings {
 
   [[nodiscard]] double openness(const SamplePlane& plane, std::int32_t column, std::int32_t row) const {
     const Sample& sample = plane.at(column, row);
-    const Vec3 normal{sample.normal[0], sample.normal[1], sample.normal[2]};
-    const Vec3 point = plane.ray(column, row).at(sample.t);
-    const double pixel = camera_.pixel_size(sample.t);
-    const double reach = radius_ * pixel;
+    const Vec3 normal = doubles(sample.normal);
+    const Vec3 point = doubles(sample.point);
+    const double reach = radius_ * camera_.pixel_size(point);
     const auto place = static_cast<std::size_t>(row % samples_ * samples_ + column % samples_);
     double hidden = 0;
     for (const auto& [x, y] : places_[place]) {
       if (!plane.holds(column + x, row + y)) continue;
       const Sample& other = plane.at(column + x, row + y);
-      if (!other.seen()) continue;
-      const Vec3 world = plane.ray(column + x, row + y).at(other.t) - point;
-      const Vec3 to{dot(world, camera_.right()), dot(world, camera_.up()), dot(world, camera_.toward_eye())};
+      if (!other.seen) continue;
+      const Vec3 to = doubles(other.point) - point;
       const double squared = squared_norm(to) / (reach * reach);
       const double rise = dot(to, normal) / reach - kBias;
       if (rise <= 0) continue;
@@ -174,7 +175,7 @@ void draw(const Shape& shape, const Box3& kept, const Camera& camera, const Pict
         const std::int32_t column = x * n + i % n;
         const std::int32_t row = y * n + i / n;
         const Sample& sample = plane.at(column, row);
-        if (!sample.seen()) continue;
+        if (!sample.seen) continue;
         ++seen;
         sum += lit({{sample.normal[0], sample.normal[1], sample.normal[2]},
                     sample.outside,

@@ -173,7 +173,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   const ScalarGrid grid = options.closed ? padded(read, read.range().first) : read;
   const Stopwatch stopwatch;
   auto surface = std::make_unique<IsosurfaceShape>(grid, used);
-  const Box3 framed = surface->box();
+  const std::vector<Vec3> framed = surface->outermost_points();
   const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used);
 
   // All panels are seen alike: the same camera, the same cuts.

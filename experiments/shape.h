@@ -38,7 +38,7 @@ class Shape {
     return std::numeric_limits<double>::infinity();
   }
   // How large an element is seen: its mean edge in pixels; infinity without edges.
-  [[nodiscard]] virtual double element_size(std::uint32_t /*element*/, const Camera& /*camera*/, double /*t*/) const {
+  [[nodiscard]] virtual double element_size(std::uint32_t /*element*/, const Camera& /*camera*/) const {
     return std::numeric_limits<double>::infinity();
   }
   // A box that holds the surface; empty when there is none.
