@@ -16,6 +16,7 @@ void add_info_command(CLI::App& app, ExitCode& exit_code);
 void add_generate_command(CLI::App& app, ExitCode& exit_code);
 void add_run_command(CLI::App& app, ExitCode& exit_code);
 void add_table_command(CLI::App& app, ExitCode& exit_code);
+void add_render_command(CLI::App& app, ExitCode& exit_code);
 void add_schema_command(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace deliso

@@ -10,6 +10,7 @@ build_packages=(
   "nlohmann-json3-dev:/usr/include/nlohmann/json.hpp"
   "libcli11-dev:/usr/include/CLI/CLI.hpp"
   "zlib1g-dev:/usr/include/zlib.h"
+  "libpng-dev:/usr/include/png.h"
 )
 test_packages=("libgtest-dev:/usr/include/gtest/gtest.h")
 tidy_packages=(

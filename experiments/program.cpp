@@ -70,6 +70,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_generate_command(app, exit_code);
   add_run_command(app, exit_code);
   add_table_command(app, exit_code);
+  add_render_command(app, exit_code);
   add_schema_command(app, exit_code);
   check_first_argument(app, argc, argv);
   try {

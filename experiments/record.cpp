@@ -48,6 +48,17 @@ Json refine_json(const RefineStats& refine) {
   return json;
 }
 
+Json repair_json(const RepairStats& repair) {
+  return Json{{"seconds", repair.seconds},
+              {"rounds", repair.rounds},
+              {"components_before", repair.components_before},
+              {"components_mixed", repair.components_mixed},
+              {"components_stray", repair.components_stray},
+              {"components_polygonized", repair.components_polygonized},
+              {"vertices_before", repair.vertices_before},
+              {"vertices_after", repair.vertices_after}};
+}
+
 // Finding the exact topology is part of certifying (the seeds use it too), so its time is counted there.
 Json certify_json(const MeshingResult& result) {
   return Json{{"seconds", result.certify_stage.seconds + result.topology.seconds},
@@ -63,9 +74,9 @@ Json initial_json(const MeshingResult& result) {
 // In the order of the pipeline.
 Json stages_json(const MeshingResult& result) {
   return Json{{"index", stage_json(result.index)},       {"initial", initial_json(result)},
-              {"recover", recover_json(result.recover)}, {"poles", stage_json(result.poles)},
-              {"build", stage_json(result.build)},       {"refine", refine_json(result.refine)},
-              {"certify", certify_json(result)}};
+              {"recover", recover_json(result.recover)}, {"repair", repair_json(result.repair)},
+              {"poles", stage_json(result.poles)},       {"build", stage_json(result.build)},
+              {"refine", refine_json(result.refine)},    {"certify", certify_json(result)}};
 }
 
 }  // namespace

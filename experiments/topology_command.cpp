@@ -52,8 +52,9 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   const ScalarGrid grid = load_volume(options.volume);
   check_isovalue(grid, isovalue);
   const Stopwatch stopwatch;
-  const double used = regular_isovalue(grid, isovalue);
-  const IsosurfaceTopology topology = exact_topology(options.closed ? padded(grid, grid.range().first) : grid, used);
+  const RegularTopology regular = regular_topology(options.closed ? padded(grid, grid.range().first) : grid, isovalue);
+  const double used = regular.isovalue;
+  const IsosurfaceTopology& topology = regular.topology;
   const double seconds = stopwatch.seconds();
 
   // A certificate counts equal components; it needs no mesh for that.

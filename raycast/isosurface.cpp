@@ -114,10 +114,12 @@ struct Isosurface::Segment {
 };
 
 Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options)
+    : Isosurface(grid, isovalue, options, grid.spacing()) {}
+
+Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing)
     : grid_(grid), isovalue_(isovalue), options_(options) {
   if (options.leaf_cells < 1)
     throw InputError("search.leaf_cells is " + std::to_string(options.leaf_cells) + ": it must be at least 1");
-  const Vec3& spacing = grid.spacing();
   step_ = spacing / std::min({spacing.x, spacing.y, spacing.z});
   inverse_step_ = {1 / step_.x, 1 / step_.y, 1 / step_.z};
   const Vec3 last{static_cast<double>(grid.dims()[0] - 1), static_cast<double>(grid.dims()[1] - 1),

@@ -40,6 +40,8 @@ class Isosurface {
   // Keeps a reference to the grid and builds what options.traversal needs. Precondition: no sample equals `isovalue`.
   // Throws InputError when options.leaf_cells is below 1.
   Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options);
+  // The same with another spacing than the grid's.
+  Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing);
   ~Isosurface();
   Isosurface(const Isosurface&) = delete;
   Isosurface& operator=(const Isosurface&) = delete;

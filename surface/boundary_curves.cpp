@@ -67,14 +67,17 @@ void add_arc_points(const Face& face, std::int32_t i, std::int32_t j, std::vecto
 void add_face(const Face& face, std::vector<Vec3>& points) {
   const std::int32_t nu = face.grid.dims()[face.u];
   const std::int32_t nv = face.grid.dims()[face.v];
+  // An edge of the box belongs to that of its two faces whose normal axis comes first.
+  const auto owns_along_u = [&](std::int32_t j) { return face.w < face.v || (j > 0 && j + 1 < nv); };
+  const auto owns_along_v = [&](std::int32_t i) { return face.w < face.u || (i > 0 && i + 1 < nu); };
   for (std::int32_t j = 0; j < nv; ++j) {
     for (std::int32_t i = 0; i < nu; ++i) {
       const double here = face.value(i, j);
       const bool above = here > face.isovalue;
       const bool along_u = i + 1 < nu && above != (face.value(i + 1, j) > face.isovalue);
       const bool along_v = j + 1 < nv && above != (face.value(i, j + 1) > face.isovalue);
-      if (along_u) points.push_back(face.at(i + face.crossing(here, face.value(i + 1, j)), j));
-      if (along_v) points.push_back(face.at(i, j + face.crossing(here, face.value(i, j + 1))));
+      if (along_u && owns_along_u(j)) points.push_back(face.at(i + face.crossing(here, face.value(i + 1, j)), j));
+      if (along_v && owns_along_v(i)) points.push_back(face.at(i, j + face.crossing(here, face.value(i, j + 1))));
       const bool four = along_u && along_v && above == (face.value(i + 1, j + 1) > face.isovalue);
       if (four) add_arc_points(face, i, j, points);
     }

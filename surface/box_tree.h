@@ -29,7 +29,15 @@ class BoxTree {
   // The thing nearest to p among those nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
   // none. measure(i) gives the squared distance of thing i from p.
   template <class Measure>
-  [[nodiscard]] std::pair<std::uint32_t, double> nearest(const Vec3& p, double bound, Measure&& measure) const;
+  [[nodiscard]] std::pair<std::uint32_t, double> nearest(const Vec3& p, double bound, Measure&& measure) const {
+    return least(
+        bound, [&](const Box3& box) { return squared_gap(box, p); }, measure);
+  }
+
+  // The thing with the least measure below `bound`, with its measure; {kNone, bound} when there is none. No thing in a
+  // box may measure less than gap(box).
+  template <class Gap, class Measure>
+  [[nodiscard]] std::pair<std::uint32_t, double> least(double bound, Gap&& gap, Measure&& measure) const;
 
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -98,28 +106,28 @@ void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) con
   }
 }
 
-template <class Measure>
-std::pair<std::uint32_t, double> BoxTree::nearest(const Vec3& p, double bound, Measure&& measure) const {
+template <class Gap, class Measure>
+std::pair<std::uint32_t, double> BoxTree::least(double bound, Gap&& gap, Measure&& measure) const {
   std::pair<std::uint32_t, double> best = {kNone, bound};
   if (nodes_.empty()) return best;
-  // Nodes still to be visited, with their distance; the nearer child is visited first.
+  // Nodes still to be visited, with their gap; the child with the smaller one is visited first.
   std::array<std::pair<double, std::uint32_t>, kMaxDepth> stack;
   std::size_t depth = 0;
-  stack[depth++] = {squared_gap(nodes_[0].box, p), 0};
+  stack[depth++] = {gap(nodes_[0].box), 0};
   while (depth > 0) {
-    const auto [gap, node] = stack[--depth];
-    if (gap >= best.second) continue;
+    const auto [least_possible, node] = stack[--depth];
+    if (least_possible >= best.second) continue;
     const Node& n = nodes_[node];
     if (n.count == 0) {
-      std::pair<double, std::uint32_t> near = {squared_gap(nodes_[node + 1].box, p), node + 1};
-      std::pair<double, std::uint32_t> far = {squared_gap(nodes_[n.first].box, p), n.first};
+      std::pair<double, std::uint32_t> near = {gap(nodes_[node + 1].box), node + 1};
+      std::pair<double, std::uint32_t> far = {gap(nodes_[n.first].box), n.first};
       if (far.first < near.first) std::swap(near, far);
       stack[depth++] = far;
       stack[depth++] = near;
       continue;
     }
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-      if (squared_gap(boxes_[i], p) >= best.second) continue;
+      if (gap(boxes_[i]) >= best.second) continue;
       const double measured = measure(things_[i]);
       if (measured < best.second) best = {things_[i], measured};
     }

@@ -1,12 +1,12 @@
 #include "surface/component_match.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace deliso {
 
 namespace {
-
-constexpr std::uint32_t kNoPiece = 0xFFFFFFFFu;
 
 // Labels the pieces by flooding over neighbours; returns how many.
 std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t>& piece_of_triangle) {
@@ -51,6 +51,57 @@ void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
   }
 }
 
+// The component that most vertices of each piece lie on, by counting votes.
+void find_components(const std::vector<std::uint32_t>& component_of, ComponentMatch& match) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> votes;  // (piece, component) of each vertex
+  for (std::size_t v = 0; v < component_of.size(); ++v) {
+    if (match.piece_of[v] != kNoPiece) votes.emplace_back(match.piece_of[v], component_of[v]);
+  }
+  std::sort(votes.begin(), votes.end());
+  std::vector<std::size_t> most(match.pieces.size(), 0);
+  for (std::size_t first = 0; first < votes.size();) {
+    std::size_t last = first;
+    while (last < votes.size() && votes[last] == votes[first]) ++last;
+    MeshPiece& piece = match.pieces[votes[first].first];
+    if (most[votes[first].first] != 0) piece.mixed = true;
+    if (last - first > most[votes[first].first]) {
+      most[votes[first].first] = last - first;
+      piece.component = votes[first].second;
+    }
+    first = last;
+  }
+}
+
+void find_agreements(const std::vector<ComponentTopology>& components, const std::vector<std::uint32_t>& component_of,
+                     ComponentMatch& match) {
+  match.main_piece.assign(components.size(), kNoPiece);
+  match.agreement.assign(components.size(), Agreement::kNone);
+  std::vector<bool> is_mixed(components.size(), false);
+  for (std::size_t v = 0; v < component_of.size(); ++v) {
+    if (match.piece_of[v] != kNoPiece && match.pieces[match.piece_of[v]].mixed) is_mixed[component_of[v]] = true;
+  }
+  std::vector<std::int64_t> pieces_on(components.size(), 0);
+  for (std::uint32_t i = 0; i < match.pieces.size(); ++i) {
+    const MeshPiece& piece = match.pieces[i];
+    std::uint32_t& main = match.main_piece[piece.component];
+    if (main == kNoPiece || piece.vertices > match.pieces[main].vertices) main = i;
+    ++pieces_on[piece.component];
+  }
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const std::uint32_t main = match.main_piece[c];
+    ComponentTopology topology;
+    if (main != kNoPiece) topology = match.pieces[main].topology;
+    if (main != kNoPiece && topology == components[c]) {
+      match.agreement[c] = is_mixed[c]        ? Agreement::kMixed
+                           : pieces_on[c] > 1 ? Agreement::kWithStrays
+                                              : Agreement::kExact;
+    }
+    if (match.agreement[c] == Agreement::kExact) continue;
+    match.error += 1 + std::max<std::int64_t>(0, pieces_on[c] - 1);
+    match.error += std::abs(topology.euler_characteristic - components[c].euler_characteristic);
+  }
+}
+
 }  // namespace
 
 ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
@@ -70,46 +121,14 @@ ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::
       const std::uint32_t v = mesh.triangles[t][i];
       if (match.piece_of[v] != kNoPiece) continue;
       match.piece_of[v] = piece_of_triangle[t];
+      ++piece.vertices;
       ++piece.topology.euler_characteristic;
     }
   }
   count_loops(mesh, match);
 
-  // Which components each piece touches.
-  std::vector<bool> has_vertex(match.pieces.size(), false);
-  std::vector<std::int64_t> pieces_on(components.size(), 0);
-  std::vector<std::int64_t> chi_on(components.size(), 0);
-  std::vector<bool> touched_by_mixed(components.size(), false);
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    if (match.piece_of[v] == kNoPiece) continue;
-    MeshPiece& piece = match.pieces[match.piece_of[v]];
-    if (!has_vertex[match.piece_of[v]]) {
-      has_vertex[match.piece_of[v]] = true;
-      piece.component = component_of[v];
-    }
-    piece.mixed |= piece.component != component_of[v];
-  }
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    if (match.piece_of[v] != kNoPiece && match.pieces[match.piece_of[v]].mixed)
-      touched_by_mixed[component_of[v]] = true;
-  }
-  for (const MeshPiece& piece : match.pieces) {
-    ++pieces_on[piece.component];
-    chi_on[piece.component] += piece.topology.euler_characteristic;
-  }
-
-  match.component_matched.assign(components.size(), false);
-  for (MeshPiece& piece : match.pieces) {
-    piece.matched = pieces_on[piece.component] == 1 && !touched_by_mixed[piece.component] &&
-                    piece.topology == components[piece.component];
-    if (piece.matched) match.component_matched[piece.component] = true;
-    match.unmatched_pieces += piece.matched ? 0 : 1;
-  }
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    if (match.component_matched[c]) continue;
-    ++match.unmatched_components;
-    match.characteristic_error += std::abs(chi_on[c] - components[c].euler_characteristic);
-  }
+  find_components(component_of, match);
+  find_agreements(components, component_of, match);
   return match;
 }
 

@@ -9,28 +9,35 @@
 
 namespace deliso {
 
+inline constexpr std::uint32_t kNoPiece = 0xFFFFFFFFu;
+
 // A connected piece of a mesh.
 struct MeshPiece {
   ComponentTopology topology;
-  std::uint32_t component = 0;  // the exact component of its first vertex
-  bool mixed = false;           // it has vertices of several exact components
-  bool matched = false;
+  std::int64_t vertices = 0;
+  std::uint32_t component = 0;  // the exact component that most of its vertices lie on
+  bool mixed = false;           // it has vertices of other components, too
+};
+
+// How a component and its main piece, the largest that lies on it, agree.
+enum class Agreement {
+  kNone,        // no piece, or one of another topology
+  kMixed,       // the same (Euler characteristic, boundary loops), but vertices are mixed with another component's
+  kWithStrays,  // the same, and there are smaller pieces on the component beside it
+  kExact,       // the same, and there is no other piece
 };
 
 struct ComponentMatch {
   std::vector<MeshPiece> pieces;
-  std::vector<std::uint32_t> piece_of;    // of each mesh vertex
-  std::vector<bool> component_matched;    // of each exact component
-  std::int64_t unmatched_components = 0;  // exact components without their one piece of the same topology
-  std::int64_t unmatched_pieces = 0;
-  std::int64_t characteristic_error = 0;  // sum over unmatched components of |chi of all their pieces - exact chi|
-  [[nodiscard]] bool complete() const { return unmatched_components == 0 && unmatched_pieces == 0; }
-  // The smaller the better.
-  [[nodiscard]] std::int64_t error() const { return unmatched_components + unmatched_pieces + characteristic_error; }
+  std::vector<std::uint32_t> piece_of;    // of each mesh vertex; kNoPiece for one without triangles
+  std::vector<std::uint32_t> main_piece;  // of each exact component; kNoPiece when it has none
+  std::vector<Agreement> agreement;       // of each exact component
+  // Components that do not agree exactly + strays + what their main pieces lack or have too much in Euler
+  // characteristic: the smaller the better, 0 when the mesh is right.
+  std::int64_t error = 0;
 };
 
-// A component is matched when exactly one piece has vertices on it, that piece has no others, and (Euler
-// characteristic, boundary loops) agree. `component_of`: the exact component of each mesh vertex.
+// `component_of`: the exact component of each mesh vertex.
 ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
                                 const std::vector<ComponentTopology>& components);
 

@@ -113,21 +113,26 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 }
 
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
-void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, MeshingResult& result) {
+void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
   Controls controls(parameters.budget, options.stop, options.progress);
 
+  // The exact topology first: it says what a regular isovalue is.
   controls.report("index", 0, 0);
-  const auto isosurface =
-      timed(result.index, [&] { return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search); });
+  const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
+  const RegularTopology regular = timed(result.topology, [&] {
+    return needs_topology ? regular_topology(grid, isovalue) : RegularTopology{regular_isovalue(grid, isovalue), {}};
+  });
+  const IsosurfaceTopology& topology = regular.topology;
+  result.isovalue_used = regular.isovalue;
+  const Vec3 spacing = parameters.spacing == SpacingUse::kIgnore ? Vec3{1, 1, 1} : grid.spacing();
+  const auto isosurface = timed(result.index, [&] {
+    return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search, spacing);
+  });
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
 
   controls.report("initial", 0, 0);
-  const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
-  const IsosurfaceTopology topology = timed(result.topology, [&] {
-    return needs_topology ? exact_topology(grid, result.isovalue_used) : IsosurfaceTopology{};
-  });
   auto restricted = timed(result.initial, [&] {
     const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
     return std::make_unique<RestrictedDelaunay>(*isosurface, points);
@@ -167,7 +172,7 @@ void run_pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshing
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
     result.mesh = to_world(surface, grid, isosurface->step());
-    if (parameters.certify) result.certificate = certify(result.mesh, topology.components);
+    if (parameters.certify) result.certificate = certify(result.mesh, topology);
   });
 }
 
@@ -177,12 +182,11 @@ MeshingResult mesh_isosurface(const ScalarGrid& grid, double isovalue, const Mes
   const Stopwatch watch;
   check_isovalue(grid, isovalue);
   MeshingResult result;
-  result.isovalue_used = timed(result.index, [&] { return regular_isovalue(grid, isovalue); });
   if (options.parameters.boundary == Boundary::kClosed) {
     const ScalarGrid closed = timed(result.index, [&] { return padded(grid, grid.range().first); });
-    run_pipeline(closed, options, result);
+    run_pipeline(closed, isovalue, options, result);
   } else {
-    run_pipeline(grid, options, result);
+    run_pipeline(grid, isovalue, options, result);
   }
   result.total_seconds = watch.seconds();
   return result;

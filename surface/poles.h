@@ -9,8 +9,9 @@ namespace deliso {
 
 // The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two; on
 // each side the pole is the Voronoi vertex farthest from the vertex, and the pole height is the smaller of the two
-// distances. The signs of the tetrahedra tell the sides apart. A side without a finite Voronoi vertex counts as
-// infinite; when both are, the height is the diagonal of the box.
+// distances. The signs of the tetrahedra tell the sides apart. A side on which the cell is unbounded counts as
+// infinite (but for vertices on the box, whose cells always leave it); when both are, the height is the diagonal of the
+// box.
 std::vector<double> compute_poles(const SignedDelaunay& restricted);
 
 }  // namespace deliso

@@ -1,36 +1,36 @@
 // Repair: resample the surface where its mesh differs from the exact topology, and only there, until nothing differs.
 //
-// Rounds of: build the mesh; match its pieces with the exact components; flag the voxel cells near the trouble of those
-// that do not match; raise each flagged cell one level of the sample lattice (its free samples go, lattice samples
-// come); take the sign of small tetrahedra in flagged cells at their centroid, because the circumcenter of a flat
-// tetrahedron in a thin wedge lies far outside the wedge. Each component keeps its piece of the first round in which it matches.
+// Rounds of: flag the voxel cells near the trouble of the components that are not right yet; raise each flagged cell
+// one level of the sample lattice (its free samples go, lattice samples come); triangulate anew; take signs by one rule
+// after another and match the pieces of each mesh with the exact components. A component is done with the first piece
+// that agrees with it. What is left after the last round is meshed by marching cubes, whose topology is exact, and
+// reported.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
-#include "surface/build_triangle_mesh.h"
-#include "surface/component_match.h"
 #include "surface/controls.h"
 #include "surface/recover.h"
 #include "surface/signed_delaunay.h"
+#include "surface/surface_mesh.h"
 #include "volume/exact_topology.h"
 
 namespace deliso {
 
 struct RepairStats : StageStats {
-  std::int64_t rounds = 0;         // resamplings made
-  std::int64_t best_round = 0;     // the one kept; 0 is the mesh as it came
-  std::int64_t points_before = 0;  // vertices of the triangulation before and after
-  std::int64_t points_after = 0;
-  std::int64_t unmatched_before = 0;  // exact components without their match, before and after
-  std::int64_t unmatched_after = 0;
+  std::int64_t rounds = 0;                  // resamplings made
+  std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
+  std::int64_t components_mixed = 0;        // done with a piece that holds vertices of another component
+  std::int64_t components_stray = 0;        // done after stray pieces were dropped
+  std::int64_t components_polygonized = 0;  // taken from marching cubes at last
+  std::int64_t vertices_before = 0;         // of the mesh of stage 1
+  std::int64_t vertices_after = 0;
 };
 
-// `restricted` is what stage 1 left; it is replaced round by round to save memory.
+// `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with pole heights.
 SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                    std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
-                    RepairStats& stats);
+                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
+                   RepairStats& stats);
 
 }  // namespace deliso

@@ -38,6 +38,7 @@ class SignedDelaunay {
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
   // Gives a tetrahedron the sign of the field at another point than its circumcenter.
   void take_sign_at(TetId t, const Vec3& p) { sign_[t.index()] = sign_at(p); }
+  void take_sign_at_circumcenter(TetId t) { sign_[t.index()] = sign_of(t); }
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // Whether a point lies on the surface of the box, exactly.

@@ -184,10 +184,11 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   v.vertices = static_cast<std::int64_t>(mesh.points.size());
   v.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   v.isovalue = isovalue;
-  v.isovalue_used = regular_isovalue(grid, isovalue);
 
   // The truth.
-  const IsosurfaceTopology truth = exact_topology(grid, v.isovalue_used);
+  const RegularTopology regular = regular_topology(grid, isovalue);
+  const IsosurfaceTopology& truth = regular.topology;
+  v.isovalue_used = regular.isovalue;
   if (truth.crossings.empty()) {
     throw InputError("the isosurface of " + std::to_string(isovalue) + " has no point in this volume");
   }

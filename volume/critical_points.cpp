@@ -36,8 +36,9 @@ void append_face_saddles(const CellCorners& corners, std::vector<CriticalPoint>&
   }
 }
 
-// With g = ... + b x + c y + d z + e xy + f yz + k xz + h xyz and the origin moved to (-f/h, -k/h, -e/h), g has only the terms
-// A X + B Y + C Z + h XYZ; its gradient vanishes where YZ = -A/h, XZ = -B/h, XY = -C/h.
+// With g = ... + b x + c y + d z + e xy + f yz + k xz + h xyz and the origin moved to (-f/h, -k/h, -e/h), g has only
+// the terms A X + B Y + C Z + h XYZ; its gradient vanishes where YZ = -A/h, XZ = -B/h, XY = -C/h. Without the last term
+// the gradient is linear.
 void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& points) {
   const double b = g[1] - g[0];
   const double c = g[2] - g[0];
@@ -46,7 +47,14 @@ void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& point
   const double f = g[6] - g[4] - c;
   const double k = g[5] - g[4] - b;
   const double h = g[7] - g[6] - g[5] + g[4] - (g[3] - g[2] - g[1] + g[0]);
-  if (h == 0) return;
+  const auto append = [&](const Vec3& uvw) {
+    if (is_inside(uvw.x) && is_inside(uvw.y) && is_inside(uvw.z)) points.push_back({uvw, trilinear_value(g, uvw)});
+  };
+  if (h == 0) {
+    const double half = -0.5 * (b * f + c * k + d * e);
+    append({(half + b * f) / (e * k), (half + c * k) / (e * f), (half + d * e) / (f * k)});
+    return;
+  }
   const double big_a = b - e * k / h;
   const double big_b = c - e * f / h;
   const double big_c = d - f * k / h;
@@ -54,8 +62,7 @@ void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& point
   if (!(squared_x > 0) || !std::isfinite(squared_x)) return;
   for (const double side : {-1.0, 1.0}) {
     const double x = side * std::sqrt(squared_x);
-    const Vec3 uvw{x - f / h, -big_c / (h * x) - k / h, -big_b / (h * x) - e / h};
-    if (is_inside(uvw.x) && is_inside(uvw.y) && is_inside(uvw.z)) points.push_back({uvw, trilinear_value(g, uvw)});
+    append({x - f / h, -big_c / (h * x) - k / h, -big_b / (h * x) - e / h});
   }
 }
 

@@ -1,5 +1,5 @@
-// Critical points of the trilinear interpolant in one voxel cell: saddles of its faces and of its body. Where the isosurface
-// passes one of them its topology changes, so on which side they lie tells what is joined to what.
+// Critical points of the trilinear interpolant in one voxel cell: saddles of its faces and of its body. Where the
+// isosurface passes one of them its topology changes, so on which side they lie tells what is joined to what.
 #pragma once
 
 #include <vector>

@@ -214,4 +214,16 @@ IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue) {
   return TopologyBuilder(grid, isovalue, CrossingIndex(grid, isovalue)).build();
 }
 
+RegularTopology regular_topology(const ScalarGrid& grid, double isovalue) {
+  constexpr int kLowerings = 3;
+  RegularTopology result;
+  result.isovalue = regular_isovalue(grid, isovalue);
+  result.topology = exact_topology(grid, result.isovalue);
+  for (int i = 0; i < kLowerings && !result.topology.singular_cells.empty(); ++i) {
+    result.isovalue = lowered_isovalue(grid, result.isovalue);
+    result.topology = exact_topology(grid, result.isovalue);
+  }
+  return result;
+}
+
 }  // namespace deliso

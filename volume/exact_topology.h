@@ -49,6 +49,14 @@ struct IsosurfaceTopology {
 // Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
 IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue);
 
+// The exact topology at a regular isovalue: `isovalue` itself or, when a sample or a saddle has that value, one a
+// little lower (regular_isovalue, lowered_isovalue). singular_cells is empty unless three lowerings did not help.
+struct RegularTopology {
+  double isovalue = 0;
+  IsosurfaceTopology topology;
+};
+RegularTopology regular_topology(const ScalarGrid& grid, double isovalue);
+
 // The exact component on which a point of the surface lies, given in index space and rounded: points within 1e-9 of a
 // crossed grid edge or of a grid face that the surface meets are looked up there, others in the slice of their cell.
 // Nothing when no cell at the point meets the surface. Constant time.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -196,7 +197,8 @@ void CellSweep::add_saddles(int count, int start, int end) {
   const double a = 2 * (c + det(1) - 2 * det(0.5));
   const double b = det(1) - c - a;
   const double q = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4 * a * c)), b));
-  std::array<double, 2> roots{a != 0 ? q / a : position(start), q != 0 ? c / q : position(start)};
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();  // a linear D has one root only
+  std::array<double, 2> roots{a != 0 ? q / a : kNowhere, q != 0 ? c / q : position(start)};
   const double low = position(start);
   const double high = position(end);
   const auto outside = [&](double w) { return std::max({0.0, low - w, w - high}); };

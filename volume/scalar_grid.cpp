@@ -175,4 +175,9 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   return isovalue;
 }
 
+double lowered_isovalue(const ScalarGrid& grid, double isovalue) {
+  const double lower = find_neighbors(grid, isovalue).lower;
+  return lower > -kInfinity ? isovalue - 0.01 * (isovalue - lower) : std::nextafter(isovalue, -kInfinity);
+}
+
 }  // namespace deliso

@@ -76,6 +76,9 @@ ScalarGrid padded(const ScalarGrid& grid, double value);
 // next lower double). Never equal to a sample: when a gap is too narrow to hold a double, the next gap below is taken.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
+// A value lower by 1 % of the gap to the next lower sample value: between the same samples, so the same ones lie above it.
+double lowered_isovalue(const ScalarGrid& grid, double isovalue);
+
 // The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,
 // at eight bytes each, could not be addressed.
 std::size_t checked_sample_count(const Dims& dims);

@@ -305,6 +305,31 @@ TEST(CellSweep, SaddlesOfTheSweepLieOnTheSurface) {
   EXPECT_GT(found, 500);
 }
 
+// Small integers: the quadratic whose roots place the saddles is often linear, exactly.
+TEST(CellSweep, SaddlesOfIntegerCellsLieOnTheSurfaceToo) {
+  Rng rng(20);
+  int found = 0;
+  for (int i = 0; i < 30000; ++i) {
+    CellCorners corners;
+    for (double& f : corners) f = static_cast<double>(rng.below(8));
+    const CellSweep sweep(corners, 3.5);
+    if (sweep.singular_inside() || sweep.saddle_faces() != 0) continue;
+    for (int s = 0; s < sweep.saddle_count(); ++s) {
+      ASSERT_NEAR(trilinear_value(corners, sweep.saddle(s).uvw), 3.5, 1e-6) << "case " << i << " after seed 20";
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 500);
+}
+
+// The upper samples are the lower ones minus 39.
+TEST(CellSweep, TheSaddleOfAPrismLiesOnTheSurface) {
+  const CellCorners corners{187, 142, 142, 192, 148, 103, 103, 153};
+  const CellSweep sweep(corners, 127.5);
+  ASSERT_EQ(sweep.saddle_count(), 1);
+  EXPECT_NEAR(trilinear_value(corners, sweep.saddle(0).uvw), 127.5, 1e-9);
+}
+
 // A point of the surface belongs to the same piece whichever axis is swept.
 TEST(CellSweep, LooksAPointUpAlikeAlongEveryAxis) {
   Rng rng(19);

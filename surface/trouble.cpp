@@ -1,0 +1,135 @@
+#include "surface/trouble.h"
+
+#include "volume/critical_points.h"
+
+namespace deliso {
+
+namespace {
+
+class TroubleFinder {
+ public:
+  TroubleFinder(const ScalarGrid& grid, const IsosurfaceTopology& topology, const SignedDelaunay& restricted,
+                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done)
+      : grid_(grid),
+        topology_(topology),
+        restricted_(restricted),
+        mesh_(mesh),
+        cells_(cells),
+        done_(done),
+        has_sign_(done.size(), false) {}
+
+  std::vector<CellName> find() {
+    flag_mesh();
+    flag_unused_vertices();
+    flag_critical_points();
+    flag_silent_components();
+    return std::move(found_);
+  }
+
+ private:
+  void flag_mesh();
+  void flag_unused_vertices();
+  void flag_critical_points();
+  void flag_silent_components();
+  [[nodiscard]] std::uint32_t component_in(const CellIndex& cell) const;
+  [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
+
+  void flag(const Vec3& p, std::uint32_t component) {
+    if (done_[component]) return;
+    has_sign_[component] = true;
+    cells_.append_cells_of(p, found_);
+  }
+
+  const ScalarGrid& grid_;
+  const IsosurfaceTopology& topology_;
+  const SignedDelaunay& restricted_;
+  const MatchedMesh& mesh_;
+  const RaisedCells& cells_;
+  const std::vector<bool>& done_;
+  std::vector<bool> has_sign_;  // of each exact component
+  std::vector<CellName> found_;
+};
+
+// Split vertices, triangles between components, and strays.
+void TroubleFinder::flag_mesh() {
+  const SurfaceMesh& surface = mesh_.built.mesh;
+  const ComponentMatch& match = mesh_.match;
+  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v]);
+  for (const auto& v : surface.triangles) {
+    const std::uint32_t piece = match.piece_of[v[0]];
+    const bool is_stray = match.main_piece[match.pieces[piece].component] != piece;
+    const bool is_between =
+        mesh_.component[v[0]] != mesh_.component[v[1]] || mesh_.component[v[0]] != mesh_.component[v[2]];
+    if (!is_stray && !is_between) continue;
+    flag((surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3, mesh_.component[v[0]]);
+    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q]);
+  }
+}
+
+void TroubleFinder::flag_unused_vertices() {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  const Vec3& step = restricted_.isosurface().step();
+  std::vector<bool> used(delaunay.vertex_count(), false);
+  for (const VertexId v : mesh_.built.vertex_of) used[v.index()] = true;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
+    const Vec3& p = delaunay.point(VertexId(i));
+    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+    const auto component = component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
+    if (component) flag(p, *component);
+  }
+}
+
+// Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
+// way.
+void TroubleFinder::flag_critical_points() {
+  const double isovalue = restricted_.isosurface().isovalue();
+  std::vector<CriticalPoint> critical;
+  TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+  topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+    critical.clear();
+    append_critical_points(grid_.cell(cell[0], cell[1], cell[2]), critical);
+    if (critical.empty()) return;
+    const std::uint32_t component = component_in(cell);
+    if (done_[component]) return;
+    for (const CriticalPoint& c : critical) {
+      const Vec3 p = to_mesh_space({cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z});
+      hint = restricted_.locate(p, hint);
+      if (c.value != isovalue && restricted_.is_above(hint) != (c.value > isovalue)) flag(p, component);
+    }
+  });
+}
+
+void TroubleFinder::flag_silent_components() {
+  const std::vector<bool> had_sign = has_sign_;
+  for (const SurfaceSaddle& saddle : topology_.saddles) {
+    if (!had_sign[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component);
+  }
+  const std::vector<bool> had_saddle = has_sign_;
+  for (const EdgeCrossing& crossing : topology_.crossings) {
+    if (!had_saddle[crossing.component]) flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component);
+  }
+}
+
+// The exact component of some crossing on the edges of an active cell.
+std::uint32_t TroubleFinder::component_in(const CellIndex& cell) const {
+  for (std::int32_t edge = 0; edge < 12; ++edge) {
+    const auto axis = static_cast<std::size_t>(edge / 4);
+    CellIndex sample = cell;
+    sample[(axis + 1) % 3] += edge & 1;
+    sample[(axis + 2) % 3] += edge >> 1 & 1;
+    const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
+    if (crossing != CrossingIndex::kNone) return topology_.crossings[crossing].component;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
+                                       const SignedDelaunay& restricted, const MatchedMesh& mesh,
+                                       const RaisedCells& cells, const std::vector<bool>& done) {
+  return TroubleFinder(grid, topology, restricted, mesh, cells, done).find();
+}
+
+}  // namespace deliso

@@ -1,0 +1,195 @@
+#include "surface/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+
+#include "delaunay/constructions.h"
+#include "surface/build_triangle_mesh.h"
+#include "surface/poles.h"
+#include "surface/recover.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/surface_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::field_scene;
+using testing::noise_scene;
+using testing::Scene;
+
+// What stage 1 hands over.
+SurfaceMesh stage1_mesh(const Scene& scene) {
+  RestrictedDelaunay restricted(*scene.isosurface, scene.start());
+  RecoverOptions options;
+  options.geometry.r_min = 0.1;
+  options.size_bound = 0.3;
+  Controls controls(BudgetParameters{}, nullptr, {});
+  RecoverStats stats;
+  recover(restricted, options, controls, stats);
+  BuiltMesh built = build_triangle_mesh(restricted);
+  const std::vector<double> heights = compute_poles(restricted);
+  for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+  return std::move(built.mesh);
+}
+
+RefineOptions fine_options() {
+  RefineOptions options;
+  options.r_min = 0.25;
+  return options;
+}
+
+RefineStats run(SurfaceMesh& mesh, const Scene& scene, const RefineOptions& options) {
+  Controls controls(BudgetParameters{}, nullptr, {});
+  RefineStats stats;
+  refine(mesh, *scene.isosurface, options, controls, stats);
+  return stats;
+}
+
+std::vector<std::unique_ptr<Scene>> scenes() {
+  std::vector<std::unique_ptr<Scene>> all;
+  for (const char* name : {"sphere", "torus", "double_torus", "gyroid", "sheets", "plane", "marschner_lobb"}) {
+    all.push_back(field_scene(name, 16));
+  }
+  all.push_back(std::make_unique<Scene>("gyroid 12 closed", padded(generate_field("gyroid", 12), -3), 0.1));
+  all.push_back(testing::wave_scene({9, 10, 6}, {1, 1, 3}, 4));
+  for (std::uint64_t seed = 0; seed < 6; ++seed) all.push_back(noise_scene({5, 4, 6}, seed));
+  return all;
+}
+
+TEST(Refine, TheMeshStaysHomeomorphicToWhatItWas) {
+  for (const auto& scene : scenes()) {
+    SCOPED_TRACE(scene->name);
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    ASSERT_EQ(testing::surface_mesh_defect(mesh), "");
+    const auto before = test::mesh_facts(mesh.triangles).components;
+    const std::vector<Vec3> points = mesh.points;
+    const RefineStats stats = run(mesh, *scene, fine_options());
+    EXPECT_EQ(testing::surface_mesh_defect(mesh), "");
+    EXPECT_EQ(test::mesh_facts(mesh.triangles).components, before);
+    // Old vertices stay where they are; every insertion adds one.
+    EXPECT_EQ(mesh.points.size(), points.size() + static_cast<std::size_t>(stats.insertions));
+    EXPECT_TRUE(std::equal(points.begin(), points.end(), mesh.points.begin()));
+    EXPECT_EQ(mesh.pole_heights.size(), mesh.points.size());
+    EXPECT_EQ(mesh.balls.size(), mesh.triangles.size());
+  }
+}
+
+TEST(Refine, NewVerticesLieOnTheSurfaceAndBoundaryEdgesOnTheBox) {
+  for (const auto& scene : scenes()) {
+    SCOPED_TRACE(scene->name);
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    const std::size_t before = mesh.points.size();
+    run(mesh, *scene, fine_options());
+    const Box3& box = scene->isosurface->box();
+    for (std::size_t v = before; v < mesh.points.size(); ++v) {
+      EXPECT_TRUE(box.contains(mesh.points[v]));
+      EXPECT_LE(std::abs(scene->isosurface->value(mesh.points[v])),
+                1e-6 * (1 + norm(scene->isosurface->gradient(mesh.points[v]))));
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (mesh.neighbours[t][i] != kNoSide) continue;
+        EXPECT_TRUE(SignedDelaunay::on_box(box, mesh.points[mesh.triangles[t][(i + 1) % 3]]));
+        EXPECT_TRUE(SignedDelaunay::on_box(box, mesh.points[mesh.triangles[t][(i + 2) % 3]]));
+      }
+    }
+  }
+}
+
+TEST(Refine, BallsPassThroughTheirThreeVertices) {
+  for (const auto& scene : scenes()) {
+    SCOPED_TRACE(scene->name);
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    run(mesh, *scene, fine_options());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double radius = std::sqrt(mesh.balls[t].squared_radius);
+      if (radius == 0 || radius > 1e3) continue;  // nothing could be measured on it
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        EXPECT_NEAR(distance(mesh.points[v], mesh.balls[t].center), radius, 1e-6 * (1 + radius));
+      }
+    }
+  }
+}
+
+TEST(Refine, TrianglesMeetTheCriteriaWhereNothingWasRefused) {
+  for (const char* name : {"sphere", "torus"}) {
+    SCOPED_TRACE(name);
+    const auto scene = field_scene(name, 24);
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    RefineOptions options = fine_options();
+    options.max_distance = 0.05;
+    const RefineStats stats = run(mesh, *scene, options);
+    const auto refused = std::accumulate(stats.refused.begin(), stats.refused.end(), std::int64_t{0});
+    EXPECT_GT(stats.insertions, 100);
+    EXPECT_LE(refused, stats.insertions / 50);
+    std::int64_t failing = 0;
+    std::int64_t small = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& v = mesh.triangles[t];
+      const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+      const Circumcircle circle = circumcircle(a, b, c);
+      const double h = distance(circle.center, mesh.balls[t].center);
+      const double shortest = std::min({distance(a, b), distance(b, c), distance(c, a)});
+      const double pole = (mesh.pole_heights[v[0]] + mesh.pole_heights[v[1]] + mesh.pole_heights[v[2]]) / 3;
+      constexpr double kSlack = 1 + 1e-9;
+      const bool fails = h > options.epsilon1 * circle.radius * kSlack ||
+                         circle.radius > options.epsilon2 * pole * kSlack ||
+                         circle.radius > options.rho * shortest * kSlack || h > options.max_distance * kSlack;
+      if (circle.radius > options.r_min) failing += fails ? 1 : 0;
+      if (circle.radius <= options.r_min) small += fails ? 1 : 0;
+    }
+    EXPECT_LE(failing, refused);
+    EXPECT_EQ(small, stats.stopped_at_r_min);
+  }
+}
+
+TEST(Refine, FlatTrianglesBecomeRoundOnes) {
+  const auto scene = field_scene("torus", 32);
+  SurfaceMesh mesh = stage1_mesh(*scene);
+  run(mesh, *scene, fine_options());
+  std::size_t thin = 0;
+  for (const auto& v : mesh.triangles) {
+    const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+    const double shortest = std::min({distance(a, b), distance(b, c), distance(c, a)});
+    thin += circumcircle(a, b, c).radius > 2.001 * shortest ? 1 : 0;
+  }
+  EXPECT_LE(thin, mesh.triangles.size() / 200);
+}
+
+TEST(Refine, EqualRunsGiveEqualMeshes) {
+  const auto scene = noise_scene({5, 5, 5}, 3);
+  for (const QueueOrder order : {QueueOrder::kWorstFirst, QueueOrder::kFirstInFirstOut, QueueOrder::kLargestRadius}) {
+    RefineOptions options = fine_options();
+    options.order = order;
+    SurfaceMesh a = stage1_mesh(*scene);
+    SurfaceMesh b = stage1_mesh(*scene);
+    run(a, *scene, options);
+    run(b, *scene, options);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(testing::surface_mesh_defect(a), "");
+  }
+}
+
+TEST(Refine, StoppedAtAnyMomentTheMeshIsWhole) {
+  const auto scene = field_scene("gyroid", 14);
+  const SurfaceMesh start = stage1_mesh(*scene);
+  const auto facts = test::mesh_facts(start.triangles).components;
+  for (const std::int64_t more : {0, 1, 2, 13, 200}) {
+    SurfaceMesh mesh = start;
+    BudgetParameters budget;
+    budget.max_vertices = static_cast<std::int64_t>(mesh.points.size()) + more;
+    Controls controls(budget, nullptr, {});
+    RefineStats stats;
+    refine(mesh, *scene->isosurface, fine_options(), controls, stats);
+    EXPECT_TRUE(controls.stopped());
+    EXPECT_EQ(stats.insertions, more);
+    EXPECT_EQ(testing::surface_mesh_defect(mesh), "");
+    EXPECT_EQ(test::mesh_facts(mesh.triangles).components, facts);
+  }
+}
+
+}  // namespace
+}  // namespace deliso
