@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "surface/build_triangle_mesh.h"
 #include "tests/support/surface_fields.h"
@@ -54,11 +54,10 @@ TEST(ComponentMatch, RightMeshesMatchPieceByPiece) {
     SCOPED_TRACE(scene->name);
     const Sampled sampled = dense_mesh(*scene);
     const ComponentMatch match = match_components(sampled.mesh, sampled.component, scene->topology.components);
-    EXPECT_TRUE(match.complete());
-    EXPECT_EQ(match.error(), 0);
+    EXPECT_EQ(match.error, 0);
+    for (const Agreement agreement : match.agreement) EXPECT_EQ(agreement, Agreement::kExact);
     EXPECT_EQ(match.pieces.size(), scene->topology.components.size());
     for (const MeshPiece& piece : match.pieces) {
-      EXPECT_TRUE(piece.matched);
       EXPECT_FALSE(piece.mixed);
       EXPECT_EQ(piece.topology, scene->topology.components[piece.component]);
     }
@@ -75,11 +74,9 @@ TEST(ComponentMatch, AHoleBreaksTheMatchOfItsComponentOnly) {
   punch_hole(sampled.mesh, 5);
   ASSERT_EQ(testing::surface_mesh_defect(sampled.mesh), "");
   const ComponentMatch match = match_components(sampled.mesh, sampled.component, scene->topology.components);
-  EXPECT_EQ(match.unmatched_components, 1);
-  EXPECT_EQ(match.unmatched_pieces, 1);
-  EXPECT_EQ(match.characteristic_error, 1);
-  EXPECT_FALSE(match.component_matched[hurt]);
-  EXPECT_TRUE(match.component_matched[1 - hurt]);
+  EXPECT_EQ(match.error, 2);  // one component, one less in Euler characteristic
+  EXPECT_EQ(match.agreement[hurt], Agreement::kNone);
+  EXPECT_EQ(match.agreement[1 - hurt], Agreement::kExact);
   for (const MeshPiece& piece : match.pieces) {
     if (piece.component == hurt) {
       EXPECT_EQ(piece.topology, (ComponentTopology{-1, 1}));
@@ -102,11 +99,12 @@ TEST(ComponentMatch, AMissingComponentAndAStrayPieceAreCounted) {
     if (right.piece_of[v] != 2) component.push_back(sampled.component[v]);
   }
   ComponentMatch match = match_components(some, component, scene->topology.components);
-  EXPECT_EQ(match.unmatched_components, 1);
-  EXPECT_EQ(match.unmatched_pieces, 0);
-  EXPECT_EQ(match.characteristic_error, 2);
+  const std::uint32_t missing = right.pieces[2].component;
+  EXPECT_EQ(match.error, 3);  // one component, two less in Euler characteristic
+  EXPECT_EQ(match.agreement[missing], Agreement::kNone);
+  EXPECT_EQ(match.main_piece[missing], kNoPiece);
 
-  // One of the pieces a second time: its component then has two pieces and no match.
+  // One of the pieces a second time: its component then agrees but for a stray.
   wanted.assign(right.pieces.size(), false);
   wanted[0] = true;
   append_pieces(with_heights, right.piece_of, wanted, some);
@@ -115,17 +113,17 @@ TEST(ComponentMatch, AMissingComponentAndAStrayPieceAreCounted) {
   }
   ASSERT_EQ(testing::surface_mesh_defect(some), "");
   match = match_components(some, component, scene->topology.components);
-  EXPECT_EQ(match.unmatched_components, 2);
-  EXPECT_EQ(match.unmatched_pieces, 2);
+  EXPECT_EQ(match.agreement[right.pieces[0].component], Agreement::kWithStrays);
+  EXPECT_EQ(match.error, 3 + 2);
 }
 
-TEST(ComponentMatch, APieceOnTwoComponentsMatchesNeither) {
+TEST(ComponentMatch, AVertexOfAnotherComponentMakesBothMixed) {
   const auto scene = field_scene("linked_tori", 40);
   Sampled sampled = dense_mesh(*scene);
   const auto first = std::find(sampled.component.begin(), sampled.component.end(), 0u);
   *first = 1;
   const ComponentMatch match = match_components(sampled.mesh, sampled.component, scene->topology.components);
-  EXPECT_EQ(match.unmatched_components, 2);
+  EXPECT_EQ(match.agreement, (std::vector<Agreement>{Agreement::kMixed, Agreement::kMixed}));
   EXPECT_EQ(std::count_if(match.pieces.begin(), match.pieces.end(), [](const auto& p) { return p.mixed; }), 1);
 }
 
