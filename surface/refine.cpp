@@ -244,6 +244,10 @@ bool Refinement::order_rim(const Candidate& candidate, Refusal& refusal) {
     if (closed && at == rim_.front().from) break;
   }
   if (ordered_.size() != rim_.size()) return false;
+  if (!closed && on_rim_[at] == attempt_) {
+    refusal = Refusal::kRepeatedVertex;
+    return false;
+  }
   std::swap(rim_, ordered_);
   return true;
 }

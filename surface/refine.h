@@ -26,9 +26,9 @@ struct RefineOptions {
 };
 
 // Why an insertion was refused.
-enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kExistingEdge, kFlippedTriangle, kTooClose, kCount };
+enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kFlippedTriangle, kTooClose, kCount };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::kCount)> kRefusalNames = {
-    "no_hit", "not_a_disk", "repeated_vertex", "existing_edge", "flipped_triangle", "too_close"};
+    "no_hit", "not_a_disk", "repeated_vertex", "flipped_triangle", "too_close"};
 
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;

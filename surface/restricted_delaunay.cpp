@@ -49,7 +49,8 @@ void RestrictedDelaunay::search_everything() {
   }
 }
 
-RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& p, TetId start, double min_distance) {
+RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId start, double min_distance) {
+  const Vec3 p = snapped(point);
   if (delaunay_.find_conflicts(p, start)) return Outcome::kDuplicate;
   if (nearest_rim_vertex(p) < min_distance) {
     delaunay_.abandon_cavity();

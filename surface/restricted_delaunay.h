@@ -37,8 +37,9 @@ class RestrictedDelaunay : public SignedDelaunay {
   RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
 
   enum class Outcome { kInserted, kDuplicate, kTooClose };
-  // Inserts p unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with p.
-  Outcome insert(const Vec3& p, TetId start, double min_distance);
+  // Inserts the point unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with
+  // it.
+  Outcome insert(const Vec3& point, TetId start, double min_distance);
 
   // What the last successful insertion changed: dual edges that are new or other than before, and vertices whose
   // umbrella is.

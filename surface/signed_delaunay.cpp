@@ -1,5 +1,7 @@
 #include "surface/signed_delaunay.h"
 
+#include <cmath>
+
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
 
@@ -9,6 +11,9 @@ namespace {
 
 // Guards sit this many box diagonals off the plane of coplanar points.
 constexpr double kGuardDistance = 16;
+// Smaller coordinates count as zero: the exact predicates do not reach down to them, and a surface point may lie as
+// near to a side of the box as its data please.
+constexpr double kSmallestCoordinate = 0x1p-100;
 Box3 box_with_guards(const Box3& box) {
   const double reach = (kGuardDistance + 1) * box.diagonal();
   Box3 large = box;
@@ -45,8 +50,18 @@ Vec3 clamped_limit(const Box3& box, const Vec3& origin, const Vec3& direction) {
 
 }  // namespace
 
-SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points)
+Vec3 SignedDelaunay::snapped(const Vec3& p) {
+  const auto snap = [](double x) { return std::abs(x) < kSmallestCoordinate ? 0 : x; };
+  return {snap(p.x), snap(p.y), snap(p.z)};
+}
+
+SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given)
     : isosurface_(isosurface), delaunay_(box_with_guards(isosurface.box())) {
+  std::vector<Vec3> points;
+  points.reserve(given.size());
+  for (const Vec3& p : given) {
+    if (is_finite(p)) points.push_back(snapped(p));
+  }
   if (!delaunay_.build(points)) {
     if (points.empty()) throw InputError("the isosurface has no point to start from");
     std::vector<Vec3> guarded(points.begin(), points.end());

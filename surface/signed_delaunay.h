@@ -41,6 +41,8 @@ class SignedDelaunay {
   void take_sign_at_circumcenter(TetId t) { sign_[t.index()] = sign_of(t); }
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
+  // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
+  static Vec3 snapped(const Vec3& p);
   // Whether a point lies on the surface of the box, exactly.
   static bool on_box(const Box3& box, const Vec3& p);
 
