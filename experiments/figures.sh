@@ -52,7 +52,7 @@ if is_there "figure 1 (ATOM)" hydrogen_atom.nrrd; then
 fi
 if is_there "figure 2 (FUEL)" fuel.nrrd; then
   make_mesh fuel "$data/fuel.nrrd" 70.1
-  picture figure2 "$data/fuel.nrrd" 70.1 --marching-cubes --mesh "$out/fuel.ply" --view 60,25 --size 1800x900
+  picture figure2 "$data/fuel.nrrd" 70.1 --marching-cubes --mesh "$out/fuel.ply" --view 60,25 --size 2000x600
 fi
 
 # Figures 6, 7 and 8: DelIso, after Recover.
