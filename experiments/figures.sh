@@ -82,6 +82,6 @@ fi
 if is_there "figure 11 (BABY)" baby.nrrd; then
   make_mesh baby1 "$data/baby.nrrd" 35.8
   make_mesh baby2 "$data/baby.nrrd" 131.6
-  picture figure11 "$data/baby.nrrd" 35.8 --mesh "$out/baby1.ply" --mesh "$out/baby2.ply" --view 60,15 --size 2400x1200
+  picture figure11 "$data/baby.nrrd" 35.8 --mesh "$out/baby1.ply" --mesh "$out/baby2.ply" --view -60,25 --size 2400x1200
 fi
 say "done; the pictures are in $out"
