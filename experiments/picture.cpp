@@ -129,9 +129,9 @@ class Surroundings {
     const Vec3 normal = doubles(sample.normal);
     const Vec3 point = doubles(sample.point);
     const double reach = radius_ * camera_.pixel_size(point);
-    const auto place = static_cast<std::size_t>(row % samples_ * samples_ + column % samples_);
+    const std::int32_t place = row % samples_ * samples_ + column % samples_;
     double hidden = 0;
-    for (const auto& [x, y] : places_[place]) {
+    for (const auto& [x, y] : places_[static_cast<std::size_t>(place)]) {
       if (!plane.holds(column + x, row + y)) continue;
       const Sample& other = plane.at(column + x, row + y);
       if (!other.seen) continue;

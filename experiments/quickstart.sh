@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh checkout to a certified mesh: installs what is missing, builds, meshes a built-in volume and checks the
-# mesh. Results go to out/quickstart. From any folder: experiments/quickstart.sh
+# From a fresh checkout to a certified mesh: installs what is missing, builds, meshes a built-in volume, checks the mesh
+# and draws it. Results go to out/quickstart. From any folder: experiments/quickstart.sh
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -26,4 +26,7 @@ say "checking the mesh with code of its own: $out/verification.txt, $out/verific
 "$deliso" verify "$out/shells.ply" "$out/shells.nrrd" --isovalue "$isovalue" --report "$out/verification.json" \
   >"$out/verification.txt"
 tail -n 1 "$out/verification.txt"
-say "done; the mesh is $root/$out/shells.ply"
+say "a picture of both, cut open: $out/shells.png"
+"$deliso" render "$out/shells.nrrd" --isovalue "$isovalue" --surface --mesh "$out/shells.ply" --clip x=32 \
+  -o "$out/shells.png"
+say "done; the mesh is $root/$out/shells.ply, its picture $root/$out/shells.png"

@@ -23,7 +23,8 @@ ClipPlane parse_clip_plane(const std::string& text, const std::string& option) {
 
 Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec3& toward_eye,
               const std::string& option) {
-  Box3 kept = whole;
+  const double air = 1e-6 * whole.diagonal();
+  Box3 kept{whole.low - Vec3{air, air, air}, whole.high + Vec3{air, air, air}};
   for (const ClipPlane& plane : planes) {
     const std::size_t a = plane.axis;
     if (toward_eye[a] >= 0) {
@@ -31,7 +32,7 @@ Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec
     } else {
       kept.low[a] = std::max(kept.low[a], plane.value);
     }
-    if (kept.low[a] < kept.high[a]) continue;
+    if (std::max(kept.low[a], whole.low[a]) < std::min(kept.high[a], whole.high[a])) continue;
     const std::string name(1, kAxisNames[a]);
     throw InputError(option + ": " + name + "=" + number_text(plane.value) + " leaves nothing to see, " + name +
                      " goes from " + number_text(whole.low[a]) + " to " + number_text(whole.high[a]));

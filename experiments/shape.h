@@ -54,8 +54,9 @@ struct ClipPlane {
 // "z=12.5". Throws InputError naming `option`.
 ClipPlane parse_clip_plane(const std::string& text, const std::string& option);
 
-// What the planes leave of `whole` for an eye in the direction `toward_eye` (of a plane along that direction, the
-// part at lower coordinates). Throws InputError naming `option` and the range when nothing is left.
+// What the planes leave of `whole`, with a little air around it so that triangles in its faces are inside, for an eye
+// in the direction `toward_eye` (of a plane along that direction, the part at lower coordinates). Throws InputError
+// naming `option` and the range when nothing is left.
 Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec3& toward_eye,
               const std::string& option);
 
