@@ -59,7 +59,8 @@ void take_signs_from_critical_points(SignedDelaunay& restricted, const ScalarGri
       const Vec3 index_point{cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z};
       hint = restricted.locate(scaled(index_point, isosurface.step()), hint);
       if (restricted.delaunay().is_ghost(hint) || c.value == isosurface.isovalue()) continue;
-      if (restricted.is_above(hint) != (c.value > isosurface.isovalue())) restricted.overturn_sign(hint);
+      if (restricted.is_above(hint) == (c.value > isosurface.isovalue())) continue;
+      if (shape_of(restricted, hint).is_small) restricted.overturn_sign(hint);
     }
   }
 }
