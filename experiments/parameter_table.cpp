@@ -91,6 +91,8 @@ constexpr ParameterField row(std::string_view path, ParameterRange range, std::s
   field.effect = effect;
   if constexpr (std::is_enum_v<Value>) field.choices = names_of(Value{});
   if constexpr (std::is_same_v<Value, std::int32_t>) field.range.high = std::numeric_limits<std::int32_t>::max();
+  // Beyond 2^53 the doubles of JSON do not tell integers apart.
+  if constexpr (std::is_same_v<Value, std::int64_t>) field.range.high = 0x1p53;
   field.get = [](const Parameters& parameters) -> ParameterValue {
     const Member& member = follow<Path...>(parameters);
     if constexpr (Optional::kIsOptional) {

@@ -94,7 +94,8 @@ StrictObject::StrictObject(const Json& value, std::string place, std::span<const
   std::vector<std::string> known;
   for (const KeyInfo& key : keys) known.emplace_back(key.name);
   for (const auto& [name, held] : value.items()) {
-    const auto key = std::find_if(keys.begin(), keys.end(), [&name](const KeyInfo& k) { return k.name == name; });
+    const auto key =
+        std::find_if(keys.begin(), keys.end(), [&known_name = name](const KeyInfo& k) { return k.name == known_name; });
     if (key == keys.end()) {
       throw InputError(place_ + ": unknown key '" + name + "', the nearest known key is '" + nearest_name(name, known) +
                        "'");
