@@ -83,7 +83,9 @@ std::vector<Variant> swept(const std::vector<Variant>& variants, const std::stri
     std::set<std::string> seen;
     for (const Json& value : values) {
       const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-      if (!seen.insert(text).second) throw InputError(place + " has the value " + text + " twice");
+      if (!seen.insert(text).second) {
+        throw InputError(std::string(place).append(" has the value ").append(text).append(" twice"));
+      }
       Variant& one = all.emplace_back(variant);
       one.name.append(" ").append(path).append("=").append(text);
       set_parameter(path, value, place, one.parameters);
@@ -96,7 +98,7 @@ std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Va
   std::vector<Variant> variants = parse_variants(experiment, base);
   if (!experiment.has("sweep")) return variants;
   for (const auto& [path, values] : experiment.at("sweep").items()) {
-    variants = swept(variants, path, values, experiment.place_of("sweep") + "/" + path);
+    variants = swept(variants, path, values, experiment.place_of("sweep").append("/").append(path));
   }
   return variants;
 }
@@ -110,11 +112,12 @@ Reference parse_reference(const StrictObject& experiment, const fs::path& folder
   const StrictObject object(document, is_file ? file.string() + "#" : experiment.place_of("reference"), kReferenceKeys);
   reference.source = object.get<std::string>("source", "");
   for (const auto& [dataset, row] : object.at("rows").items()) {
-    const std::string place = object.place_of("rows") + "/" + dataset;
+    const std::string place = object.place_of("rows").append("/").append(dataset);
     if (!row.is_object()) throw InputError(place + " must be an object, found " + short_json(row));
     for (const auto& [column, value] : row.items()) {
       if (!value.is_number() && !value.is_string()) {
-        throw InputError(place + "/" + column + " must be a number or a string, found " + short_json(value));
+        throw InputError(std::string(place).append("/").append(column) + " must be a number or a string, found " +
+                         short_json(value));
       }
       reference.rows[dataset][column] = value;
     }

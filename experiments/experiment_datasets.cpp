@@ -68,15 +68,17 @@ std::vector<Dataset> parse_list(const Json& list, const std::string& place, cons
   std::vector<Dataset> datasets;
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string here = place + "/" + std::to_string(i);
+    const std::string here = std::string(place).append("/").append(std::to_string(i));
     if (list[i].is_string()) {
       // A name in the manifest.
       const auto name = list[i].get<std::string>();
       std::vector<std::string> known;
+      known.reserve(manifest.size());
       for (const Dataset& dataset : manifest) known.push_back(dataset.name);
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end()) {
-        throw InputError(here + ": the manifest has no data set '" + name + "'" + nearest_name_hint(name, known));
+        throw InputError(std::string(here).append(": the manifest has no data set '").append(name).append("'") +
+                         nearest_name_hint(name, known));
       }
       datasets.push_back(manifest[static_cast<std::size_t>(found - known.begin())]);
     } else {

@@ -20,6 +20,7 @@ struct Figure {
   [[nodiscard]] double median() const;
 };
 
+// Moving nlohmann's JSON is not declared noexcept. NOLINTNEXTLINE(bugprone-exception-escape)
 struct TableCell {
   Figure ours;
   Json reference;               // a number or a text; null: none

@@ -86,7 +86,8 @@ std::string variant_line(const Experiment& experiment, const Variant& variant) {
   std::string separator = " with ";
   const Json changes = parameter_changes(experiment.base.parameters, variant.parameters);
   for (const auto& [path, value] : changes.items()) {
-    text += separator + "`" + path + "` = " + (value.is_string() ? value.get<std::string>() : value.dump());
+    text.append(separator).append("`").append(path).append("` = ");
+    text += value.is_string() ? value.get<std::string>() : value.dump();
     separator = ", ";
   }
   return text + "\n";
