@@ -33,6 +33,7 @@ Json recover_json(const RecoverStats& recover) {
   json["multi_intersect"] = recover.multi_intersect;
   json["extract_manifold"] = recover.extract_manifold;
   json["approximate_geometry"] = recover.approximate_geometry;
+  json["uncovered"] = recover.uncovered;
   json["refused_by_size_bound"] = recover.refused_by_size_bound;
   json["share_restricted"] = recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
   return json;

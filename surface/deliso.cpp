@@ -13,6 +13,7 @@
 #include "surface/boundary_curves.h"
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_seeds.h"
+#include "surface/coverage.h"
 #include "surface/poles.h"
 #include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
@@ -21,6 +22,9 @@
 namespace deliso {
 
 namespace {
+
+// Rounds of looking for parts of the surface that the mesh of stage 1 misses.
+constexpr int kCoverageRounds = 4;
 
 // Runs one stage and adds its wall-clock time to `stage`.
 template <class Body>
@@ -138,7 +142,19 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     return std::make_unique<RestrictedDelaunay>(*isosurface, points);
   });
 
-  timed(result.recover, [&] { recover(*restricted, stage1_options(parameters, lengths), controls, result.recover); });
+  timed(result.recover, [&] {
+    const RecoverOptions stage1 = stage1_options(parameters, lengths);
+    recover(*restricted, stage1, controls, result.recover);
+    if (!needs_topology) return;
+    // Fingers of the surface that hide within a Voronoi cell.
+    for (int i = 0; i < kCoverageRounds; ++i) {
+      const std::int64_t inserted = insert_uncovered(*restricted, grid, topology, lengths.size_bound);
+      if (inserted == 0) break;
+      result.recover.insertions += inserted;
+      result.recover.uncovered += inserted;
+      recover(*restricted, stage1, controls, result.recover);
+    }
+  });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights = timed(result.poles, [&] { return compute_poles(*restricted); });
     timed(result.recover,

@@ -28,7 +28,8 @@ struct RepairStats : StageStats {
   std::int64_t vertices_after = 0;
 };
 
-// `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with pole heights.
+// `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with
+// pole heights.
 SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                    std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
                    RepairStats& stats);

@@ -20,8 +20,9 @@ struct MatchedMesh {
 
 // The voxel cells near the trouble of the components that `done` leaves out; may repeat cells. Signs of trouble:
 // vertices that had to be split; triangles between two components; pieces beside the main piece of their component;
-// vertices of the triangulation that no triangle uses; critical points of the interpolant in tetrahedra of the other
-// sign. For a component without any such sign its saddles are taken, and when there are none all its crossings.
+// vertices of the triangulation that no triangle uses; critical points of the
+// interpolant in tetrahedra of the other sign. For a component without any such sign its saddles are taken, and when
+// there are none all its crossings.
 std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                                        const SignedDelaunay& restricted, const MatchedMesh& mesh,
                                        const RaisedCells& cells, const std::vector<bool>& done);
