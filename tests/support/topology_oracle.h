@@ -43,6 +43,7 @@ class LatticeTopology {
       if (find(loop_parent_, edge) == edge) ++found[find(parent_, edge)].boundary_loops;
     }
     std::vector<ComponentTopology> result;
+    result.reserve(found.size());
     for (const auto& [root, topology] : found) result.push_back(topology);
     std::sort(result.begin(), result.end());
     return result;
