@@ -21,6 +21,9 @@ class SignedDelaunay {
   // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
   // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line.
   SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+  virtual ~SignedDelaunay() = default;
+  SignedDelaunay(const SignedDelaunay&) = delete;
+  SignedDelaunay& operator=(const SignedDelaunay&) = delete;
 
   [[nodiscard]] const Isosurface& isosurface() const { return isosurface_; }
   [[nodiscard]] const Tetrahedralization& delaunay() const { return delaunay_; }
