@@ -1,5 +1,7 @@
 #include "experiments/experiment.h"
 
+#include <algorithm>
+
 #include "delaunay/base/check.h"
 #include "experiments/command_line.h"
 
@@ -32,6 +34,24 @@ std::vector<PlannedRun> runs_of(const Experiment& experiment, const Shard& shard
   return runs;
 }
 
+namespace {
+
+// Lines through data sets that are gone lose these; lines of nothing go, and so do plots without a line.
+void prune_plots(Experiment& experiment) {
+  const auto is_gone = [&experiment](const std::string& name) {
+    return std::none_of(experiment.datasets.begin(), experiment.datasets.end(),
+                        [&name](const Dataset& dataset) { return dataset.name == name; });
+  };
+  for (Plot& plot : experiment.plots) {
+    if (!plot.across_datasets) continue;
+    for (PlotSeries& series : plot.series) std::erase_if(series.members, is_gone);
+    std::erase_if(plot.series, [](const PlotSeries& series) { return series.members.empty(); });
+  }
+  std::erase_if(experiment.plots, [](const Plot& plot) { return plot.across_datasets && plot.series.empty(); });
+}
+
+}  // namespace
+
 Experiment builtin_form(Experiment experiment) {
   if (experiment.builtin_datasets.empty()) {
     throw InputError("--builtin: the experiment " + experiment.name + " names no builtin_datasets");
@@ -39,6 +59,7 @@ Experiment builtin_form(Experiment experiment) {
   experiment.datasets = std::move(experiment.builtin_datasets);
   experiment.builtin_datasets.clear();
   experiment.name += "_builtin";
+  prune_plots(experiment);
   return experiment;
 }
 
@@ -52,6 +73,9 @@ Experiment smoke_form(Experiment experiment) {
   experiment.builtin_datasets.clear();
   experiment.repeats = 1;
   experiment.name += "_smoke";
+  for (Plot& plot : experiment.plots) {
+    if (plot.across_datasets) plot.series = {{"smoke", {tiny.name}}};
+  }
   return experiment;
 }
 

@@ -27,10 +27,14 @@ struct Dataset {
   std::uint64_t seed = 1;  // of the field
 };
 
+// What makes the mesh of a run: the mesher, or the baseline it is compared with.
+enum class Mesher { kDelIso, kMarchingCubes };
+
 // One setting of the parameters.
 struct Variant {
   std::string name;
-  Parameters parameters;
+  Parameters parameters;  // marching cubes heeds `boundary` and `certify` alone
+  Mesher mesher = Mesher::kDelIso;
 };
 
 // A column of the table.
@@ -42,6 +46,31 @@ struct Metric {
   std::string over;       // divided by the median of the runs of this variant; empty: not divided
   std::string reference;  // column of the reference; empty: none
   bool ratio = false;     // ours over the reference's as a column of its own
+};
+
+enum class PlotKind { kCurve, kBars, kHistogram };
+
+// A line of a plot: the variants (or data sets) it goes through. One alone is a mark.
+struct PlotSeries {
+  std::string name;
+  std::vector<std::string> members;
+};
+
+// A picture of what the table holds.
+struct Plot {
+  std::string name;  // of its file, without ".svg"
+  std::string title;
+  PlotKind kind = PlotKind::kCurve;
+  std::vector<std::string> y;    // metrics: of a curve a row of panels each, of bars the parts
+  std::string x;                 // metric; of a curve
+  bool log_x = false;            // of a curve
+  bool log_y = false;            // of a curve
+  bool across_datasets = false;  // lines go through data sets, with a panel for each variant; else the other way round
+  std::vector<PlotSeries> series;  // of a curve; of a histogram with one member each
+  bool share = false;              // of bars: in per cent of the whole
+  std::string value;               // of a histogram: where the record holds the counts
+  double bin_width = 1;            // of a histogram, whose first bin begins at 0
+  std::string x_label;             // of a histogram
 };
 
 // What a run does: mesh the isosurface, or find its exact topology alone.
@@ -59,7 +88,8 @@ struct Reference {
 struct Experiment {
   std::string name;
   std::string title;
-  std::string question;  // what the table answers; may be empty
+  std::string question;            // what the table answers; may be empty
+  std::vector<std::string> notes;  // what a reader should know, a paragraph each
   Task task = Task::kMesh;
   bool distances = false;  // also measure the distances between mesh and isosurface and self-intersections
   std::vector<Dataset> datasets;
@@ -70,6 +100,7 @@ struct Experiment {
   std::uint64_t seed = 1;  // of the first repeat; each repeat adds one
   RowKind rows = RowKind::kRuns;
   std::vector<Metric> metrics;
+  std::vector<Plot> plots;
   Reference reference;
 };
 

@@ -8,6 +8,7 @@
 #include "experiments/experiment_datasets.h"
 #include "experiments/experiment_keys.h"
 #include "experiments/metric.h"
+#include "experiments/plot_config.h"
 
 namespace deliso {
 namespace {
@@ -63,6 +64,10 @@ std::vector<Variant> parse_variants(const StrictObject& experiment, const Varian
     Variant variant = base;
     if (object.has("extends")) variant = find_variant(object.get<std::string>("extends", ""), known, object, "extends");
     variant.name = name;
+    if (object.has("mesher")) {
+      variant.mesher =
+          object.get<std::string>("mesher", "") == kMesherNames[1] ? Mesher::kMarchingCubes : Mesher::kDelIso;
+    }
     apply_set(object, variant.parameters);
     variants.push_back(variant);
     // A variant may bear the base's name; what extends that name extends the later one.
@@ -173,6 +178,19 @@ std::vector<Metric> parse_metrics(const StrictObject& object, const Experiment& 
   return metrics;
 }
 
+std::vector<std::string> parse_notes(const StrictObject& object) {
+  std::vector<std::string> notes;
+  if (!object.has("notes")) return notes;
+  for (const Json& note : object.at("notes")) {
+    if (!note.is_string() || note.get_ref<const std::string&>().empty()) {
+      throw InputError(item_place(object, "notes", notes.size()) + " must be a string that is not empty, found " +
+                       short_json(note));
+    }
+    notes.push_back(note.get<std::string>());
+  }
+  return notes;
+}
+
 Json metrics_to_json(const std::vector<Metric>& metrics) {
   Json list = Json::array();
   for (const Metric& metric : metrics) {
@@ -189,8 +207,9 @@ Json metrics_to_json(const std::vector<Metric>& metrics) {
 Json variants_to_json(const Experiment& experiment) {
   Json list = Json::array();
   for (const Variant& variant : experiment.variants) {
-    list.push_back(
+    Json& item = list.emplace_back(
         Json{{"name", variant.name}, {"set", parameter_changes(experiment.base.parameters, variant.parameters)}});
+    if (variant.mesher != Mesher::kDelIso) item["mesher"] = kMesherNames[static_cast<std::size_t>(variant.mesher)];
   }
   return list;
 }
@@ -204,6 +223,7 @@ Experiment parse_experiment(const Json& document, const fs::path& path) {
   experiment.name = object.get("name", path.stem().string());
   experiment.title = object.get<std::string>("title", "");
   experiment.question = object.get<std::string>("question", "");
+  experiment.notes = parse_notes(object);
   experiment.task = object.get<std::string>("task", "mesh") == "topology" ? Task::kTopology : Task::kMesh;
   experiment.distances = object.get("distances", false);
   if (experiment.distances && experiment.task == Task::kTopology) object.fail("distances", "needs the task mesh");
@@ -215,6 +235,7 @@ Experiment parse_experiment(const Json& document, const fs::path& path) {
   experiment.variants = parse_all_variants(object, experiment.base);
   experiment.reference = parse_reference(object, folder);
   experiment.metrics = parse_metrics(object, experiment);
+  experiment.plots = parse_plots(object, experiment);
   return experiment;
 }
 
@@ -232,6 +253,7 @@ Json parameter_changes(const Parameters& base, const Parameters& variant) {
 Json experiment_to_json(const Experiment& experiment) {
   Json json{{"name", experiment.name}, {"title", experiment.title}};
   if (!experiment.question.empty()) json["question"] = experiment.question;
+  if (!experiment.notes.empty()) json["notes"] = experiment.notes;
   json["task"] = kTaskNames[static_cast<std::size_t>(experiment.task)];
   json["distances"] = experiment.distances;
   json["datasets"] = datasets_to_json(experiment.datasets);
@@ -242,6 +264,7 @@ Json experiment_to_json(const Experiment& experiment) {
   json["seed"] = experiment.seed;
   json["rows"] = kRowNames[static_cast<std::size_t>(experiment.rows)];
   json["metrics"] = metrics_to_json(experiment.metrics);
+  if (!experiment.plots.empty()) json["plots"] = plots_to_json(experiment.plots);
   if (!experiment.reference.rows.empty()) {
     json["reference"] = Json{{"source", experiment.reference.source}, {"rows", experiment.reference.rows}};
   }

@@ -12,11 +12,16 @@ inline constexpr double kMostRepeats = 10000;
 inline constexpr double kLargestSeed = 0x1p53;
 inline constexpr std::array<std::string_view, 2> kTaskNames = {"mesh", "topology"};
 inline constexpr std::array<std::string_view, 2> kRowNames = {"runs", "datasets"};
+inline constexpr std::array<std::string_view, 2> kMesherNames = {"deliso", "marching_cubes"};
+inline constexpr std::array<std::string_view, 3> kPlotKindNames = {"curve", "bars", "histogram"};
+inline constexpr std::array<std::string_view, 2> kAcrossNames = {"variants", "datasets"};
+inline constexpr std::array<std::string_view, 2> kAxisNames = {"x", "y"};
 
 inline constexpr std::array kExperimentKeys = {
     KeyInfo{"name", KeyType::kText, false, "of the experiment in its records; default: the file's name"},
     KeyInfo{"title", KeyType::kText, true, "stands above the table"},
     KeyInfo{"question", KeyType::kText, false, "what the table answers"},
+    KeyInfo{"notes", KeyType::kArray, false, "texts that stand below the question, a paragraph each"},
     choice_key("task", "what a run does: mesh the isosurface (default), or find its exact topology alone", kTaskNames),
     KeyInfo{"distances", KeyType::kBoolean, false,
             "also measure the distances between mesh and isosurface and the self-intersections"},
@@ -33,6 +38,7 @@ inline constexpr std::array kExperimentKeys = {
     choice_key("rows", "a row of the table is a data set with a variant (runs, default) or with all of them (datasets)",
                kRowNames),
     KeyInfo{"metrics", KeyType::kArray, true, "the columns of the table"},
+    KeyInfo{"plots", KeyType::kArray, false, "pictures of the table, written beside it as SVG"},
     KeyInfo{"reference", KeyType::kAny, false, "published figures: a file, or an object"},
 };
 
@@ -63,6 +69,30 @@ inline constexpr std::array kVariantKeys = {
     KeyInfo{"name", KeyType::kText, true, "of the variant in records and tables"},
     KeyInfo{"extends", KeyType::kText, false, "the base or an earlier variant; default: the base"},
     KeyInfo{"set", KeyType::kObject, false, "what it changes: values by key path"},
+    choice_key("mesher", "deliso (default), or marching_cubes: the baseline, on the same isosurface", kMesherNames),
+};
+
+inline constexpr std::array kPlotKeys = {
+    KeyInfo{"name", KeyType::kText, true, "of the file beside the table: NAME.svg"},
+    KeyInfo{"title", KeyType::kText, true, "stands above the plot"},
+    choice_key("kind",
+               "curve: lines through points; bars: one lying bar a row of the table; histogram: counts of a record",
+               kPlotKindNames, true),
+    KeyInfo{"x", KeyType::kText, false, "curve: the metric along the axis of x"},
+    KeyInfo{"y", KeyType::kArray, false, "curve: a row of panels for each of these metrics; bars: the parts of a bar"},
+    KeyInfo{"log", KeyType::kArray, false, "curve: which axes are logarithmic, of x and y"},
+    choice_key("across", "curve: what a line goes through (default: variants); the other gives a panel each",
+               kAcrossNames),
+    KeyInfo{"series", KeyType::kArray, false, "curve, histogram: the lines; default: one through all, one for each"},
+    KeyInfo{"share", KeyType::kBoolean, false, "bars: parts in per cent of the bar's whole"},
+    KeyInfo{"value", KeyType::kText, false, "histogram: where the record holds the list of counts"},
+    KeyInfo{"bin_width", KeyType::kNumber, false, "histogram: of each bin, the first begins at 0", 1e-9, 1e9},
+    KeyInfo{"x_label", KeyType::kText, false, "histogram: what the bins are of"},
+};
+
+inline constexpr std::array kSeriesKeys = {
+    KeyInfo{"name", KeyType::kText, true, "of the line in the legend"},
+    KeyInfo{"members", KeyType::kArray, true, "the variants it goes through (across datasets: the data sets)"},
 };
 
 inline constexpr std::array kMetricKeys = {

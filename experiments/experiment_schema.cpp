@@ -39,14 +39,23 @@ Json experiment_schema() {
   const Json figures{{"type", "object"}, {"additionalProperties", Json{{"type", Json::array({"number", "string"})}}}};
   refine_key(reference, "rows", Json{{"type", "object"}, {"additionalProperties", figures}});
 
+  Json series = keys_schema(kSeriesKeys);
+  refine_key(series, "members", list_of(text_schema()));
+  Json plot = keys_schema(kPlotKeys);
+  refine_key(plot, "y", list_of(text_schema()));
+  refine_key(plot, "log", list_of(Json{{"type", "string"}, {"enum", kAxisNames}}));
+  refine_key(plot, "series", list_of(series));
+
   Json schema = keys_schema(kExperimentKeys);
   schema["description"] = "An experiment of `deliso run`";
+  refine_key(schema, "notes", list_of(text_schema()));
   refine_key(schema, "datasets", list_of(either(text_schema(), dataset)));
   refine_key(schema, "builtin_datasets", list_of(either(text_schema(), dataset)));
   refine_key(schema, "base", base);
   refine_key(schema, "variants", list_of(variant));
   refine_key(schema, "sweep", by_path(Json{{"type", "array"}, {"minItems", 1}}));
   refine_key(schema, "metrics", list_of(keys_schema(kMetricKeys)));
+  refine_key(schema, "plots", list_of(plot));
   refine_key(schema, "reference", either(text_schema(), reference));
   return schema;
 }

@@ -1,6 +1,5 @@
 // deliso mesh: a volume and an isovalue in, a certified Delaunay mesh out.
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -47,10 +46,9 @@ Parameters resolved_parameters(const MeshCommandOptions& options) {
 }
 
 void check_mesh_output(const std::filesystem::path& path, const std::string& option) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".ply" && extension != ".off" && extension != ".obj" && extension != ".stl") {
-    throw InputError(option + ": a mesh file ends in .ply, .off, .obj or .stl, found '" + path.string() + "'");
+  if (!is_mesh_path(path)) {
+    throw InputError(option + ": a mesh file ends in " + std::string(kMeshExtensions) + ", found '" + path.string() +
+                     "'");
   }
   check_writable(path, option);
 }
@@ -150,7 +148,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")
       ->type_name("K")
       ->required();
-  command->add_option("-o,--output", options->output, "The mesh: .ply, .off, .obj or .stl")
+  command->add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
       ->type_name("MESH")
       ->required();
   command->add_option("--config", options->config, "Parameters in a JSON file")->type_name("FILE");

@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 2> kSeedingNames = {"components", "random
 constexpr std::array<std::string_view, 2> kBoundaryNames = {"open", "closed"};
 constexpr std::array<std::string_view, 2> kSpacingNames = {"use", "ignore"};
 constexpr std::array<std::string_view, 3> kQueueOrderNames = {"worst_first", "fifo", "largest_radius"};
+constexpr std::array<std::string_view, 3> kPoleHeightNames = {"nearer", "farther", "mean"};
 constexpr std::array<std::string_view, 2> kSolverNames = {"schwarze", "bracketed"};
 constexpr std::array<std::string_view, 2> kTraversalNames = {"kd_tree", "cell_walk"};
 
@@ -24,6 +25,7 @@ constexpr std::span<const std::string_view> names_of(Seeding) { return kSeedingN
 constexpr std::span<const std::string_view> names_of(Boundary) { return kBoundaryNames; }
 constexpr std::span<const std::string_view> names_of(SpacingUse) { return kSpacingNames; }
 constexpr std::span<const std::string_view> names_of(QueueOrder) { return kQueueOrderNames; }
+constexpr std::span<const std::string_view> names_of(PoleHeight) { return kPoleHeightNames; }
 constexpr std::span<const std::string_view> names_of(CubicSolver) { return kSolverNames; }
 constexpr std::span<const std::string_view> names_of(Traversal) { return kTraversalNames; }
 
@@ -152,6 +154,9 @@ constexpr std::array kTable = {
                                               "no refinement at or below this circumradius"),
     row<&P::stage2, &Stage2Parameters::max_distance>("stage2.max_distance", kPositive, "voxels",
                                                      "refine a triangle whose height is above this; null: no bound"),
+    row<&P::stage2, &Stage2Parameters::pole_height>("stage2.pole_height", kAny, "",
+                                                    "which of a vertex's two poles gives its pole height; nearer is "
+                                                    "the paper's, the others need repair.max_rounds = 0"),
     row<&P::queue_order>("queue_order", kAny, "", "which violation of the same kind is mended first"),
     row<&P::boundary>("boundary", kAny, "",
                       "open: the surface ends where it meets the box; closed: the volume is padded so that the "

@@ -94,6 +94,7 @@ Json program_json() {
 Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid) {
   return Json{{"path", path.string()},
               {"dims", grid.dims()},
+              {"samples", std::int64_t{grid.dims()[0]} * grid.dims()[1] * grid.dims()[2]},
               {"spacing", vector_json(grid.spacing())},
               {"origin", vector_json(grid.origin())},
               {"type", grid.type_name()},
@@ -126,7 +127,8 @@ Json quality_json(const MeshQuality& quality) {
               {"max_angle_degrees", quality.max_angle_degrees},
               {"radius_edge_max", quality.radius_edge_max},
               {"radius_edge_p99", quality.radius_edge_p99},
-              {"fraction_min_angle_below_30", quality.fraction_min_angle_below_30}};
+              {"fraction_min_angle_below_30", quality.fraction_min_angle_below_30},
+              {"min_angle_histogram", quality.min_angle_histogram}};
 }
 
 std::string verdict_name(Verdict verdict) {

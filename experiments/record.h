@@ -25,7 +25,7 @@ inline constexpr const char* kReportSchema = "deliso-report-1";
 // version, commit, compiler, flags, cpu.
 Json program_json();
 
-// path, dims, spacing, origin, type, range, sha256 (of the raw samples, little endian).
+// path, dims, samples (their number), spacing, origin, type, range, sha256 (of the raw samples, little endian).
 Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid);
 
 // [{euler_characteristic, boundary_loops, count}].
@@ -34,6 +34,7 @@ Json topology_json(const std::vector<TopologyCount>& counts);
 // verdict, manifold, oriented, mesh, isosurface, differences.
 Json certificate_json(const Certificate& certificate);
 
+// min_angle_histogram: triangles by their smallest angle, in bins of 5 degrees.
 Json quality_json(const MeshQuality& quality);
 
 // The name of a verdict in JSON.

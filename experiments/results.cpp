@@ -5,6 +5,7 @@
 #include "delaunay/base/check.h"
 #include "experiments/experiment_config.h"
 #include "experiments/files.h"
+#include "experiments/plot.h"
 #include "experiments/record_file.h"
 #include "experiments/table.h"
 
@@ -26,7 +27,8 @@ Experiment experiment_of(const std::vector<fs::path>& folders) {
 std::string write_tables(const std::vector<fs::path>& folders, const fs::path& target,
                          std::vector<std::string>& notes) {
   const Experiment experiment = experiment_of(folders);
-  const Table table = make_table(experiment, merge_records(folders, notes));
+  const std::vector<Json> records = merge_records(folders, notes);
+  const Table table = make_table(experiment, records);
   const std::string markdown = table_markdown(experiment, table);
   std::error_code error;
   fs::create_directories(target, error);
@@ -34,6 +36,7 @@ std::string write_tables(const std::vector<fs::path>& folders, const fs::path& t
   write_text(markdown, target / "table.md");
   write_text(table_csv(experiment, table), target / "table.csv");
   write_text(json_text(table_json(experiment, table)), target / "table.json");
+  for (const PlotFile& plot : draw_plots(experiment, table, records)) write_text(plot.svg, target / plot.name);
   return markdown;
 }
 

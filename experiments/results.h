@@ -13,8 +13,8 @@ namespace deliso {
 // another experiment's.
 Experiment experiment_of(const std::vector<std::filesystem::path>& folders);
 
-// Merges the records of the folders, writes table.md, table.csv and table.json into `target` and returns the Markdown.
-// What a reader should know about the merging is added to `notes`.
+// Merges the records of the folders, writes table.md, table.csv, table.json and the plots (SVG) into `target` and
+// returns the Markdown. What a reader should know about the merging is added to `notes`.
 std::string write_tables(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& target,
                          std::vector<std::string>& notes);
 

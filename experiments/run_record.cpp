@@ -1,25 +1,45 @@
 #include "experiments/run_record.h"
 
+#include <algorithm>
+
 #include "delaunay/base/stopwatch.h"
+#include "experiments/isosurface_samples.h"
 #include "experiments/program_info.h"
 #include "experiments/record.h"
 #include "surface/deliso.h"
+#include "surface/surface_distance.h"
 #include "surface/verification.h"
 #include "volume/exact_topology.h"
+#include "volume/marching_cubes.h"
 
 namespace deliso {
 namespace {
 
 constexpr const char* kRecordSchema = "deliso-record-1";
 
-Json distances_json(const Verification& check) {
+// `samples`: points of the isosurface within cells to the mesh. The verification takes grid-edge crossings, which are
+// the vertices of marching cubes.
+Json distances_json(const Verification& check, const DistanceFigure& samples) {
   return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
               {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
               {"isosurface_to_mesh_max_voxels", check.distance.isosurface_to_mesh.max_voxels},
               {"isosurface_to_mesh_mean_voxels", check.distance.isosurface_to_mesh.mean_voxels},
+              {"isosurface_samples_to_mesh_max_voxels", samples.max_voxels},
+              {"isosurface_samples_to_mesh_mean_voxels", samples.mean_voxels},
               {"vertex_residual_max_voxels", check.residual.distance.max_voxels},
               {"crossing_pairs", check.self_intersection.found.crossing_pairs},
               {"fraction_normals_against", check.normals.fraction_against}};
+}
+
+Json measured_distances(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  const Verification check = verify_mesh(mesh, grid, isovalue);
+  const std::vector<Vec3> samples = isosurface_samples(grid, check.isovalue_used);
+  DistanceFigure figure = points_to_mesh(samples, mesh, norm(grid.box().high - grid.box().low));
+  const Vec3& step = grid.spacing();
+  const double voxel = std::min({step.x, step.y, step.z});
+  figure.max_voxels /= voxel;
+  figure.mean_voxels /= voxel;
+  return distances_json(check, figure);
 }
 
 // One entry for each kind of component.
@@ -43,6 +63,40 @@ Json topology_report(const RunInput& input, double isovalue) {
               {"isosurface", topology_json(counts)},
               {"total_seconds", seconds},
               {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+// The volume whose isosurface is meshed: padded, where the surface shall close; `closed` holds it then.
+const ScalarGrid& meshed_grid(const RunInput& input, const Parameters& parameters, std::optional<ScalarGrid>& closed) {
+  if (parameters.boundary == Boundary::kOpen) return input.grid;
+  return closed.emplace(padded(input.grid, input.grid.range().first));
+}
+
+// The part of the mesher's report that marching cubes has too.
+Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
+  const Stopwatch stopwatch;
+  std::optional<ScalarGrid> closed;
+  const ScalarGrid& grid = meshed_grid(input, parameters, closed);
+  const double used = regular_isovalue(grid, isovalue);
+  MarchingCubesMesh cubes = marching_cubes(grid, used);
+  mesh = {std::move(cubes.points), std::move(cubes.triangles)};
+  Certificate certificate;
+  if (parameters.certify) certificate = certify(mesh, exact_topology(grid, used));
+  const double seconds = stopwatch.seconds();
+  const TopologySum sum = sum_of(certify(mesh, std::vector<ComponentTopology>()).mesh);
+  return Json{{"mesher", "marching_cubes"},
+              {"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", used},
+              {"vertices", mesh.points.size()},
+              {"triangles", mesh.triangles.size()},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"total_seconds", seconds},
+              {"peak_memory_bytes", peak_memory_bytes()},
+              {"certificate", certificate_json(certificate)},
+              {"quality", quality_json(measure_quality(mesh))}};
 }
 
 // The report's own schema is not the record's.
@@ -80,17 +134,27 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
     append_report(topology_report(input, isovalue), record);
     return record;
   }
-  // Mesh as `deliso mesh` does.
-  MeshingOptions options;
-  options.parameters = experiment.variants[run.variant].parameters;
-  options.seed = seed_of(experiment, run.repeat);
-  options.threads = input.threads;
-  options.stop = input.stop;
-  options.progress = input.progress;
-  const MeshingResult result = mesh_isosurface(input.grid, isovalue, options);
-  if (input.stop != nullptr && input.stop->load()) return std::nullopt;
-  append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
-  if (experiment.distances) record["distances"] = distances_json(verify_mesh(result.mesh, input.grid, isovalue));
+  const Variant& variant = experiment.variants[run.variant];
+  TriangleMesh mesh;
+  if (variant.mesher == Mesher::kMarchingCubes) {
+    append_report(marching_cubes_report(input, isovalue, variant.parameters, mesh), record);
+  } else {
+    // Mesh as `deliso mesh` does.
+    MeshingOptions options;
+    options.parameters = variant.parameters;
+    options.seed = seed_of(experiment, run.repeat);
+    options.threads = input.threads;
+    options.stop = input.stop;
+    options.progress = input.progress;
+    MeshingResult result = mesh_isosurface(input.grid, isovalue, options);
+    if (input.stop != nullptr && input.stop->load()) return std::nullopt;
+    append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
+    mesh = std::move(result.mesh);
+  }
+  if (experiment.distances) {
+    std::optional<ScalarGrid> closed;
+    record["distances"] = measured_distances(mesh, meshed_grid(input, variant.parameters, closed), isovalue);
+  }
   return record;
 }
 
@@ -104,7 +168,7 @@ Json empty_record(Task task, bool distances) {
   }
   const MeshingOptions options;
   append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
-  if (distances) record["distances"] = distances_json(Verification{});
+  if (distances) record["distances"] = distances_json(Verification{}, {});
   return record;
 }
 

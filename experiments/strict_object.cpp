@@ -61,6 +61,11 @@ bool fits(const KeyInfo& key, const Json& value) {
   return false;
 }
 
+std::string bound_text(double bound) {
+  const bool whole = bound == std::floor(bound) && std::abs(bound) <= kLargestInteger;
+  return whole ? Json(static_cast<std::int64_t>(bound)).dump() : Json(bound).dump();
+}
+
 // "an integer from 1 to 1000", "one of 'mesh', 'topology'".
 std::string expected(const KeyInfo& key) {
   if (!key.choices.empty()) {
@@ -73,8 +78,8 @@ std::string expected(const KeyInfo& key) {
   const std::string_view name = type_name(key.type);
   std::string text = (name.find_first_of("aeiou") == 0 ? "an " : "a ") + std::string(name);
   if (key.type == KeyType::kText || key.type == KeyType::kArray) text += " that is not empty";
-  if (std::isfinite(key.low)) text += " from " + Json(static_cast<std::int64_t>(key.low)).dump();
-  if (std::isfinite(key.high)) text += " to " + Json(static_cast<std::int64_t>(key.high)).dump();
+  if (std::isfinite(key.low)) text += " from " + bound_text(key.low);
+  if (std::isfinite(key.high)) text += " to " + bound_text(key.high);
   return text;
 }
 

@@ -25,10 +25,10 @@ struct KeyInfo {
   std::span<const std::string_view> choices{};  // of a text; empty: any text that is not empty
 };
 
-// An optional key whose value is one of a few texts.
-constexpr KeyInfo choice_key(std::string_view name, std::string_view effect,
-                             std::span<const std::string_view> choices) {
-  KeyInfo key{name, KeyType::kText, false, effect};
+// A key whose value is one of a few texts.
+constexpr KeyInfo choice_key(std::string_view name, std::string_view effect, std::span<const std::string_view> choices,
+                             bool required = false) {
+  KeyInfo key{name, KeyType::kText, required, effect};
   key.choices = choices;
   return key;
 }

@@ -82,7 +82,9 @@ std::string markdown_body(const Experiment& experiment, const Table& table) {
 
 // "- `kd-tree`: default with search.traversal = kd_tree"
 std::string variant_line(const Experiment& experiment, const Variant& variant) {
-  std::string text = "- " + variant.name + ": the parameters '" + experiment.base.name + "'";
+  std::string text = "- " + variant.name + ": ";
+  if (variant.mesher == Mesher::kMarchingCubes) return text + "marching cubes\n";
+  text += "the parameters '" + experiment.base.name + "'";
   std::string separator = " with ";
   const Json changes = parameter_changes(experiment.base.parameters, variant.parameters);
   for (const auto& [path, value] : changes.items()) {
@@ -127,11 +129,25 @@ Json cell_json(const Metric& metric, const TableCell& cell) {
   return json;
 }
 
+// "1.54e-3", with four significant digits but no zeros at the end.
+std::string small_text(double value) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3e", value);
+  const std::string text = buffer.data();
+  const std::size_t e = text.find('e');
+  std::string digits = text.substr(0, e);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits + "e" + std::to_string(std::stoi(text.substr(e + 1)));
+}
+
 }  // namespace
 
 std::string figure_text(double value) {
+  constexpr double kSmall = 0.01;
   std::array<char, 40> buffer{};
   const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
+  if (!whole && std::abs(value) < kSmall) return small_text(value);
   std::snprintf(buffer.data(), buffer.size(), whole ? "%.0f" : "%.4g", value);
   return buffer.data();
 }
@@ -139,6 +155,7 @@ std::string figure_text(double value) {
 std::string table_markdown(const Experiment& experiment, const Table& table) {
   std::string text = "# " + experiment.title + "\n\n";
   if (!experiment.question.empty()) text += experiment.question + "\n\n";
+  for (const std::string& note : experiment.notes) text += note + "\n\n";
   text += markdown_header(experiment) + markdown_body(experiment, table) + "\n";
   text += repeats_line(experiment) + "\n";
   if (!experiment.reference.source.empty()) text += "\nPaper: " + experiment.reference.source + "\n";
@@ -190,13 +207,9 @@ Json table_json(const Experiment& experiment, const Table& table) {
       cells.push_back(cell_json(experiment.metrics[i], row.cells[i]));
     }
   }
-  return Json{{"schema", kTableSchema},
-              {"experiment", experiment.name},
-              {"title", experiment.title},
-              {"question", experiment.question},
-              {"rows", rows},
-              {"remarks", table.remarks},
-              {"programs", table.programs}};
+  return Json{{"schema", kTableSchema},          {"experiment", experiment.name}, {"title", experiment.title},
+              {"question", experiment.question}, {"notes", experiment.notes},     {"rows", rows},
+              {"remarks", table.remarks},        {"programs", table.programs}};
 }
 
 }  // namespace deliso

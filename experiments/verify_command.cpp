@@ -112,7 +112,9 @@ void print_checks(const Json& report) {
       if (figure.is_object()) table.row({"", name + ".mean_voxels", figure_text(figure["mean_voxels"]), ""});
     }
   }
-  for (const auto& [name, figure] : report["quality"].items()) table.row({"quality", name, figure_text(figure), ""});
+  for (const auto& [name, figure] : report["quality"].items()) {
+    if (!figure.is_array()) table.row({"quality", name, figure_text(figure), ""});
+  }
   table.print(std::cout, true);
 }
 
@@ -138,7 +140,7 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
 void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyCommandOptions>();
   CLI::App* command = app.add_subcommand("verify", "Check any mesh against an isosurface");
-  command->add_option("MESH", options->mesh, "The mesh: .ply, .off, .obj or .stl")->type_name("")->required();
+  command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))->type_name("")->required();
   add_volume_options(*command, options->volume);
   command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
   command->add_option("--report", options->report, "Write every figure as JSON")->type_name("FILE");

@@ -119,6 +119,9 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
+  if (parameters.stage2.pole_height != PoleHeight::kNearer && parameters.certify && parameters.repair.max_rounds > 0) {
+    throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
+  }
   Controls controls(parameters.budget, options.stop, options.progress);
 
   // The exact topology first: it says what a regular isovalue is.
@@ -156,7 +159,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     }
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
-    std::vector<double> pole_heights = timed(result.poles, [&] { return compute_poles(*restricted); });
+    std::vector<double> pole_heights =
+        timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
     timed(result.recover,
           [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
   }
@@ -170,7 +174,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
       return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
     });
   } else {
-    const std::vector<double> heights = timed(result.poles, [&] { return compute_poles(*restricted); });
+    const std::vector<double> heights =
+        timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
     surface = timed(result.build, [&] {
       BuiltMesh built = build_triangle_mesh(*restricted);
       for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);

@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -16,14 +17,20 @@ namespace {
 
 enum class Format { kPly, kOff, kObj, kStl };
 
-Format format_of(const std::filesystem::path& path) {
+std::optional<Format> known_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".ply") return Format::kPly;
   if (extension == ".off") return Format::kOff;
   if (extension == ".obj") return Format::kObj;
   if (extension == ".stl") return Format::kStl;
-  throw InputError(path.string() + ": a mesh file needs the extension .ply, .off, .obj or .stl, found '" +
+  return std::nullopt;
+}
+
+Format format_of(const std::filesystem::path& path) {
+  const std::optional<Format> format = known_format(path);
+  if (format) return *format;
+  throw InputError(path.string() + ": a mesh file needs the extension " + std::string(kMeshExtensions) + ", found '" +
                    path.extension().string() + "'");
 }
 
@@ -65,6 +72,8 @@ std::string read_whole(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool is_mesh_path(const std::filesystem::path& path) { return known_format(path).has_value(); }
 
 void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii) {
   switch (format_of(path)) {

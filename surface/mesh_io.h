@@ -2,10 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "surface/triangle_mesh.h"
 
 namespace deliso {
+
+// The extensions of mesh files, for messages: ".ply, .off, .obj or .stl".
+inline constexpr std::string_view kMeshExtensions = ".ply, .off, .obj or .stl";
+
+// Whether write_mesh and read_mesh know the extension of a file, in small or capital letters.
+bool is_mesh_path(const std::filesystem::path& path);
 
 // Writes whole or not at all (a temporary file beside it, then a rename). Coordinates are doubles (STL: floats).
 // Throws InputError when the extension is unknown or the file cannot be written.

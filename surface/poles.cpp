@@ -9,7 +9,29 @@
 
 namespace deliso {
 
-std::vector<double> compute_poles(const SignedDelaunay& restricted) {
+namespace {
+
+// The pole height from the squared distances of the two poles; a side without a Voronoi vertex has 0. Poles farther
+// than `most` count as that far.
+double pole_height(const std::array<double, 2>& squared, double most, PoleHeight rule) {
+  const auto height = [most](double squared_height) { return std::min(most, std::sqrt(squared_height)); };
+  if (!(squared[0] > 0) && !(squared[1] > 0)) return most;
+  if (!(squared[0] > 0)) return height(squared[1]);
+  if (!(squared[1] > 0)) return height(squared[0]);
+  switch (rule) {
+    case PoleHeight::kNearer:
+      return height(std::min(squared[0], squared[1]));
+    case PoleHeight::kFarther:
+      return height(std::max(squared[0], squared[1]));
+    case PoleHeight::kMean:
+      return (height(squared[0]) + height(squared[1])) / 2;
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule) {
   const Tetrahedralization& delaunay = restricted.delaunay();
 
   // All four vertices of a tetrahedron are equally far from its Voronoi vertex; that of a ghost lies at infinity.
@@ -32,12 +54,9 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted) {
   }
 
   const double diagonal = restricted.isosurface().box().diagonal();
-  std::vector<double> heights(delaunay.vertex_count(), diagonal);
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    for (const double squared : farthest[i]) {
-      if (squared > 0) heights[i] = std::min(heights[i], std::sqrt(squared));
-    }
-  }
+  std::vector<double> heights;
+  heights.reserve(farthest.size());
+  for (const auto& squared : farthest) heights.push_back(pole_height(squared, diagonal, rule));
   return heights;
 }
 

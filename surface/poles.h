@@ -3,15 +3,16 @@
 
 #include <vector>
 
+#include "surface/parameters.h"
 #include "surface/signed_delaunay.h"
 
 namespace deliso {
 
 // The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two; on
 // each side the pole is the Voronoi vertex farthest from the vertex, and the pole height is the smaller of the two
-// distances. The signs of the tetrahedra tell the sides apart. A side on which the cell is unbounded counts as
-// infinite (but for vertices on the box, whose cells always leave it); when both are, the height is the diagonal of the
-// box.
-std::vector<double> compute_poles(const SignedDelaunay& restricted);
+// distances (or, for comparison, the larger or their mean). The signs of the tetrahedra tell the sides apart. A side on
+// which the cell is unbounded counts as infinite (but for vertices on the box, whose cells always leave it); when both
+// are, the height is the diagonal of the box.
+std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule = PoleHeight::kNearer);
 
 }  // namespace deliso
