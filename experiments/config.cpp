@@ -148,13 +148,17 @@ void set_parameter(std::string_view assignment, Parameters& parameters) {
   set_parameter(path, value, source, parameters);
 }
 
-void set_parameter(std::string_view path, const Json& value, const std::string& source, Parameters& parameters) {
-  const ParameterField* field = find_field(path);
-  if (field == nullptr && is_group(path)) {
+void check_parameter_path(std::string_view path, const std::string& source) {
+  if (find_field(path) != nullptr) return;
+  if (is_group(path)) {
     throw InputError(source + ": '" + std::string(path) + "' is a group of keys, expected one of them");
   }
-  if (field == nullptr) fail_unknown_key(path, source);
-  apply_value(*field, value, source, parameters);
+  fail_unknown_key(path, source);
+}
+
+void set_parameter(std::string_view path, const Json& value, const std::string& source, Parameters& parameters) {
+  check_parameter_path(path, source);
+  apply_value(*find_field(path), value, source, parameters);
 }
 
 }  // namespace deliso

@@ -25,6 +25,9 @@ Json value_to_json(const ParameterValue& value);
 // Every parameter, whether it has its default or not.
 Json parameters_to_json(const Parameters& parameters);
 
+// Throws InputError unless the key path names a parameter.
+void check_parameter_path(std::string_view path, const std::string& source);
+
 // One `--set key.path=value`. The value is written as in JSON; the quotes of a choice may be left out. Throws
 // InputError like apply_parameters, and when the '=' is missing.
 void set_parameter(std::string_view assignment, Parameters& parameters);

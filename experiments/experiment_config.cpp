@@ -80,6 +80,7 @@ std::vector<Variant> parse_variants(const StrictObject& experiment, const Varian
 // Every variant with every value of one more key.
 std::vector<Variant> swept(const std::vector<Variant>& variants, const std::string& path, const Json& values,
                            const std::string& place) {
+  check_parameter_path(path, place);
   if (!values.is_array() || values.empty()) {
     throw InputError(place + " must be a list of values that is not empty, found " + short_json(values));
   }

@@ -24,7 +24,7 @@ void check_file_keys(const StrictObject& object) {
   }
   const auto sha256 = object.get<std::string>("sha256", std::string(64, '0'));
   if (sha256.size() != 64 || sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    object.fail("sha256", "must be 64 lower-case hexadecimal digits, found '" + sha256 + "'");
+    object.fail("sha256", "is not 64 lower-case hexadecimal digits: '" + sha256 + "'");
   }
 }
 

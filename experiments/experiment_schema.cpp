@@ -1,4 +1,5 @@
 // The JSON schema of experiments, from the tables that the parser uses.
+#include "experiments/config.h"
 #include "experiments/experiment_config.h"
 #include "experiments/experiment_keys.h"
 #include "experiments/parameter_table.h"
@@ -12,10 +13,17 @@ Json either(const Json& a, const Json& b) { return Json{{"anyOf", Json::array({a
 
 Json text_schema() { return Json{{"type", "string"}, {"minLength", 1}}; }
 
-// An object with key paths of parameters ("stage1.epsilon") for keys and the same schema for every value.
-Json by_path(const Json& value) {
+// An object with key paths of parameters ("stage1.epsilon") for keys: a value for each, or a list of values to sweep.
+Json by_path(bool lists) {
+  const Json parameters = parameters_schema();
   Json properties = Json::object();
-  for (const ParameterField& field : parameter_table()) properties[std::string(field.path)] = value;
+  for (const ParameterField& field : parameter_table()) {
+    const std::string group(group_of(field.path));
+    const Json& owner = group.empty() ? parameters : parameters["properties"][group];
+    Json value = owner["properties"][std::string(key_of(field.path))];
+    value.erase("default");
+    properties[std::string(field.path)] = lists ? list_of(value) : value;
+  }
   return Json{{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
 }
 
@@ -31,9 +39,9 @@ void refine_key(Json& schema, const char* key, Json part) {
 Json experiment_schema() {
   Json base = keys_schema(kBaseKeys);
   refine_key(base, "parameters", either(text_schema(), Json{{"$ref", "#/$defs/parameters"}}));
-  refine_key(base, "set", by_path(Json::object()));
+  refine_key(base, "set", by_path(false));
   Json variant = keys_schema(kVariantKeys);
-  refine_key(variant, "set", by_path(Json::object()));
+  refine_key(variant, "set", by_path(false));
   const Json dataset = keys_schema(kDatasetKeys);
   Json reference = keys_schema(kReferenceKeys);
   const Json figures{{"type", "object"}, {"additionalProperties", Json{{"type", Json::array({"number", "string"})}}}};
@@ -53,7 +61,7 @@ Json experiment_schema() {
   refine_key(schema, "builtin_datasets", list_of(either(text_schema(), dataset)));
   refine_key(schema, "base", base);
   refine_key(schema, "variants", list_of(variant));
-  refine_key(schema, "sweep", by_path(Json{{"type", "array"}, {"minItems", 1}}));
+  refine_key(schema, "sweep", by_path(true));
   refine_key(schema, "metrics", list_of(keys_schema(kMetricKeys)));
   refine_key(schema, "plots", list_of(plot));
   refine_key(schema, "reference", either(text_schema(), reference));

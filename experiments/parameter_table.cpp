@@ -141,6 +141,10 @@ constexpr std::array kTable = {
                                               "no refinement for shape at or below this circumradius"),
     row<&P::stage1, &Stage1Parameters::size_bound_voxels>("stage1.size_bound_voxels", kNotNegative, "voxels",
                                                           "no insertion of any kind nearer than this to a vertex"),
+    row<&P::stage1, &Stage1Parameters::coverage>(
+        "stage1.coverage", kAny, "",
+        "also sample parts of the surface that the mesh misses; the paper does "
+        "not"),
     row<&P::stage2, &Stage2Parameters::epsilon1>("stage2.epsilon1", kPositive, "-",
                                                  "refine a triangle whose height over its circumradius is above "
                                                  "this"),

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kWantedTicks = 5;
 constexpr std::array<double, 3> kRoundDigits = {1, 2, 5};
+constexpr std::array<double, 9> kAllDigits = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
 // The round step that divides `range` into about kWantedTicks parts.
 double round_step(double range) {
@@ -35,15 +36,18 @@ std::vector<double> Axis::ticks() const {
     for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push_back(i * step);
     return ticks;
   }
-  // Powers of ten, and their double and fivefold where these are few.
-  const bool many = high / low > 1e3;
+  // Powers of ten; their double and fivefold where these are few; all their multiples where even those are.
+  constexpr std::array<std::span<const double>, 3> kDigits = {std::span(kAllDigits).first(1), kRoundDigits, kAllDigits};
   const double first = std::floor(std::log10(low));
   const double last = std::ceil(std::log10(high));
   const double stride = std::max(1.0, std::ceil((last - first) / (2 * kWantedTicks)));
-  for (double e = first; e <= last; e += stride) {
-    for (const double digit : kRoundDigits) {
-      const double value = digit * std::pow(10, e);
-      if (value >= low && value <= high && (!many || digit == 1)) ticks.push_back(value);
+  for (std::size_t level = high / low > 1e3 ? 0 : 1; level < kDigits.size() && ticks.size() < 2; ++level) {
+    ticks.clear();
+    for (double e = first; e <= last; e += stride) {
+      for (const double digit : kDigits[level]) {
+        const double value = digit * std::pow(10, e);
+        if (value >= low && value <= high) ticks.push_back(value);
+      }
     }
   }
   return ticks;

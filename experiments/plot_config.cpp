@@ -80,7 +80,7 @@ std::string file_name(const StrictObject& object) {
   const auto name = object.get<std::string>("name", "");
   const bool safe =
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
-  if (!safe) object.fail("name", "must consist of letters, digits, '-' and '_', found '" + name + "'");
+  if (!safe) object.fail("name", "becomes the name of a file: letters, digits, '-' and '_', not '" + name + "'");
   return name;
 }
 
@@ -115,7 +115,7 @@ std::vector<PlotSeries> parse_series(const StrictObject& object, PlotKind kind,
     const StrictObject item(object.at("series")[i], object.place_of("series") + "/" + std::to_string(i), kSeriesKeys);
     series.push_back({item.get<std::string>("name", ""), names_at(item, "members", "variant or data set", members)});
     if (kind == PlotKind::kHistogram && series.back().members.size() != 1) {
-      item.fail("members", "must be a single one in a histogram");
+      item.fail("members", "are several, a line of a histogram has one");
     }
   }
   return series;

@@ -148,7 +148,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   timed(result.recover, [&] {
     const RecoverOptions stage1 = stage1_options(parameters, lengths);
     recover(*restricted, stage1, controls, result.recover);
-    if (!needs_topology) return;
+    if (!needs_topology || !parameters.stage1.coverage) return;
     // Fingers of the surface that hide within a Voronoi cell.
     for (int i = 0; i < kCoverageRounds; ++i) {
       const std::int64_t inserted = insert_uncovered(*restricted, grid, topology, lengths.size_bound);

@@ -25,6 +25,7 @@ struct Stage1Parameters {
   double epsilon = 0.2;            // h / r above which a triangle is refined; > 0
   double rho = 2.0;                // r / l above which a triangle is refined; >= 1
   double r_min = 0.001;            // no geometric refinement at or below this radius, as a fraction of b; >= 0
+  bool coverage = true;            // also sample parts of the surface that the mesh misses; needs the exact topology
   double size_bound_voxels = 0.3;  // no insertion nearer than this to a vertex, in smallest spacings; >= 0
 };
 

@@ -41,8 +41,9 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 constexpr const char* kDocumentedDefaults = R"({
   "algorithm": "two_stage",
   "initial": {"random_points": 0, "seeding": "components"},
-  "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3},
-  "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null},
+  "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3, "coverage": true},
+  "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
+             "pole_height": "nearer"},
   "queue_order": "worst_first",
   "boundary": "open",
   "search": {"solver": "bracketed", "min_max_pruning": true, "leaf_cells": 1, "incremental": true,

@@ -1,59 +1,20 @@
-// The schema and the parser come from one table, but are they of one mind? A small validator of our own decides.
+// The schema of parameters and their parser come from one table, but are they of one mind? A small validator of our own
+// decides.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/rng.h"
 #include "experiments/config.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/program_runner.h"
 
 namespace deliso {
 namespace {
 
-bool has_type(const Json& value, const std::string& type) {
-  if (type == "object") return value.is_object();
-  if (type == "string") return value.is_string();
-  if (type == "boolean") return value.is_boolean();
-  if (type == "null") return value.is_null();
-  if (type == "number") return value.is_number();
-  if (type == "integer") return value.is_number() && value.get<double>() == std::floor(value.get<double>());
-  ADD_FAILURE() << "the schema uses an unknown type " << type;
-  return false;
-}
-
-bool type_fits(const Json& type, const Json& value) {
-  if (type.is_string()) return has_type(value, type.get<std::string>());
-  for (const Json& one : type) {
-    if (has_type(value, one.get<std::string>())) return true;
-  }
-  return false;
-}
-
-// JSON Schema, as far as the program's schemas use it; any other keyword is a failure.
-bool validates(const Json& schema, const Json& value) {
-  for (const auto& [keyword, argument] : schema.items()) {
-    if (keyword == "type" && !type_fits(argument, value)) return false;
-    if (keyword == "enum" && std::find(argument.begin(), argument.end(), value) == argument.end()) return false;
-    if (keyword == "minimum" && value.is_number() && value < argument) return false;
-    if (keyword == "exclusiveMinimum" && value.is_number() && value <= argument) return false;
-    if (keyword == "maximum" && value.is_number() && value > argument) return false;
-    if (keyword == "properties" && value.is_object()) {
-      for (const auto& [key, inner] : value.items()) {
-        if (argument.contains(key) && !validates(argument[key], inner)) return false;
-        if (!argument.contains(key) && schema["additionalProperties"] == false) return false;
-      }
-    }
-    const std::vector<std::string> known = {"type",    "enum",       "minimum",     "exclusiveMinimum",
-                                            "maximum", "properties", "description", "additionalProperties",
-                                            "default"};
-    EXPECT_NE(std::find(known.begin(), known.end(), keyword), known.end()) << keyword;
-  }
-  return true;
-}
+using testing::validates;
 
 bool parses(const Json& document) {
   try {

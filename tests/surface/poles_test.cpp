@@ -56,6 +56,31 @@ TEST(Poles, HeightsAreTheSmallerOfTheFarthestVoronoiVerticesOfTheTwoSides) {
   }
 }
 
+TEST(Poles, TheFartherPoleAndTheMeanOfBothTakeTheOtherSideIntoAccount) {
+  for (const auto& scene : {field_scene("torus", 16), field_scene("gyroid", 12)}) {
+    SCOPED_TRACE(scene->name);
+    const SignedDelaunay restricted(*scene->isosurface, scene->start());
+    const std::vector<double> nearer = compute_poles(restricted, PoleHeight::kNearer);
+    const std::vector<double> farther = compute_poles(restricted, PoleHeight::kFarther);
+    const std::vector<double> mean = compute_poles(restricted, PoleHeight::kMean);
+    EXPECT_EQ(nearer, compute_poles(restricted));
+    const double most = scene->isosurface->box().diagonal();
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < nearer.size(); ++i) {
+      EXPECT_LE(nearer[i], mean[i]);
+      EXPECT_LE(mean[i], farther[i]);
+      bool reliable = true;
+      const auto [below, above] = brute_poles(restricted, VertexId(i), reliable);
+      if (!reliable || !(below > 0) || !(above > 0)) continue;
+      const double expected = std::min(most, std::max(below, above));
+      EXPECT_NEAR(farther[i], expected, 1e-6 * expected) << i;
+      EXPECT_NEAR(mean[i], (nearer[i] + farther[i]) / 2, 1e-12 * most) << i;
+      ++compared;
+    }
+    EXPECT_GT(compared, 10u);
+  }
+}
+
 // The medial axis of a sphere is its center. Samples denser than voxels would see the creases of the interpolant.
 TEST(Poles, OnASphereTheHeightIsTheRadius) {
   const auto scene = field_scene("sphere", 40);
