@@ -50,6 +50,18 @@ void prune_plots(Experiment& experiment) {
   std::erase_if(experiment.plots, [](const Plot& plot) { return plot.across_datasets && plot.series.empty(); });
 }
 
+// Published figures are of other data sets than those left.
+void forget_reference(Experiment& experiment) {
+  for (const Dataset& dataset : experiment.datasets) {
+    if (experiment.reference.rows.contains(dataset.name)) return;
+  }
+  experiment.reference = {};
+  for (Metric& metric : experiment.metrics) {
+    metric.reference.clear();
+    metric.ratio = false;
+  }
+}
+
 }  // namespace
 
 Experiment builtin_form(Experiment experiment) {
@@ -60,6 +72,7 @@ Experiment builtin_form(Experiment experiment) {
   experiment.builtin_datasets.clear();
   experiment.name += "_builtin";
   prune_plots(experiment);
+  forget_reference(experiment);
   return experiment;
 }
 
@@ -76,6 +89,7 @@ Experiment smoke_form(Experiment experiment) {
   for (Plot& plot : experiment.plots) {
     if (plot.across_datasets) plot.series = {{"smoke", {tiny.name}}};
   }
+  forget_reference(experiment);
   return experiment;
 }
 

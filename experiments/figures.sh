@@ -55,15 +55,19 @@ if is_there "figure 2 (FUEL)" fuel.nrrd; then
   picture figure2 "$data/fuel.nrrd" 70.1 --marching-cubes --mesh "$out/fuel.ply" --view 60,25 --size 2000x600
 fi
 
+# The public leg bears another name.
+leg=leg.nrrd
+[[ -e $data/$leg ]] || leg=statue_leg_341x341x93_uint8.raw
+
 # Figures 6, 7 and 8: DelIso, after Recover.
 if is_there "figure 6 (ENGINE)" engine.nrrd; then
   make_mesh engine "$data/engine.nrrd" 40.1
   picture figure6 "$data/engine.nrrd" 40.1 --mesh "$out/engine.ply" --mesh "$out/engine-recover.ply" --size 2400x960
   picture figure6-cut "$data/engine.nrrd" 40.1 --surface --mesh "$out/engine.ply" --clip x=128 --size 2400x960
 fi
-if is_there "figure 7 (LEG)" leg.nrrd; then
-  make_mesh leg "$data/leg.nrrd" 22.1
-  picture figure7 "$data/leg.nrrd" 22.1 --mesh "$out/leg.ply" --mesh "$out/leg-recover.ply" --size 2000x1000
+if is_there "figure 7 (LEG)" "$leg"; then
+  make_mesh leg "$data/$leg" 22.1
+  picture figure7 "$data/$leg" 22.1 --mesh "$out/leg.ply" --mesh "$out/leg-recover.ply" --size 2000x1000
 fi
 if is_there "figure 8 (TOOTH)" tooth.nrrd; then
   make_mesh tooth "$data/tooth.nrrd" 146.9

@@ -9,6 +9,7 @@ namespace deliso {
 namespace {
 
 constexpr double kWantedTicks = 5;
+constexpr double kManyDecades = 200;  // the factor from which on powers of ten are ticks enough
 constexpr std::array<double, 3> kRoundDigits = {1, 2, 5};
 constexpr std::array<double, 9> kAllDigits = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
@@ -41,7 +42,7 @@ std::vector<double> Axis::ticks() const {
   const double first = std::floor(std::log10(low));
   const double last = std::ceil(std::log10(high));
   const double stride = std::max(1.0, std::ceil((last - first) / (2 * kWantedTicks)));
-  for (std::size_t level = high / low > 1e3 ? 0 : 1; level < kDigits.size() && ticks.size() < 2; ++level) {
+  for (std::size_t level = high / low > kManyDecades ? 0 : 1; level < kDigits.size() && ticks.size() < 2; ++level) {
     ticks.clear();
     for (double e = first; e <= last; e += stride) {
       for (const double digit : kDigits[level]) {

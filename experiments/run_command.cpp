@@ -101,13 +101,13 @@ ExitCode run_run(const RunCommandOptions& options) {
 
 void add_run_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<RunCommandOptions>();
-  CLI::App* command = app.add_subcommand("run", "Do an experiment and make its table");
+  CLI::App* command = app.add_subcommand("run", "Do an experiment and make its table and plots");
   command->add_option("EXPERIMENT", options->experiment, "The experiment: a JSON file (configs/paper/table3.json)")
       ->type_name("")
       ->required();
   command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
       ->type_name("DIR");
-  command->add_option("--out", options->out, "Folder for records and tables (default: out/NAME)")->type_name("DIR");
+  command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")->type_name("DIR");
   command->add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
       ->type_name("I/N")
       ->capture_default_str();

@@ -1,4 +1,4 @@
-// deliso table: tables from the records of an experiment.
+// deliso table: tables and plots from the records of an experiment.
 #include <iostream>
 #include <memory>
 #include <string>
@@ -28,12 +28,18 @@ ExitCode run_table(const TableCommandOptions& options) {
 
 void add_table_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<TableCommandOptions>();
-  CLI::App* command = app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) from the records of a run");
+  CLI::App* command =
+      app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) and plots (SVG) from the records of a run");
   command->add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
       ->type_name("")
       ->required();
-  command->add_option("-o,--output", options->output, "Folder for table.md, table.csv, table.json (default: the first)")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for table.md, table.csv, table.json and the plots (default: the first)")
       ->type_name("DIR");
+  command->footer(
+      "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
+      "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");
   command->callback([options, &exit_code] { exit_code = run_table(*options); });
 }
 

@@ -175,9 +175,28 @@ TEST(RunConfig, EveryExperimentOfTheProjectRunsInItsSmokeForm) {
     EXPECT_EQ(result.err, "");
     const Experiment experiment = read_experiment(file);
     for (const Metric& metric : experiment.metrics) EXPECT_MESSAGE(result.out, metric.name);
+    EXPECT_EQ(result.out.find(", paper"), std::string::npos);  // nothing was published about the tiny field
+    for (const Plot& plot : experiment.plots)
+      EXPECT_TRUE(fs::exists(folder / ("out/" + plot.name + ".svg"))) << plot.name;
     const Json table = read_json(folder / "out/table.json");
     for (const Json& row : table["rows"]) EXPECT_EQ(row["state"], "done");
   }
+}
+
+TEST(RunConfig, EveryFileOfParametersMeshesATinySphere) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_deliso({"generate", "sphere", "--size", "8", "-o", folder / "sphere.nrrd"}).exit_code, 0);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(DELISO_SOURCE_DIR) / "configs")) {
+    if (!entry.is_regular_file() || entry.path().parent_path().filename() == "reference") continue;
+    if (read_json(entry.path()).contains("metrics")) continue;
+    SCOPED_TRACE(entry.path());
+    const ProgramResult result = run_deliso({"mesh", folder / "sphere.nrrd", "--isovalue", "0.3", "--config",
+                                             entry.path().string(), "-o", folder / "sphere.ply"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    ++files;
+  }
+  EXPECT_GE(files, 3);
 }
 
 }  // namespace
