@@ -8,6 +8,7 @@
 
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
+#include "surface/coverage.h"
 #include "surface/founded_signs.h"
 #include "surface/poles.h"
 #include "surface/polygonized_components.h"
@@ -22,6 +23,8 @@ namespace {
 
 // After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
 constexpr std::int32_t kMixedPatience = 3;
+// A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
+constexpr double kMissingRadii = 0.5;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -53,6 +56,8 @@ class Repair {
   bool try_rule(SignRule rule);
   void try_rules();
   MatchedMesh assemble();
+  void find_missing_parts(MatchedMesh& mesh);
+  [[nodiscard]] std::uint32_t component_at(const Vec3& p) const;
   void keep(const MatchedMesh& mesh);
   void accept_mixed();
   SurfaceMesh assemble_kept();
@@ -70,7 +75,7 @@ class Repair {
   std::vector<Sample> samples_;
   MatchedMesh mesh_;                  // the latest
   std::vector<bool> done_;            // of each exact component: needs no more work
-  std::vector<Agreement> best_;       // of each: kNone, kMixed or kWithStrays, reached by some mesh in history_
+  std::vector<Agreement> best_;       // of each: the best, kWithStrays at most, reached by some mesh in history_
   std::vector<MatchedMesh> history_;  // meshes that brought a component further
 };
 
@@ -159,15 +164,42 @@ void Repair::try_rules() {
 MatchedMesh Repair::assemble() {
   MatchedMesh mesh{build_triangle_mesh(*restricted_), {}, {}};
   const std::vector<double> heights = compute_poles(*restricted_);
-  const Vec3& step = isosurface_.step();
   for (const VertexId v : mesh.built.vertex_of) {
     mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
-    const Vec3& p = restricted_->delaunay().point(v);
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    mesh.component.push_back(component_of(grid_, isosurface_.isovalue(), topology_, index_point).value_or(0));
+    mesh.component.push_back(component_at(restricted_->delaunay().point(v)));
   }
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
+  find_missing_parts(mesh);
   return mesh;
+}
+
+std::uint32_t Repair::component_at(const Vec3& p) const {
+  const Vec3& step = isosurface_.step();
+  const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+  return component_of(grid_, isosurface_.isovalue(), topology_, index_point).value_or(0);
+}
+
+// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
+// tell: each must have one of their triangles near.
+void Repair::find_missing_parts(MatchedMesh& mesh) {
+  ComponentMatch& match = mesh.match;
+  const auto on_main_piece = [&](std::uint32_t v) {
+    const std::uint32_t piece = match.piece_of[v];
+    return piece != kNoPiece && match.main_piece[match.pieces[piece].component] == piece;
+  };
+  std::vector<bool> used(restricted_->delaunay().vertex_count(), false);
+  for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
+    if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
+  }
+  MeshCover cover(mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
+    const Vec3& p = restricted_->delaunay().point(VertexId(i));
+    Agreement& agreement = match.agreement[component_at(p)];
+    if (agreement <= Agreement::kPartial || cover.covers(p, kMissingRadii)) continue;
+    agreement = Agreement::kPartial;
+    ++match.error;
+  }
 }
 
 // Keeps a mesh when some component agrees with it that agreed with no earlier one.
@@ -197,6 +229,7 @@ SurfaceMesh Repair::assemble_kept() {
     for (std::size_t c = 0; c < done_.size(); ++c) {
       if (taken[c] || best_[c] == Agreement::kNone || match.agreement[c] < best_[c]) continue;
       taken[c] = wanted[match.main_piece[c]] = true;
+      stats_.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
