@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "surface/raised_cells.h"
 #include "surface/sample_lattice.h"
 #include "surface/sign_rules.h"
+#include "surface/sweep_difference.h"
 #include "surface/trouble.h"
 
 namespace deliso {
@@ -25,6 +28,11 @@ namespace {
 constexpr std::int32_t kMixedPatience = 3;
 // A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
 constexpr double kMissingRadii = 0.5;
+// After so many rounds differences are also looked for where nothing else tells of them: in active cells up to
+// kSweepReach layers from what sweeps find, unless they find more than kMostPlaces.
+constexpr std::int32_t kSeenSigns = 1;
+constexpr std::int32_t kSweepReach = 4;
+constexpr std::size_t kMostPlaces = 64;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -58,6 +66,8 @@ class Repair {
   MatchedMesh assemble();
   void find_missing_parts(MatchedMesh& mesh);
   [[nodiscard]] std::uint32_t component_at(const Vec3& p) const;
+  [[nodiscard]] std::vector<CellName> cells_of_difference();
+  const PolygonizedSurface& polygonized();
   void keep(const MatchedMesh& mesh);
   void accept_mixed();
   SurfaceMesh assemble_kept();
@@ -73,10 +83,11 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::vector<Sample> samples_;
-  MatchedMesh mesh_;                  // the latest
-  std::vector<bool> done_;            // of each exact component: needs no more work
-  std::vector<Agreement> best_;       // of each: the best, kWithStrays at most, reached by some mesh in history_
-  std::vector<MatchedMesh> history_;  // meshes that brought a component further
+  MatchedMesh mesh_;             // the latest
+  std::vector<bool> done_;       // of each exact component: needs no more work
+  std::vector<Agreement> best_;  // of each: the best, kWithStrays at most, reached by some mesh in history_
+  std::optional<PolygonizedSurface> polygonized_;  // made when first needed
+  std::vector<MatchedMesh> history_;               // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -89,7 +100,12 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep(mesh_);
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
-    raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_));
+    std::vector<CellName> cells = cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_);
+    if (round > kSeenSigns) {
+      const std::vector<CellName> unseen = cells_of_difference();
+      cells.insert(cells.end(), unseen.begin(), unseen.end());
+    }
+    raised_.raise(std::move(cells));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -202,6 +218,34 @@ void Repair::find_missing_parts(MatchedMesh& mesh) {
   }
 }
 
+// Active cells near the places where sweeps along all three axes see main pieces part from their components.
+std::vector<CellName> Repair::cells_of_difference() {
+  std::vector<CellName> cells;
+  const ComponentMatch& match = mesh_.match;
+  for (std::uint32_t c = 0; c < done_.size(); ++c) {
+    const std::uint32_t main = match.main_piece[c];
+    if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
+    const auto jumps =
+        jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
+                      {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
+                      isosurface_.step(), grid_.dims());
+    if (jumps[0].size() * jumps[1].size() * jumps[2].size() > kMostPlaces) continue;
+    const auto is_near = [&](std::int32_t layer, std::size_t axis) {
+      return std::any_of(jumps[axis].begin(), jumps[axis].end(),
+                         [&](std::int32_t jump) { return std::abs(layer - jump) <= kSweepReach; });
+    };
+    topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+      if (is_near(cell[0], 0) && is_near(cell[1], 1) && is_near(cell[2], 2)) cells.push_back(raised_.name(cell));
+    });
+  }
+  return cells;
+}
+
+const PolygonizedSurface& Repair::polygonized() {
+  if (!polygonized_) polygonized_ = polygonized_surface(grid_, isosurface_, topology_);
+  return *polygonized_;
+}
+
 // Keeps a mesh when some component agrees with it that agreed with no earlier one.
 void Repair::keep(const MatchedMesh& mesh) {
   bool helps = false;
@@ -237,8 +281,8 @@ SurfaceMesh Repair::assemble_kept() {
   }
   stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
   if (stats_.components_polygonized > 0) {
-    const SurfaceMesh polygonized = polygonized_components(grid_, isosurface_, topology_, taken);
-    append_pieces(polygonized, std::vector<std::uint32_t>(polygonized.points.size(), 0), {true}, kept);
+    taken.flip();
+    append_pieces(polygonized().mesh, polygonized().component, taken, kept);
   }
   return kept;
 }

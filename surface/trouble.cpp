@@ -1,5 +1,7 @@
 #include "surface/trouble.h"
 
+#include <optional>
+
 #include "volume/critical_points.h"
 
 namespace deliso {
@@ -31,7 +33,7 @@ class TroubleFinder {
   void flag_unused_vertices();
   void flag_critical_points();
   void flag_silent_components();
-  [[nodiscard]] std::uint32_t component_in(const CellIndex& cell) const;
+  [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
   void flag(const Vec3& p, std::uint32_t component) {
@@ -84,18 +86,29 @@ void TroubleFinder::flag_unused_vertices() {
 // way.
 void TroubleFinder::flag_critical_points() {
   const double isovalue = restricted_.isosurface().isovalue();
-  std::vector<CriticalPoint> critical;
+  std::vector<CriticalPoint> saddles;
   TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+  const auto check = [&](const CellIndex& cell, const Vec3& uvw, bool above, std::uint32_t component) {
+    const Vec3 p = to_mesh_space({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z});
+    hint = restricted_.locate(p, hint);
+    if (restricted_.is_above(hint) != above) flag(p, component);
+  };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-    critical.clear();
-    append_critical_points(grid_.cell(cell[0], cell[1], cell[2]), critical);
-    if (critical.empty()) return;
-    const std::uint32_t component = component_in(cell);
-    if (done_[component]) return;
-    for (const CriticalPoint& c : critical) {
-      const Vec3 p = to_mesh_space({cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z});
-      hint = restricted_.locate(p, hint);
-      if (c.value != isovalue && restricted_.is_above(hint) != (c.value > isovalue)) flag(p, component);
+    const auto component = open_component_in(cell);
+    if (!component) return;
+    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+    saddles.clear();
+    append_critical_points(corners, saddles);
+    for (const CriticalPoint& saddle : saddles) {
+      const int side = side_of_saddle(corners, isovalue, saddle);
+      if (side != 0) check(cell, saddle.uvw, side > 0, *component);
+    }
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const CellIndex offset{static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1),
+                             static_cast<int>(corner >> 2)};
+      if (!is_critical_sample(grid_, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]})) continue;
+      const Vec3 uvw{static_cast<double>(offset[0]), static_cast<double>(offset[1]), static_cast<double>(offset[2])};
+      check(cell, uvw, corners[corner] > isovalue, *component);
     }
   });
 }
@@ -111,17 +124,19 @@ void TroubleFinder::flag_silent_components() {
   }
 }
 
-// The exact component of some crossing on the edges of an active cell.
-std::uint32_t TroubleFinder::component_in(const CellIndex& cell) const {
+// A component with a crossing on the edges of an active cell that is not done.
+std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& cell) const {
   for (std::int32_t edge = 0; edge < 12; ++edge) {
     const auto axis = static_cast<std::size_t>(edge / 4);
     CellIndex sample = cell;
     sample[(axis + 1) % 3] += edge & 1;
     sample[(axis + 2) % 3] += edge >> 1 & 1;
     const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
-    if (crossing != CrossingIndex::kNone) return topology_.crossings[crossing].component;
+    if (crossing == CrossingIndex::kNone) continue;
+    const std::uint32_t component = topology_.crossings[crossing].component;
+    if (!done_[component]) return component;
   }
-  return 0;
+  return std::nullopt;
 }
 
 }  // namespace
