@@ -28,11 +28,9 @@ namespace {
 constexpr std::int32_t kMixedPatience = 3;
 // A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
 constexpr double kMissingRadii = 0.5;
-// After so many rounds differences are also looked for where nothing else tells of them: in active cells up to
-// kSweepReach layers from what sweeps find, unless they find more than kMostPlaces.
+// After so many rounds sweeps look for the differences, and what they find counts unless it is more than kMostPlaces.
 constexpr std::int32_t kSeenSigns = 1;
-constexpr std::int32_t kSweepReach = 4;
-constexpr std::size_t kMostPlaces = 64;
+constexpr std::size_t kMostPlaces = 512;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -66,7 +64,7 @@ class Repair {
   MatchedMesh assemble();
   void find_missing_parts(MatchedMesh& mesh);
   [[nodiscard]] std::uint32_t component_at(const Vec3& p) const;
-  [[nodiscard]] std::vector<CellName> cells_of_difference();
+  std::vector<Places> places_of_difference(std::int32_t round);
   const PolygonizedSurface& polygonized();
   void keep(const MatchedMesh& mesh);
   void accept_mixed();
@@ -100,12 +98,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep(mesh_);
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
-    std::vector<CellName> cells = cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_);
-    if (round > kSeenSigns) {
-      const std::vector<CellName> unseen = cells_of_difference();
-      cells.insert(cells.end(), unseen.begin(), unseen.end());
-    }
-    raised_.raise(std::move(cells));
+    raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_, places_of_difference(round)));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -218,27 +211,21 @@ void Repair::find_missing_parts(MatchedMesh& mesh) {
   }
 }
 
-// Active cells near the places where sweeps along all three axes see main pieces part from their components.
-std::vector<CellName> Repair::cells_of_difference() {
-  std::vector<CellName> cells;
+// Where sweeps along the axes see main pieces part from their components; nothing in the first rounds, when other signs
+// tell more.
+std::vector<Places> Repair::places_of_difference(std::int32_t round) {
+  std::vector<Places> places(done_.size());
   const ComponentMatch& match = mesh_.match;
-  for (std::uint32_t c = 0; c < done_.size(); ++c) {
+  for (std::uint32_t c = 0; c < done_.size() && round > kSeenSigns; ++c) {
     const std::uint32_t main = match.main_piece[c];
     if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
-    const auto jumps =
-        jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
-                      {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
-                      isosurface_.step(), grid_.dims());
-    if (jumps[0].size() * jumps[1].size() * jumps[2].size() > kMostPlaces) continue;
-    const auto is_near = [&](std::int32_t layer, std::size_t axis) {
-      return std::any_of(jumps[axis].begin(), jumps[axis].end(),
-                         [&](std::int32_t jump) { return std::abs(layer - jump) <= kSweepReach; });
-    };
-    topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-      if (is_near(cell[0], 0) && is_near(cell[1], 1) && is_near(cell[2], 2)) cells.push_back(raised_.name(cell));
-    });
+    auto& layers = places[c].layers;
+    layers = jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
+                           {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
+                           isosurface_.step(), grid_.dims());
+    if (layers[0].size() * layers[1].size() * layers[2].size() > kMostPlaces) places[c] = {};
   }
-  return cells;
+  return places;
 }
 
 const PolygonizedSurface& Repair::polygonized() {

@@ -1,26 +1,45 @@
 #include "surface/trouble.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 #include "volume/critical_points.h"
 
 namespace deliso {
 
+bool Places::near(const CellIndex& cell, std::int32_t reach) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::none_of(layers[axis].begin(), layers[axis].end(),
+                     [&](std::int32_t layer) { return std::abs(cell[axis] - layer) <= reach; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
 namespace {
+
+// How many layers from a place trouble is looked for, and how many all active cells are taken.
+constexpr std::int32_t kNear = 6;
+constexpr std::int32_t kVeryNear = 3;
 
 class TroubleFinder {
  public:
   TroubleFinder(const ScalarGrid& grid, const IsosurfaceTopology& topology, const SignedDelaunay& restricted,
-                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done)
+                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done,
+                const std::vector<Places>& places)
       : grid_(grid),
         topology_(topology),
         restricted_(restricted),
         mesh_(mesh),
         cells_(cells),
         done_(done),
+        places_(places),
         has_sign_(done.size(), false) {}
 
   std::vector<CellName> find() {
+    flag_places();
     flag_mesh();
     flag_unused_vertices();
     flag_critical_points();
@@ -29,6 +48,7 @@ class TroubleFinder {
   }
 
  private:
+  void flag_places();
   void flag_mesh();
   void flag_unused_vertices();
   void flag_critical_points();
@@ -38,6 +58,7 @@ class TroubleFinder {
 
   void flag(const Vec3& p, std::uint32_t component) {
     if (done_[component]) return;
+    if (!places_[component].empty() && !places_[component].near(cells_.cell_of(p), kNear)) return;
     has_sign_[component] = true;
     cells_.append_cells_of(p, found_);
   }
@@ -48,9 +69,20 @@ class TroubleFinder {
   const MatchedMesh& mesh_;
   const RaisedCells& cells_;
   const std::vector<bool>& done_;
-  std::vector<bool> has_sign_;  // of each exact component
+  const std::vector<Places>& places_;  // of each exact component
+  std::vector<bool> has_sign_;         // of each exact component
   std::vector<CellName> found_;
 };
+
+void TroubleFinder::flag_places() {
+  for (std::uint32_t c = 0; c < places_.size(); ++c) {
+    if (done_[c] || places_[c].empty()) continue;
+    has_sign_[c] = true;
+    topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+      if (places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
+    });
+  }
+}
 
 // Split vertices, triangles between components, and strays.
 void TroubleFinder::flag_mesh() {
@@ -143,8 +175,9 @@ std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& c
 
 std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                                        const SignedDelaunay& restricted, const MatchedMesh& mesh,
-                                       const RaisedCells& cells, const std::vector<bool>& done) {
-  return TroubleFinder(grid, topology, restricted, mesh, cells, done).find();
+                                       const RaisedCells& cells, const std::vector<bool>& done,
+                                       const std::vector<Places>& places) {
+  return TroubleFinder(grid, topology, restricted, mesh, cells, done, places).find();
 }
 
 }  // namespace deliso
