@@ -223,7 +223,7 @@ std::vector<Places> Repair::places_of_difference(std::int32_t round) {
     layers = jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
                            {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
                            isosurface_.step(), grid_.dims());
-    if (layers[0].size() * layers[1].size() * layers[2].size() > kMostPlaces) places[c] = {};
+    if (places[c].count() > kMostPlaces) places[c] = {};
   }
   return places;
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "surface/evidence.h"
 #include "volume/critical_points.h"
 
 namespace deliso {
@@ -23,6 +24,7 @@ namespace {
 // How many layers from a place trouble is looked for, and how many all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
+constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where jumps along the axes cross by chance
 
 class TroubleFinder {
  public:
@@ -41,6 +43,7 @@ class TroubleFinder {
   std::vector<CellName> find() {
     flag_places();
     flag_mesh();
+    flag_conflicts();
     flag_unused_vertices();
     flag_critical_points();
     flag_silent_components();
@@ -50,10 +53,16 @@ class TroubleFinder {
  private:
   void flag_places();
   void flag_mesh();
+  void flag_conflicts();
   void flag_unused_vertices();
   void flag_critical_points();
   void flag_silent_components();
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
+  [[nodiscard]] std::optional<std::uint32_t> component_at(const Vec3& p) const {
+    const Vec3& step = restricted_.isosurface().step();
+    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+    return component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
+  }
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
   void flag(const Vec3& p, std::uint32_t component) {
@@ -77,9 +86,8 @@ class TroubleFinder {
 void TroubleFinder::flag_places() {
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
     if (done_[c] || places_[c].empty()) continue;
-    has_sign_[c] = true;
     topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-      if (places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
+      if (places_[c].count() <= kFewPlaces && places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
     });
   }
 }
@@ -100,17 +108,31 @@ void TroubleFinder::flag_mesh() {
   }
 }
 
+// Tetrahedra that reach from one side of the isovalue to the other.
+void TroubleFinder::flag_conflicts() {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  const std::vector<std::uint8_t> evidence = evidence_in(restricted_, grid_, cells_);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    if (evidence[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
+    const auto& v = delaunay.vertices(TetId(i));
+    for (unsigned a = 0; a < 4; ++a) {
+      for (unsigned b = 0; b <= a; ++b) {
+        if (restricted_.is_virtual(v[a]) || restricted_.is_virtual(v[b])) continue;
+        const auto component = component_at(delaunay.point(v[a]));
+        if (component) flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), *component);
+      }
+    }
+  }
+}
+
 void TroubleFinder::flag_unused_vertices() {
   const Tetrahedralization& delaunay = restricted_.delaunay();
-  const Vec3& step = restricted_.isosurface().step();
   std::vector<bool> used(delaunay.vertex_count(), false);
   for (const VertexId v : mesh_.built.vertex_of) used[v.index()] = true;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
     const Vec3& p = delaunay.point(VertexId(i));
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    const auto component = component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
-    if (component) flag(p, *component);
+    if (const auto component = component_at(p)) flag(p, *component);
   }
 }
 

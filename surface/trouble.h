@@ -25,7 +25,8 @@ struct MatchedMesh {
 struct Places {
   std::array<std::vector<std::int32_t>, 3> layers;
 
-  [[nodiscard]] bool empty() const { return layers[0].empty() || layers[1].empty() || layers[2].empty(); }
+  [[nodiscard]] std::size_t count() const { return layers[0].size() * layers[1].size() * layers[2].size(); }
+  [[nodiscard]] bool empty() const { return count() == 0; }
   [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const;
 };
 
