@@ -36,6 +36,7 @@ std::vector<std::string> names_at(const StrictObject& object, std::string_view k
 template <class List>
 std::vector<std::string> names_of(const List& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const auto& item : list) names.push_back(item.name);
   return names;
 }
@@ -77,7 +78,7 @@ void check_keys(const StrictObject& object, PlotKind kind) {
 
 // The name becomes that of a file.
 std::string file_name(const StrictObject& object) {
-  const auto name = object.get<std::string>("name", "");
+  auto name = object.get<std::string>("name", "");
   const bool safe =
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
   if (!safe) object.fail("name", "becomes the name of a file: letters, digits, '-' and '_', not '" + name + "'");
@@ -85,7 +86,7 @@ std::string file_name(const StrictObject& object) {
 }
 
 std::string metric_name(const StrictObject& object, std::string_view key, const std::vector<std::string>& known) {
-  const auto name = object.get<std::string>(key, "");
+  auto name = object.get<std::string>(key, "");
   if (std::find(known.begin(), known.end(), name) != known.end()) return name;
   object.fail(key, "names no metric: '" + name + "'" + nearest_name_hint(name, known));
 }

@@ -49,8 +49,8 @@ void draw_legend(std::span<const LegendEntry> entries, SvgPoint corner, double w
 }
 
 std::string_view legend_color(std::size_t entry) {
-  constexpr std::array<std::string_view, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                       "#e69f00", "#56b4e9", "#555555"};
+  constexpr std::array<std::string_view, 9> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                                       "#56b4e9", "#555555", "#f0e442", "#882255"};
   return kColors[entry % kColors.size()];
 }
 

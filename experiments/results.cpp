@@ -29,7 +29,7 @@ std::string write_tables(const std::vector<fs::path>& folders, const fs::path& t
   const Experiment experiment = experiment_of(folders);
   const std::vector<Json> records = merge_records(folders, notes);
   const Table table = make_table(experiment, records);
-  const std::string markdown = table_markdown(experiment, table);
+  std::string markdown = table_markdown(experiment, table);
   std::error_code error;
   fs::create_directories(target, error);
   if (error) throw InputError("cannot make the folder " + target.string() + ": " + error.message());

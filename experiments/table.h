@@ -58,7 +58,7 @@ Json table_json(const Experiment& experiment, const Table& table);
 // "done", "failed", "absent", "not run".
 std::string state_name(RowState state);
 
-// Integers in full, other numbers with four significant digits, small ones as "1.54e-3".
+// Integers and numbers from 1000 on without a fraction, others with four significant digits, small ones as "1.54e-3".
 std::string figure_text(double value);
 
 }  // namespace deliso

@@ -145,10 +145,11 @@ std::string small_text(double value) {
 
 std::string figure_text(double value) {
   constexpr double kSmall = 0.01;
+  constexpr double kLarge = 1000;
   std::array<char, 40> buffer{};
   const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
   if (!whole && std::abs(value) < kSmall) return small_text(value);
-  std::snprintf(buffer.data(), buffer.size(), whole ? "%.0f" : "%.4g", value);
+  std::snprintf(buffer.data(), buffer.size(), whole || std::abs(value) >= kLarge ? "%.0f" : "%.4g", value);
   return buffer.data();
 }
 

@@ -146,6 +146,18 @@ TEST(TableCommand, ACutLastLineIsLeftOutAndABrokenOneNamed) {
   }
 }
 
+TEST(TableCommand, FiguresAreShortAndNeverLikeCode) {
+  EXPECT_EQ(figure_text(0), "0");
+  EXPECT_EQ(figure_text(-7), "-7");
+  EXPECT_EQ(figure_text(184228), "184228");
+  EXPECT_EQ(figure_text(181072.5), "181072");
+  EXPECT_EQ(figure_text(999.96), "1000");
+  EXPECT_EQ(figure_text(0.123456), "0.1235");
+  EXPECT_EQ(figure_text(0.00154), "1.54e-3");
+  EXPECT_EQ(figure_text(-1.36e-5), "-1.36e-5");
+  EXPECT_EQ(figure_text(2e-10), "2e-10");
+}
+
 TEST(TableCommand, EveryPathOfARecordLeadsToAFigure) {
   for (const Task task : {Task::kMesh, Task::kTopology}) {
     const Json empty = empty_record(task, task == Task::kMesh);
