@@ -24,9 +24,27 @@ Experiment experiment_of(const std::vector<fs::path>& folders) {
   return parse_experiment(document, first);
 }
 
-std::string write_tables(const std::vector<fs::path>& folders, const fs::path& target,
+Experiment experiment_for_records(const fs::path& file, const Experiment& recorded) {
+  Experiment experiment = read_experiment(file);
+  if (recorded.name == experiment.name + "_builtin") experiment = builtin_form(std::move(experiment));
+  // What shows and what is only shown may differ, what was run may not.
+  Json now = experiment_to_json(experiment);
+  Json then = experiment_to_json(recorded);
+  for (const char* key : {"title", "question", "notes", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {
+    now.erase(key);
+    then.erase(key);
+  }
+  for (const auto& [key, value] : then.items()) {
+    if (now[key] != value) {
+      throw InputError("--experiment: " + file.string() + " is not the experiment of these records: its key '" + key +
+                       "' differs");
+    }
+  }
+  return experiment;
+}
+
+std::string write_tables(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
                          std::vector<std::string>& notes) {
-  const Experiment experiment = experiment_of(folders);
   const std::vector<Json> records = merge_records(folders, notes);
   const Table table = make_table(experiment, records);
   std::string markdown = table_markdown(experiment, table);

@@ -91,7 +91,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   // Of a shard there is no whole table yet.
   if (runner.shard.count == 1 && !summary.stopped) {
     std::vector<std::string> notes;
-    std::cout << write_tables({runner.out_folder}, runner.out_folder, notes);
+    std::cout << write_tables(experiment, {runner.out_folder}, runner.out_folder, notes);
     for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
   }
   return exit_code;
@@ -107,7 +107,8 @@ void add_run_command(CLI::App& app, ExitCode& exit_code) {
       ->required();
   command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
       ->type_name("DIR");
-  command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")->type_name("DIR");
+  command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")
+      ->type_name("DIR");
   command->add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
       ->type_name("I/N")
       ->capture_default_str();

@@ -169,6 +169,32 @@ TEST(TableCommand, EveryPathOfARecordLeadsToAFigure) {
   EXPECT_EQ(value_at(Json{{"a", {{"b", 3}}}}, "a.b"), 3);
 }
 
+TEST(TableCommand, AnotherTableOfTheSameRunsNeedsNoNewRuns) {
+  const TemporaryFolder folder;
+  write_file(folder / "small.json", kSmallExperiment);
+  ASSERT_EQ(run_deliso({"run", folder / "small.json", "--out", folder / "out"}).exit_code, 0);
+  Json document = small_document();
+  document["title"] = "Another table";
+  document["metrics"] = parse_json(R"([{"name": "corners", "value": "triangles"}])", "metrics");
+  document["plots"] = parse_json(R"([{"name": "bars", "title": "Bars", "kind": "bars", "y": ["corners"]}])", "plots");
+  std::filesystem::create_directory(folder / "new");
+  write_file(folder / "new/small.json", json_text(document));
+  const std::vector<std::string> command = {"table",         folder / "out", "-o",
+                                            folder / "more", "--experiment", folder / "new/small.json"};
+  const ProgramResult result = run_deliso(command);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_MESSAGE(result.out, "# Another table\n");
+  EXPECT_MESSAGE(result.out, "| data set | variant | corners |\n");
+  EXPECT_EQ(read_file(folder / "more/table.md"), result.out);
+  EXPECT_MESSAGE(read_file(folder / "more/bars.svg"), "ball, fine");
+  // Other runs are refused, with what differs.
+  document["variants"][1]["set"]["stage2.epsilon1"] = 0.4;
+  write_file(folder / "new/small.json", json_text(document));
+  const ProgramResult other = run_deliso(command);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_MESSAGE(other.err, "is not the experiment of these records: its key 'variants' differs");
+}
+
 TEST(TableCommand, FoldersOfDifferentExperimentsAreRefused) {
   const TemporaryFolder folder;
   write_file(folder / "small.json", kSmallExperiment);
