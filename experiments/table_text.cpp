@@ -11,6 +11,7 @@ namespace deliso {
 namespace {
 
 constexpr const char* kTableSchema = "deliso-table-1";
+constexpr double kSmall = 0.01;  // numbers below are written with an exponent
 constexpr const char* kNothing = "–";
 
 // "median (smallest–largest)", or the median alone where all agree.
@@ -22,9 +23,16 @@ std::string spread_text(const Figure& figure) {
   return low == high ? median : median + " (" + low + kNothing + high + ")";
 }
 
+// All digits: the number reads back as it was.
+std::string exact_text(double value) { return Json(value).dump(); }
+
 std::string reference_text(const Json& value) {
   if (value.is_null()) return kNothing;
-  return value.is_string() ? value.get<std::string>() : figure_text(value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  const auto number = value.get<double>();
+  // As it was published: all its digits.
+  const bool in_full = number == std::floor(number) || std::abs(number) < kSmall;
+  return in_full ? figure_text(number) : exact_text(number);
 }
 
 // A cell of Markdown: a bar would end it, a line break the row.
@@ -113,9 +121,6 @@ std::string csv_cell(const std::string& text) {
   return quoted + "\"";
 }
 
-// All digits: the number reads back as it was.
-std::string exact_text(double value) { return Json(value).dump(); }
-
 Json cell_json(const Metric& metric, const TableCell& cell) {
   Json json{{"metric", metric.name}, {"runs", cell.ours.numbers.size()}};
   if (!cell.ours.numbers.empty()) {
@@ -144,7 +149,6 @@ std::string small_text(double value) {
 }  // namespace
 
 std::string figure_text(double value) {
-  constexpr double kSmall = 0.01;
   constexpr double kLarge = 1000;
   std::array<char, 40> buffer{};
   const bool whole = value == std::floor(value) && std::abs(value) < 1e15;

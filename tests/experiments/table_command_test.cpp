@@ -78,6 +78,21 @@ TEST(TableCommand, MarkdownShowsPaperOursAndRatio) {
   EXPECT_MESSAGE(text, "Paper: a paper");
 }
 
+TEST(TableCommand, PublishedFiguresKeepAllTheirDigits) {
+  Experiment experiment = example("datasets");
+  const auto paper = [&experiment](const Json& value) {
+    experiment.reference.rows["ball"]["n_paper"] = value;
+    const std::string text = table_markdown(experiment, make_table(experiment, example_records()));
+    const std::size_t begin = text.find("| ball | ") + 9;
+    return text.substr(begin, text.find(" |", begin) - begin);
+  };
+  EXPECT_EQ(paper(1033.56), "1033.56");
+  EXPECT_EQ(paper(2.8), "2.8");
+  EXPECT_EQ(paper(1.54e-3), "1.54e-3");
+  EXPECT_EQ(paper(280953), "280953");
+  EXPECT_EQ(paper("64 64 64"), "64 64 64");
+}
+
 TEST(TableCommand, RunsWithoutRecordsAreNotRun) {
   const Table table = make_table(example("runs"), {});
   ASSERT_EQ(table.rows.size(), 2u);
