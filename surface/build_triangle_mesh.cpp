@@ -6,15 +6,11 @@
 #include <tuple>
 
 #include "delaunay/base/check.h"
+#include "surface/separate_copies.h"
 
 namespace deliso {
 
 namespace {
-
-// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their
-// neighbours.
-constexpr double kApart = 2e-4;
-constexpr double kApartFraction = 0.01;
 
 // Disjoint sets with path halving; the smallest member represents its set.
 class DisjointSets {
@@ -56,7 +52,7 @@ class MeshBuilder {
   [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
   [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
-  void subdivide(TriangleSide side);
+  std::uint32_t subdivide(TriangleSide side);
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
@@ -69,6 +65,7 @@ class MeshBuilder {
   std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
   std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
   std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
+  std::vector<CopyGroup> groups_;                               // of vertices that share or nearly share their place
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
@@ -190,12 +187,17 @@ void MeshBuilder::subdivide_shared_edges() {
     uses.emplace_back(std::min(from, to), std::max(from, to), t);
   }
   std::sort(uses.begin(), uses.end());
-  for (std::size_t i = 1; i < uses.size(); ++i) {
-    const auto& [from, to, triangle] = uses[i];
-    if (std::get<0>(uses[i - 1]) != from || std::get<1>(uses[i - 1]) != to) continue;
-    const TriangleSide side = find_side(triangle, from, to);
-    DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
-    subdivide(side);
+  for (std::size_t first = 0; first < uses.size();) {
+    const auto [from, to, ignored] = uses[first];
+    std::size_t last = first;
+    while (last < uses.size() && std::get<0>(uses[last]) == from && std::get<1>(uses[last]) == to) ++last;
+    if (last - first > 1) groups_.emplace_back();
+    for (std::size_t i = first; last - first > 1 && i < last; ++i) {
+      const TriangleSide side = find_side(std::get<2>(uses[i]), from, to);
+      DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
+      groups_.back().push_back(subdivide(side));
+    }
+    first = last;
   }
 }
 
@@ -214,7 +216,7 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
 }
 
 // Puts a vertex on an edge, as near to the isosurface as a hit along the triangles' common normal allows.
-void MeshBuilder::subdivide(TriangleSide side) {
+std::uint32_t MeshBuilder::subdivide(TriangleSide side) {
   const std::uint32_t t = side >> 2;
   const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
   const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
@@ -239,6 +241,7 @@ void MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
+  return m;
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
@@ -278,29 +281,16 @@ Vec3 MeshBuilder::normal_of(std::uint32_t triangle) const {
   return norm(n) > 0 ? n / norm(n) : Vec3{};
 }
 
-// Copies of a vertex would touch: each moves a little into its own fan, on the box within its face.
+// Copies of a vertex would touch, and so might vertices on a subdivided edge.
 void MeshBuilder::move_copies_apart() {
-  std::vector<Vec3> link_sum(built_.copies.size());
-  std::vector<double> link_size(built_.copies.size(), 0);
-  std::vector<std::uint32_t> place(mesh_.points.size(), kNoSide);
-  for (std::uint32_t i = 0; i < built_.copies.size(); ++i) place[built_.copies[i]] = i;
-  for (const auto& triangle : mesh_.triangles) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const std::uint32_t at = place[triangle[i]];
-      if (at == kNoSide) continue;
-      link_sum[at] += mesh_.points[triangle[(i + 1) % 3]] + mesh_.points[triangle[(i + 2) % 3]];
-      link_size[at] += 2;
-    }
+  const std::size_t subdivided = groups_.size();
+  for (const std::uint32_t copy : built_.copies) {
+    const bool continues =
+        groups_.size() > subdivided && built_.vertex_of[groups_.back().back()] == built_.vertex_of[copy];
+    if (!continues) groups_.emplace_back();
+    groups_.back().push_back(copy);
   }
-  const Box3& box = restricted_.isosurface().box();
-  for (std::size_t i = 0; i < built_.copies.size(); ++i) {
-    Vec3& p = mesh_.points[built_.copies[i]];
-    Vec3 inwards = link_sum[i] / link_size[i] - p;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (p[axis] == box.low[axis] || p[axis] == box.high[axis]) inwards[axis] = 0;
-    }
-    if (norm(inwards) > 0) p += std::min(kApart / norm(inwards), kApartFraction) * inwards;
-  }
+  separate_copies(mesh_, groups_, restricted_.isosurface().box());
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct BuiltMesh {
 // more than two the surface touches itself; the facets are then paired by side: around the sectors whose sign is not
 // that of the field at the edge's midpoint, so that the side which holds the midpoint stays connected. A vertex is
 // given once for each fan of paired triangles, its copies a hair apart. An edge that two pairs still share afterwards
-// is subdivided in all but one of them. The result is a manifold with boundary, oriented, by construction. Vertices
+// is subdivided in each of them. The result is a manifold with boundary, oriented, by construction. Vertices
 // without triangles are left out.
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted);
 

@@ -25,7 +25,7 @@ namespace deliso {
 namespace {
 
 // After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
-constexpr std::int32_t kMixedPatience = 3;
+constexpr std::int32_t kMixedPatience = 8;
 // A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
 constexpr double kMissingRadii = 0.5;
 // After so many rounds sweeps look for the differences, and what they find counts unless it is more than kMostPlaces.

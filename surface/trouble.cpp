@@ -65,8 +65,13 @@ class TroubleFinder {
   }
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
-  void flag(const Vec3& p, std::uint32_t component) {
+  // What a sign of trouble tells of: of a component whose piece has the right topology only some signs matter.
+  enum class Tells { kTopology, kMissingPart, kMixing };
+  void flag(const Vec3& p, std::uint32_t component, Tells tells) {
     if (done_[component]) return;
+    const Agreement agreement = mesh_.match.agreement[component];
+    if (agreement == Agreement::kMixed && tells != Tells::kMixing) return;
+    if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return;
     if (!places_[component].empty() && !places_[component].near(cells_.cell_of(p), kNear)) return;
     has_sign_[component] = true;
     cells_.append_cells_of(p, found_);
@@ -96,15 +101,17 @@ void TroubleFinder::flag_places() {
 void TroubleFinder::flag_mesh() {
   const SurfaceMesh& surface = mesh_.built.mesh;
   const ComponentMatch& match = mesh_.match;
-  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v]);
+  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v], Tells::kTopology);
   for (const auto& v : surface.triangles) {
     const std::uint32_t piece = match.piece_of[v[0]];
     const bool is_stray = match.main_piece[match.pieces[piece].component] != piece;
     const bool is_between =
         mesh_.component[v[0]] != mesh_.component[v[1]] || mesh_.component[v[0]] != mesh_.component[v[2]];
     if (!is_stray && !is_between) continue;
-    flag((surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3, mesh_.component[v[0]]);
-    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q]);
+    const Tells tells = is_between ? Tells::kMixing : Tells::kMissingPart;
+    const Vec3 centroid = (surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3;
+    flag(centroid, mesh_.component[v[0]], tells);
+    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q], tells);
   }
 }
 
@@ -119,7 +126,7 @@ void TroubleFinder::flag_conflicts() {
       for (unsigned b = 0; b <= a; ++b) {
         if (restricted_.is_virtual(v[a]) || restricted_.is_virtual(v[b])) continue;
         const auto component = component_at(delaunay.point(v[a]));
-        if (component) flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), *component);
+        if (component) flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), *component, Tells::kTopology);
       }
     }
   }
@@ -132,7 +139,7 @@ void TroubleFinder::flag_unused_vertices() {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
     const Vec3& p = delaunay.point(VertexId(i));
-    if (const auto component = component_at(p)) flag(p, *component);
+    if (const auto component = component_at(p)) flag(p, *component, Tells::kMissingPart);
   }
 }
 
@@ -145,7 +152,7 @@ void TroubleFinder::flag_critical_points() {
   const auto check = [&](const CellIndex& cell, const Vec3& uvw, bool above, std::uint32_t component) {
     const Vec3 p = to_mesh_space({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z});
     hint = restricted_.locate(p, hint);
-    if (restricted_.is_above(hint) != above) flag(p, component);
+    if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
   };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
     const auto component = open_component_in(cell);
@@ -170,11 +177,12 @@ void TroubleFinder::flag_critical_points() {
 void TroubleFinder::flag_silent_components() {
   const std::vector<bool> had_sign = has_sign_;
   for (const SurfaceSaddle& saddle : topology_.saddles) {
-    if (!had_sign[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component);
+    if (!had_sign[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component, Tells::kTopology);
   }
   const std::vector<bool> had_saddle = has_sign_;
   for (const EdgeCrossing& crossing : topology_.crossings) {
-    if (!had_saddle[crossing.component]) flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component);
+    if (!had_saddle[crossing.component])
+      flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component, Tells::kTopology);
   }
 }
 
