@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "delaunay/base/check.h"
-#include "surface/separate_copies.h"
 
 namespace deliso {
 
@@ -39,7 +38,7 @@ class MeshBuilder {
     pair_sides();
     name_vertices();
     subdivide_shared_edges();
-    move_copies_apart();
+    group_copies();
     return std::move(built_);
   }
 
@@ -52,11 +51,11 @@ class MeshBuilder {
   [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
   [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
-  std::uint32_t subdivide(TriangleSide side);
+  Copy subdivide(TriangleSide side);
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
-  void move_copies_apart();
+  void group_copies();
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
@@ -65,7 +64,6 @@ class MeshBuilder {
   std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
   std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
   std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
-  std::vector<CopyGroup> groups_;                               // of vertices that share or nearly share their place
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
@@ -191,11 +189,11 @@ void MeshBuilder::subdivide_shared_edges() {
     const auto [from, to, ignored] = uses[first];
     std::size_t last = first;
     while (last < uses.size() && std::get<0>(uses[last]) == from && std::get<1>(uses[last]) == to) ++last;
-    if (last - first > 1) groups_.emplace_back();
+    if (last - first > 1) built_.groups.emplace_back();
     for (std::size_t i = first; last - first > 1 && i < last; ++i) {
       const TriangleSide side = find_side(std::get<2>(uses[i]), from, to);
       DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
-      groups_.back().push_back(subdivide(side));
+      built_.groups.back().push_back(subdivide(side));
     }
     first = last;
   }
@@ -216,13 +214,14 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
 }
 
 // Puts a vertex on an edge, as near to the isosurface as a hit along the triangles' common normal allows.
-std::uint32_t MeshBuilder::subdivide(TriangleSide side) {
+Copy MeshBuilder::subdivide(TriangleSide side) {
   const std::uint32_t t = side >> 2;
   const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
   const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
   const TriangleSide across = mesh_.neighbours[t][side & 3u];
   const Vec3 normal = normal_of(t) + (across == kNoSide ? Vec3{} : normal_of(across >> 2));
-  Vec3 middle = 0.5 * (mesh_.points[a] + mesh_.points[b]);
+  const Vec3 halfway = 0.5 * (mesh_.points[a] + mesh_.points[b]);
+  Vec3 middle = halfway;
   if (norm(normal) > 0) {
     const Line line{middle, normal / norm(normal)};
     SearchCounters ignored;
@@ -241,7 +240,7 @@ std::uint32_t MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
-  return m;
+  return {m, halfway};
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
@@ -281,16 +280,14 @@ Vec3 MeshBuilder::normal_of(std::uint32_t triangle) const {
   return norm(n) > 0 ? n / norm(n) : Vec3{};
 }
 
-// Copies of a vertex would touch, and so might vertices on a subdivided edge.
-void MeshBuilder::move_copies_apart() {
-  const std::size_t subdivided = groups_.size();
+void MeshBuilder::group_copies() {
+  const std::size_t subdivided = built_.groups.size();
   for (const std::uint32_t copy : built_.copies) {
-    const bool continues =
-        groups_.size() > subdivided && built_.vertex_of[groups_.back().back()] == built_.vertex_of[copy];
-    if (!continues) groups_.emplace_back();
-    groups_.back().push_back(copy);
+    const bool continues = built_.groups.size() > subdivided &&
+                           built_.vertex_of[built_.groups.back().back().vertex] == built_.vertex_of[copy];
+    if (!continues) built_.groups.emplace_back();
+    built_.groups.back().push_back({copy, mesh_.points[copy]});
   }
-  separate_copies(mesh_, groups_, restricted_.isosurface().box());
 }
 
 }  // namespace

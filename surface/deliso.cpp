@@ -179,6 +179,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
         timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
     surface = timed(result.build, [&] {
       BuiltMesh built = build_triangle_mesh(*restricted);
+      separate_copies(built.mesh, built.groups, built.vertex_of, isosurface->box());
       for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
       return std::move(built.mesh);
     });

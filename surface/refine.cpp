@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
+#include "surface/crossing_guard.h"
 #include "surface/triangle_queue.h"
 
 namespace deliso {
@@ -21,7 +23,7 @@ constexpr double kNearestEnd = 0.2;
 class Refinement {
  public:
   Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order) {}
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order), guard_(mesh) {}
 
   void run(Controls& controls);
 
@@ -55,6 +57,8 @@ class Refinement {
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
+  bool retry_crossed();
+  void requeue(std::uint32_t triangle);
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
@@ -68,6 +72,7 @@ class Refinement {
   const RefineOptions& options_;
   RefineStats& stats_;
   TriangleQueue queue_;
+  CrossingGuard guard_;
 
   std::vector<std::uint32_t> generation_;     // of each triangle: grows when its slot is taken anew
   std::vector<bool> refused_;                 // of each triangle: waits for a change around it
@@ -79,15 +84,19 @@ class Refinement {
   std::vector<std::uint32_t> disk_;  // E
   std::vector<RimEdge> rim_;         // boundary of E, in order after order_rim
   std::vector<RimEdge> ordered_;
-  std::vector<NewTriangle> star_;  // D, one for each rim edge
+  std::vector<CrossingGuard::Edge> rim_edges_;
+  std::vector<NewTriangle> star_;       // D, one for each rim edge
+  std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   double star_pole_height_ = 0;
+  std::int64_t insertions_at_retry_ = 0;
 };
 
 void Refinement::run(Controls& controls) {
   queue_everything();
   while (!controls.must_stop("refine", mesh_.points.size(), queue_.size())) {
     const auto entry = queue_.pop();
-    if (!entry) break;
+    if (!entry && !retry_crossed()) break;
+    if (!entry) continue;
     if (generation_[entry->triangle] != entry->generation || refused_[entry->triangle]) continue;
     if (treat(entry->triangle)) wake_neighbours();
   }
@@ -132,6 +141,7 @@ bool Refinement::treat(std::uint32_t triangle) {
   if (refusal) {
     ++stats_.refused[static_cast<std::size_t>(*refusal)];
     refused_[triangle] = true;
+    if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
   ++stats_.insertions;
@@ -268,6 +278,9 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
     }
     if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
   }
+  rim_edges_.clear();
+  for (const RimEdge& edge : rim_) rim_edges_.push_back({edge.from, edge.to});
+  if (guard_.crosses(p, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
   auto corners = static_cast<double>(rim_.size());
   if (candidate.split != kNoSide) {
     pole_sum += mesh_.pole_heights[rim_.back().to];
@@ -318,8 +331,10 @@ double Refinement::badness_of(std::uint32_t triangle, double& radius) const {
 void Refinement::replace_disk(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const auto p = static_cast<std::uint32_t>(mesh_.points.size());
+  for (const std::uint32_t t : disk_) guard_.forget(t);
   mesh_.points.push_back(candidate.point);
   mesh_.pole_heights.push_back(star_pole_height_);
+  guard_.add_vertex();
   while (disk_.size() < rim_.size()) {
     disk_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
     mesh_.triangles.emplace_back();
@@ -340,6 +355,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
                            first ? kNoSide : 4 * disk_[(i + count - 1) % count] + 1};
     if (edge.outer != kNoSide) mesh_.neighbours[edge.outer >> 2][edge.outer & 3u] = 4 * t;
     mesh_.balls[t] = star_[i].ball;
+    guard_.learn(t);
     ++generation_[t];
     refused_[t] = false;
     if (star_[i].badness > 1 && star_[i].radius > options_.r_min) {
@@ -348,15 +364,30 @@ void Refinement::replace_disk(const Candidate& candidate) {
   }
 }
 
+// The sheet in the way may be finer now. True when a triangle was queued again.
+bool Refinement::retry_crossed() {
+  if (stats_.insertions == insertions_at_retry_) return false;
+  insertions_at_retry_ = stats_.insertions;
+  bool any = false;
+  for (const std::uint32_t t : std::exchange(crossed_, {})) {
+    if (!refused_[t]) continue;
+    any = true;
+    requeue(t);
+  }
+  return any;
+}
+
+void Refinement::requeue(std::uint32_t triangle) {
+  refused_[triangle] = false;
+  double radius = 0;
+  const double bad = badness_of(triangle, radius);
+  queue_.push({triangle, generation_[triangle]}, bad, radius);
+}
+
 // Triangles around the new star that were refused before get another chance.
 void Refinement::wake_neighbours() {
   for (const RimEdge& edge : rim_) {
-    if (edge.outer == kNoSide || !refused_[edge.outer >> 2]) continue;
-    const std::uint32_t t = edge.outer >> 2;
-    refused_[t] = false;
-    double radius = 0;
-    const double bad = badness_of(t, radius);
-    queue_.push({t, generation_[t]}, bad, radius);
+    if (edge.outer != kNoSide && refused_[edge.outer >> 2]) requeue(edge.outer >> 2);
   }
 }
 

@@ -264,6 +264,8 @@ SurfaceMesh Repair::assemble_kept() {
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
+    separate_copies(mesh->built.mesh, mesh->built.groups, mesh->built.vertex_of, isosurface_.box());
     append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
   stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
