@@ -2,7 +2,8 @@
 //
 // A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E;
 // it is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no triangle
-// turned against the gradient, no triangle that crosses another), so the mesh stays homeomorphic to what stage 1 gave, whatever the data.
+// turned against the gradient, no triangle that crosses another), so the mesh stays homeomorphic to what stage 1 gave,
+// whatever the data.
 #pragma once
 
 #include <array>
@@ -26,9 +27,18 @@ struct RefineOptions {
 };
 
 // Why an insertion was refused.
-enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kFlippedTriangle, kTooClose, kCrossingTriangle, kCount };
+enum class Refusal {
+  kNoHit,
+  kNotADisk,
+  kRepeatedVertex,
+  kFlippedTriangle,
+  kTooClose,
+  kTooFar,
+  kCrossingTriangle,
+  kCount
+};
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::kCount)> kRefusalNames = {
-    "no_hit", "not_a_disk", "repeated_vertex", "flipped_triangle", "too_close", "crossing_triangle"};
+    "no_hit", "not_a_disk", "repeated_vertex", "flipped_triangle", "too_close", "too_far", "crossing_triangle"};
 
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;
