@@ -22,8 +22,9 @@ class CrossingGuard {
  public:
   using Edge = std::array<std::uint32_t, 2>;
 
-  // Keeps a reference to the mesh and a few bytes for each of its triangles and vertices.
-  explicit CrossingGuard(SurfaceMesh& mesh);
+  // Keeps a reference to the mesh and a few bytes for each of its triangles and vertices. Near `suspects` no clearance
+  // is trusted.
+  CrossingGuard(SurfaceMesh& mesh, std::span<const Vec3> suspects);
 
   // Whether the triangles (p, from, to) for the edges of a rim meet each other or tight triangles of the mesh beyond
   // what they share; triangles t with disk[t] == attempt are about to go and do not count. `moved`: how far the mesh

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
+#include "surface/self_intersection.h"
 #include "surface/triangle_queue.h"
 
 namespace deliso {
@@ -19,13 +21,22 @@ namespace {
 constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
+// Starts again at most this often, with at most so many new suspects of a kind.
+constexpr std::int64_t kMostRestarts = 3;
+constexpr std::size_t kMostSuspects = 1000;
 // A boundary edge is split only this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
 
 class Refinement {
  public:
-  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order), guard_(mesh) {}
+  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
+             std::span<const Vec3> suspects, RefineStats& stats)
+      : mesh_(mesh),
+        isosurface_(isosurface),
+        options_(options),
+        stats_(stats),
+        queue_(options.order),
+        guard_(mesh, suspects) {}
 
   void run(Controls& controls);
 
@@ -411,7 +422,27 @@ void Refinement::wake_neighbours() {
 
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats) {
-  Refinement(mesh, isosurface, options, stats).run(controls);
+  if (!options.restart_at_crossings) {
+    Refinement(mesh, isosurface, options, {}, stats).run(controls);
+    return;
+  }
+  const SurfaceMesh start = mesh;
+  const RefineStats before = stats;
+  std::vector<Vec3> suspects;
+  for (std::int64_t restarts = 0;; ++restarts) {
+    const SearchCounters searches = stats.search;
+    stats = before;
+    stats.search = searches;
+    stats.restarts = restarts;
+    Refinement(mesh, isosurface, options, suspects, stats).run(controls);
+    if (restarts == kMostRestarts || controls.stopped()) return;
+    const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects);
+    if (found.crossing.empty() && found.touching.empty()) return;
+    for (const auto* pairs : {&found.crossing, &found.touching}) {
+      for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+    }
+    mesh = start;
+  }
 }
 
 }  // namespace deliso

@@ -24,6 +24,7 @@ struct RefineOptions {
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
   QueueOrder order = QueueOrder::kWorstFirst;
+  bool restart_at_crossings = true;  // when triangles of the result cross, start again with more care around them
 };
 
 // Why an insertion was refused.
@@ -45,9 +46,11 @@ struct RefineStats : StageStats {
   std::int64_t boundary_splits = 0;  // of them on boundary edges
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
+  std::int64_t restarts = 0;
   SearchCounters search;
 };
 
+// Counters are those of the last start, but for the searches and the seconds.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats);
 
