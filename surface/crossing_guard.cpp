@@ -11,8 +11,12 @@ namespace {
 
 // Vertices nearer than this (mesh-space units) lie on top of each other.
 constexpr double kOnTop = 2e-3;
+// No clearance is trusted this near to a suspect (mesh-space units).
+constexpr double kSuspectReach = 3;
 // A triangle is tight when its clearance is below so many of its longest edge.
 constexpr double kTightness = 1.5;
+// Other sheets matter when the clearance is below so many times what the mesh moves.
+constexpr double kReach = 10;
 // Cells are numbered up to this far from the origin; beyond it they run together.
 constexpr double kFarthest = 1e9;
 constexpr double kManyCells = 4096;
@@ -53,9 +57,16 @@ std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-CrossingGuard::CrossingGuard(SurfaceMesh& mesh) : mesh_(mesh) {
+CrossingGuard::CrossingGuard(SurfaceMesh& mesh, std::span<const Vec3> suspects) : mesh_(mesh) {
   clearance_.assign(mesh.pole_heights.begin(), mesh.pole_heights.end());
   std::vector<std::uint32_t> reached = doubled_vertices(mesh.points);
+  for (std::uint32_t v = 0; v < mesh.points.size() && !suspects.empty(); ++v) {
+    if (std::any_of(suspects.begin(), suspects.end(), [&](const Vec3& p) {
+          return squared_distance(p, mesh.points[v]) < kSuspectReach * kSuspectReach;
+        })) {
+      reached.push_back(v);
+    }
+  }
   for (const std::uint32_t v : reached) clearance_[v] = 0;
   // The bound falls off by distance along edges.
   std::vector<std::vector<std::uint32_t>> around;
@@ -158,20 +169,27 @@ void CrossingGuard::forget(std::uint32_t triangle) {
   });
 }
 
-bool CrossingGuard::meets(const Corners& v, const Corners& w) const {
-  return has_area(mesh_.points[w[0]], mesh_.points[w[1]], mesh_.points[w[2]]) &&
-         triangle_contact(mesh_.points, v, w) != TriangleContact::kNone;
+bool CrossingGuard::meets(const Corners& v, const Box3& box, const Corners& w) const {
+  const Vec3 &a = mesh_.points[w[0]], &b = mesh_.points[w[1]], &c = mesh_.points[w[2]];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::min({a[axis], b[axis], c[axis]}) > box.high[axis]) return false;
+    if (std::max({a[axis], b[axis], c[axis]}) < box.low[axis]) return false;
+  }
+  return has_area(a, b, c) && triangle_contact(mesh_.points, v, w) != TriangleContact::kNone;
 }
 
-bool CrossingGuard::crosses(const Vec3& p, std::span<const Edge> rim, std::span<const std::uint32_t> disk,
+bool CrossingGuard::crosses(const Vec3& p, double moved, std::span<const Edge> rim, std::span<const std::uint32_t> disk,
                             std::uint32_t attempt) {
   new_clearance_ = static_cast<float>(distance(p, mesh_.points[rim.front()[0]])) + clearance_[rim.front()[0]];
   float mean = 0;
+  float least = new_clearance_;
   for (const auto& [from, to] : rim) {
+    least = std::min(least, clearance_[from]);
     mean += clearance_[from] / static_cast<float>(rim.size());
     new_clearance_ = std::min(new_clearance_, clearance_[from] + static_cast<float>(distance(p, mesh_.points[from])));
   }
   new_clearance_ = std::min(new_clearance_, mean);
+  if (least > kReach * moved) return false;
 
   // The new vertex joins the mesh for as long as the tests last.
   const auto newest = static_cast<std::uint32_t>(mesh_.points.size());
@@ -182,10 +200,10 @@ bool CrossingGuard::crosses(const Vec3& p, std::span<const Edge> rim, std::span<
     const Corners v = star_triangle(rim[i]);
     if (!is_tight(v)) return true;
     if (!has_area(p, mesh_.points[v[1]], mesh_.points[v[2]])) return false;
-    for (std::size_t j = 0; j < rim.size(); ++j) {
-      if (j != i && meets(v, star_triangle(rim[j]))) return false;
-    }
     const Box3 box = box_of(v);
+    for (std::size_t j = 0; j < rim.size(); ++j) {
+      if (j != i && meets(v, box, star_triangle(rim[j]))) return false;
+    }
     bool clear = true;
     for (int level = 0; level < kLevels && clear; ++level) {
       if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
@@ -193,7 +211,7 @@ bool CrossingGuard::crosses(const Vec3& p, std::span<const Edge> rim, std::span<
         const auto here = cells_.find(at);
         if (here == cells_.end()) return;
         for (const std::uint32_t t : here->second) {
-          if (clear && disk[t] != attempt && meets(v, mesh_.triangles[t])) clear = false;
+          if (clear && disk[t] != attempt && meets(v, box, mesh_.triangles[t])) clear = false;
         }
       });
     }

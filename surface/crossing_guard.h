@@ -22,12 +22,15 @@ class CrossingGuard {
  public:
   using Edge = std::array<std::uint32_t, 2>;
 
-  // Keeps a reference to the mesh and a few bytes for each of its triangles and vertices.
-  explicit CrossingGuard(SurfaceMesh& mesh);
+  // Keeps a reference to the mesh and a few bytes for each of its triangles and vertices. Near `suspects` no clearance
+  // is trusted.
+  CrossingGuard(SurfaceMesh& mesh, std::span<const Vec3> suspects);
 
   // Whether the triangles (p, from, to) for the edges of a rim meet each other or tight triangles of the mesh beyond
-  // what they share; triangles t with disk[t] == attempt are about to go and do not count. Also finds p's clearance.
-  bool crosses(const Vec3& p, std::span<const Edge> rim, std::span<const std::uint32_t> disk, std::uint32_t attempt);
+  // what they share; triangles t with disk[t] == attempt are about to go and do not count. `moved`: how far the mesh
+  // moves at most. Also finds p's clearance.
+  bool crosses(const Vec3& p, double moved, std::span<const Edge> rim, std::span<const std::uint32_t> disk,
+               std::uint32_t attempt);
 
   // Before a triangle goes; after p has become the newest vertex; after a triangle has come.
   void forget(std::uint32_t triangle);
@@ -45,7 +48,7 @@ class CrossingGuard {
 
   [[nodiscard]] bool is_tight(const Corners& v) const;
   [[nodiscard]] Box3 box_of(const Corners& v) const;
-  [[nodiscard]] bool meets(const Corners& v, const Corners& w) const;
+  [[nodiscard]] bool meets(const Corners& v, const Box3& box, const Corners& w) const;
   template <class Visit>
   void for_each_cell(const Box3& box, int level, Visit&& visit) const;
   static int level_of(const Box3& box);

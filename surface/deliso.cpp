@@ -94,6 +94,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   options.r_min = lengths.r_min_stage2;
   if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
   options.order = parameters.queue_order;
+  options.restart_at_crossings = parameters.certify;
   return options;
 }
 

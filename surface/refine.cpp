@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
+#include "surface/self_intersection.h"
 #include "surface/triangle_queue.h"
 
 namespace deliso {
@@ -17,13 +19,24 @@ namespace {
 
 // A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
 constexpr double kNearestVertex = 0.5;
+// A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
+constexpr double kFarthestMove = 0.8;
+// Starts again at most this often, with at most so many new suspects of a kind.
+constexpr std::int64_t kMostRestarts = 3;
+constexpr std::size_t kMostSuspects = 1000;
 // A boundary edge is split only this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
 
 class Refinement {
  public:
-  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order), guard_(mesh) {}
+  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
+             std::span<const Vec3> suspects, RefineStats& stats)
+      : mesh_(mesh),
+        isosurface_(isosurface),
+        options_(options),
+        stats_(stats),
+        queue_(options.order),
+        guard_(mesh, suspects) {}
 
   void run(Controls& controls);
 
@@ -55,6 +68,7 @@ class Refinement {
   [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
   [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const Candidate& candidate) const;
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  [[nodiscard]] double distance_to_disk(const Vec3& p) const;
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
   bool retry_crossed();
@@ -280,7 +294,9 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   }
   rim_edges_.clear();
   for (const RimEdge& edge : rim_) rim_edges_.push_back({edge.from, edge.to});
-  if (guard_.crosses(p, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
+  const double moved = distance_to_disk(p);
+  if (candidate.split == kNoSide && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
+  if (guard_.crosses(p, moved, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
   auto corners = static_cast<double>(rim_.size());
   if (candidate.split != kNoSide) {
     pole_sum += mesh_.pole_heights[rim_.back().to];
@@ -293,6 +309,17 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
     star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole));
   }
   return std::nullopt;
+}
+
+// How far p lies off the planes of E's triangles at most.
+double Refinement::distance_to_disk(const Vec3& p) const {
+  double farthest = 0;
+  for (const std::uint32_t t : disk_) {
+    const Vec3& a = corner(t, 0);
+    const Vec3 normal = cross(corner(t, 1) - a, corner(t, 2) - a);
+    farthest = std::max(farthest, std::abs(dot(normal, p - a)) / std::max(norm(normal), 1e-300));
+  }
+  return farthest;
 }
 
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
@@ -395,7 +422,27 @@ void Refinement::wake_neighbours() {
 
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats) {
-  Refinement(mesh, isosurface, options, stats).run(controls);
+  if (!options.restart_at_crossings) {
+    Refinement(mesh, isosurface, options, {}, stats).run(controls);
+    return;
+  }
+  const SurfaceMesh start = mesh;
+  const RefineStats before = stats;
+  std::vector<Vec3> suspects;
+  for (std::int64_t restarts = 0;; ++restarts) {
+    const SearchCounters searches = stats.search;
+    stats = before;
+    stats.search = searches;
+    stats.restarts = restarts;
+    Refinement(mesh, isosurface, options, suspects, stats).run(controls);
+    if (restarts == kMostRestarts || controls.stopped()) return;
+    const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects);
+    if (found.crossing.empty() && found.touching.empty()) return;
+    for (const auto* pairs : {&found.crossing, &found.touching}) {
+      for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+    }
+    mesh = start;
+  }
 }
 
 }  // namespace deliso

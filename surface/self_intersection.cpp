@@ -205,16 +205,17 @@ TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<
   }
 }
 
-SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep) {
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep) {
   SelfIntersections found;
 
   // Broad phase: boxes of the triangles that have an area.
   std::vector<Box3> boxes;
   std::vector<std::uint32_t> triangle_of_box;
-  boxes.reserve(mesh.triangles.size());
-  triangle_of_box.reserve(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Corners corners = corners_from(mesh.points, mesh.triangles[t], 0);
+  boxes.reserve(triangles.size());
+  triangle_of_box.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const Corners corners = corners_from(points, triangles[t], 0);
     if (collinear(corners[0], corners[1], corners[2])) {
       ++found.zero_area_triangles;
       continue;
@@ -238,7 +239,7 @@ SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep)
   };
   BoxTree(boxes).for_each_touching_pair([&](std::uint32_t i, std::uint32_t j) {
     const std::uint32_t s = triangle_of_box[i], t = triangle_of_box[j];
-    const TriangleContact contact = triangle_contact(mesh.points, mesh.triangles[s], mesh.triangles[t]);
+    const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
     if (contact == TriangleContact::kNone) return;
     const Box3 both{{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
                      std::max(boxes[i].low.z, boxes[j].low.z)},

@@ -46,6 +46,10 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // All pairs; at most `keep` of each kind are kept. Precondition: indices in range, coordinates as orient3d
 // wants them (delaunay/predicates.h).
-SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10);
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10);
+inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {
+  return self_intersections(mesh.points, mesh.triangles, keep);
+}
 
 }  // namespace deliso
