@@ -93,6 +93,21 @@ TEST_F(MeshIo, PlyOffAndObjKeepEveryBit) {
   }
 }
 
+TEST_F(MeshIo, KnownPathsAreThoseThatAreWritten) {
+  const TriangleMesh mesh = awkward_mesh(1);
+  for (const std::string name : {"m.ply", "m.PLY", "m.off", "m.obj", "m.Stl", "m.txt", "m", "m.plyx", "ply"}) {
+    bool written = true;
+    try {
+      write_mesh(mesh, file(name));
+    } catch (const InputError& error) {
+      written = std::string(error.what()).find(kMeshExtensions) == std::string::npos;
+    }
+    EXPECT_EQ(is_mesh_path(file(name)), written) << name;
+  }
+  EXPECT_TRUE(is_mesh_path("m.ply"));
+  EXPECT_FALSE(is_mesh_path("m.txt"));
+}
+
 TEST_F(MeshIo, BinaryPlyHasTheDocumentedLayout) {
   const TriangleMesh mesh = testing::tetrahedron_mesh();
   write_mesh(mesh, file("mesh.ply"));
