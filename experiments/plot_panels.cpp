@@ -16,6 +16,7 @@ constexpr double kLeft = 78;
 constexpr double kRight = 22;
 constexpr double kTop = 62;
 constexpr double kBottom = 46;
+constexpr double kTitleSize = 15;
 constexpr std::string_view kGridColor = "#e4e4e4";
 constexpr std::string_view kFrameColor = "#888888";
 
@@ -30,7 +31,7 @@ class PanelDrawer {
       : grid_(grid), legend_(legend_of(grid)), drawing_(width(), legend_top() + legend_height(legend_, width()) + 10) {}
 
   std::string draw() {
-    drawing_.text({kLeft, 24}, grid_.title, {15, "start", true});
+    drawing_.text({kLeft, 24}, grid_.title, {kTitleSize, "start", true});
     for (std::size_t row = 0; row < grid_.y_labels.size(); ++row) {
       for (std::size_t column = 0; column < grid_.columns.size(); ++column) draw_panel(row, column);
     }
@@ -54,7 +55,8 @@ class PanelDrawer {
 
   [[nodiscard]] double width() const {
     const auto columns = static_cast<double>(grid_.columns.size());
-    return kLeft + columns * kPanelWidth + (columns - 1) * kGap + kRight;
+    const double title = 1.1 * text_width(grid_.title, kTitleSize);  // bold
+    return kLeft + std::max(columns * kPanelWidth + (columns - 1) * kGap, title) + kRight;
   }
   [[nodiscard]] double legend_top() const {
     const auto rows = static_cast<double>(grid_.y_labels.size());

@@ -222,6 +222,17 @@ TEST(Plot, SpreadsReachFromTheSmallestToTheLargest) {
   EXPECT_EQ(found, 1);
 }
 
+TEST(Plot, ADrawingIsWideEnoughForItsTitle) {
+  PanelGrid grid{
+      "", {"a"}, {"y"}, "x", AxisScale::kLinear, AxisScale::kLinear, true, true, {"l"}, {{{0, {{1, 1, 1, 1}}}}}};
+  const auto width = [&grid] { return number(elements(draw_panels(grid), "svg")[0], "width"); };
+  grid.title = "Short";
+  const double narrow = width();
+  grid.title = "A title that needs more room than a single panel below it has";
+  EXPECT_GT(width(), narrow);
+  EXPECT_GT(width(), text_width(grid.title, 15));
+}
+
 TEST(Plot, HistogramsAddRepeatsAndShowShares) {
   const std::string svg = plot_named("angles.svg", example_records());
   const std::vector<std::string> lines = elements(svg, "polyline");
