@@ -22,6 +22,8 @@ class ActiveCells {
     const std::size_t place = place_of(cell);
     return ((words_[place / 64] >> (place % 64)) & 1) != 0;
   }
+  // The bits of the brick of 4 x 4 x 4 cells that holds a cell.
+  [[nodiscard]] std::uint64_t brick(const Cell& cell) const { return words_[place_of(cell) / 64]; }
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 

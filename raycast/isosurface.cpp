@@ -8,6 +8,7 @@
 #include "raycast/active_cells.h"
 #include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
+#include "raycast/empty_bricks.h"
 #include "raycast/min_max_kdtree.h"
 #include "raycast/voxel_intersection.h"
 
@@ -130,6 +131,7 @@ Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOpti
     tree_ = std::make_unique<MinMaxKdTree>(grid, options.leaf_cells);
   } else {
     active_ = std::make_unique<ActiveCells>(grid, isovalue);
+    bricks_ = std::make_unique<EmptyBricks>(grid, *active_, isovalue);
   }
 }
 
@@ -151,6 +153,27 @@ double Isosurface::value(const Vec3& p) const {
   Vec3 uvw;
   const CellCorners corners = relative_corners(p, uvw);
   return relative_value(corners, uvw);
+}
+
+bool Isosurface::is_above(const Vec3& p) const {
+  if (bricks_ != nullptr) {
+    const AxisValues point = axis_values(scaled(p, inverse_step_));
+    const Dims& dims = grid_.dims();
+    const int clearance = bricks_->clearance(
+        {extended_cell(point[0], dims[0]), extended_cell(point[1], dims[1]), extended_cell(point[2], dims[2])});
+    if (clearance != 0) return clearance > 0;
+  }
+  return value(p) >= 0;
+}
+
+bool Isosurface::is_clear(const Vec3& a, const Vec3& b) const {
+  return bricks_ != nullptr &&
+         bricks_->is_clear(axis_values(scaled(a, inverse_step_)), axis_values(scaled(b, inverse_step_)));
+}
+
+bool Isosurface::is_clear_box(const Vec3& a, const Vec3& b) const {
+  return bricks_ != nullptr &&
+         bricks_->is_clear_box(axis_values(scaled(a, inverse_step_)), axis_values(scaled(b, inverse_step_)));
 }
 
 Vec3 Isosurface::gradient(const Vec3& p) const {

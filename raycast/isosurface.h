@@ -33,6 +33,7 @@ struct Line {
 };
 
 class ActiveCells;
+class EmptyBricks;
 class MinMaxKdTree;
 
 class Isosurface {
@@ -54,7 +55,11 @@ class Isosurface {
   // Field minus isovalue at p, extended beyond the box.
   [[nodiscard]] double value(const Vec3& p) const;
   // Which side: value >= 0. The one tie rule of the project: exactly zero counts as above.
-  [[nodiscard]] bool is_above(const Vec3& p) const { return value(p) >= 0; }
+  [[nodiscard]] bool is_above(const Vec3& p) const;
+  // True only when no line within 1e-5 voxels of the segment from a to b (of the box that they span) has a hit between
+  // them; both then lie on one side. False tells nothing. Fast; always false but for traversal kCellWalk with pruning.
+  [[nodiscard]] bool is_clear(const Vec3& a, const Vec3& b) const;
+  [[nodiscard]] bool is_clear_box(const Vec3& a, const Vec3& b) const;
   // Gradient of the field at p (clamped to the box), with respect to mesh-space coordinates.
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
@@ -86,6 +91,7 @@ class Isosurface {
   Vec3 inverse_step_;
   std::unique_ptr<MinMaxKdTree> tree_;   // traversal kKdTree, when pruning
   std::unique_ptr<ActiveCells> active_;  // traversal kCellWalk, when pruning
+  std::unique_ptr<EmptyBricks> bricks_;  // the same
 };
 
 }  // namespace deliso

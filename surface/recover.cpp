@@ -126,9 +126,10 @@ std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
 // ExtractManifold: an umbrella that is no disk gives its x_sigma farthest from the vertex. On the box a half disk will
 // do.
 std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
-  const UmbrellaShape shape = umbrella_.inspect(q);
-  if (shape == UmbrellaShape::kDisk) return std::nullopt;
-  if (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q)) return std::nullopt;
+  const auto will_do = [&](UmbrellaShape shape) {
+    return shape == UmbrellaShape::kDisk || (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q));
+  };
+  if (will_do(restricted_.quick_umbrella_shape(q)) || will_do(umbrella_.inspect(q))) return std::nullopt;
   if (auto candidate = farthest_of_umbrella(q)) return candidate;
   return farthest_in_voronoi_cell(q);
 }

@@ -39,12 +39,20 @@ void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
   edge_of_.assign(slots, {});
   touched_stamp_.assign(delaunay_.vertex_count(), 0);
-  leaving_stamp_.assign(slots, 0);
+  umbrellas_.assign(delaunay_.vertex_count(), {});
+  position_.assign(slots, 0);
+  std::vector<Vec3> dual_points(slots);
+  for (std::size_t i = 0; i < slots; ++i) {
+    if (delaunay_.is_live(TetId(i))) dual_points[i] = dual_point(TetId(i));
+  }
   for (std::size_t i = 0; i < slots; ++i) {
     if (!delaunay_.is_live(TetId(i))) continue;
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(TetId(i), face);
-      if (f < delaunay_.mirror(f)) search_facet(f);
+      const FacetId mirror = delaunay_.mirror(f);
+      if (mirror < f) continue;
+      if (is_restricted(f)) add_restricted(f);
+      search_facet_between(f, dual_points[i], dual_points[mirror.tet().index()]);
     }
   }
 }
@@ -52,7 +60,7 @@ void RestrictedDelaunay::search_everything() {
 RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId start, double min_distance) {
   const Vec3 p = snapped(point);
   if (delaunay_.find_conflicts(p, start)) return Outcome::kDuplicate;
-  if (nearest_rim_vertex(p) < min_distance) {
+  if (std::sqrt(delaunay_.nearest_squared_distance()) < min_distance) {
     delaunay_.abandon_cavity();
     return Outcome::kTooClose;
   }
@@ -67,18 +75,6 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
   return Outcome::kInserted;
 }
 
-// The nearest vertex of the triangulation becomes a Delaunay neighbour of p, so it lies on the rim.
-double RestrictedDelaunay::nearest_rim_vertex(const Vec3& p) const {
-  double nearest = kInfinity;
-  for (const FacetId f : delaunay_.rim()) {
-    for (const unsigned slot : kFacetSlots[f.face()]) {
-      const VertexId v = delaunay_.vertices(f.tet())[slot];
-      if (v != kInfiniteVertex) nearest = std::min(nearest, squared_distance(p, delaunay_.point(v)));
-    }
-  }
-  return std::sqrt(nearest);
-}
-
 // Before the conflict region goes: dual edges inside it are released, those of its rim are noted.
 void RestrictedDelaunay::forget_region() {
   rim_edges_.clear();
@@ -87,14 +83,16 @@ void RestrictedDelaunay::forget_region() {
     const bool inside_is_begin = !e.is_none() && dual_edges_[e.index()].facet != f;
     rim_edges_.push_back({e, inside_is_begin, is_restricted(f)});
   }
-  for (const TetId t : delaunay_.conflict_region()) leaving_stamp_[t.index()] = stamp_;
-  for (const TetId t : delaunay_.conflict_region()) {
+  const std::span<const TetId> region = delaunay_.conflict_region();
+  for (std::size_t i = 0; i < region.size(); ++i) position_[region[i].index()] = static_cast<std::uint32_t>(i);
+  for (const TetId t : region) {
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(t, face);
       const FacetId mirror = delaunay_.mirror(f);
-      const bool inside = leaving_stamp_[mirror.tet().index()] == stamp_;
+      const std::uint32_t position = position_[mirror.tet().index()];
+      const bool inside = position < region.size() && region[position] == mirror.tet();
       if (!inside || mirror < f) continue;
-      if (is_restricted(f)) touch_vertices(f);
+      if (is_restricted(f)) remove_restricted(f);
       if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
     }
   }
@@ -104,19 +102,26 @@ void RestrictedDelaunay::forget_region() {
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
   edge_of_.resize(delaunay_.tet_slots());
-  leaving_stamp_.resize(delaunay_.tet_slots(), 0);
+  position_.resize(delaunay_.tet_slots(), 0);
   touched_stamp_.resize(delaunay_.vertex_count(), 0);
-  for (const TetId t : delaunay_.created()) {
-    sign_[t.index()] = sign_of(t);
+  umbrellas_.resize(delaunay_.vertex_count());
+  const std::span<const TetId> created = delaunay_.created();
+  dual_points_.resize(created.size());
+  for (std::size_t i = 0; i < created.size(); ++i) {
+    const TetId t = created[i];
+    position_[t.index()] = static_cast<std::uint32_t>(i);
+    dual_points_[i] = dual_point(t);
+    sign_[t.index()] = sign_at(dual_points_[i]);
     edge_of_[t.index()].fill(DualEdgeId::none());
   }
-  for (std::size_t i = 0; i < rim_edges_.size(); ++i) renew_rim_facet(delaunay_.created()[i], rim_edges_[i]);
-  for (const TetId t : delaunay_.created()) {
+  for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
+  for (std::size_t i = 0; i < created.size(); ++i) {
     for (unsigned face = 1; face < 4; ++face) {
-      const FacetId f(t, face);
-      if (delaunay_.mirror(f) < f) continue;
-      if (is_restricted(f)) touch_vertices(f);
-      search_facet(f);
+      const FacetId f(created[i], face);
+      const FacetId mirror = delaunay_.mirror(f);
+      if (mirror < f) continue;
+      if (is_restricted(f)) add_restricted(f);
+      search_facet_between(f, dual_points_[i], dual_points_[position_[mirror.tet().index()]]);
     }
   }
   touch(last_vertex());
@@ -126,7 +131,8 @@ void RestrictedDelaunay::renew_star() {
 void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   const FacetId f(created, 0);
   const bool restricted = is_restricted(f);
-  if (restricted != rim.was_restricted) touch_vertices(f);
+  if (restricted && !rim.was_restricted) add_restricted(f);
+  if (!restricted && rim.was_restricted) remove_restricted(f);
   DualEdgeId e = rim.edge;
   if (e.is_none()) {
     if (restricted) search_facet(f);  // the signs disagree with the search that found nothing: they win
@@ -151,14 +157,24 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   }
 }
 
+// The same as search_facet, given the dual points of the tetrahedra on both sides: most dual edges lie far from the
+// isosurface.
+void RestrictedDelaunay::search_facet_between(FacetId f, const Vec3& from, const Vec3& to) {
+  if (has_virtual_vertex(f)) return;
+  if (!is_restricted(f)) {
+    const bool is_finite = !delaunay_.is_ghost(f.tet()) && !delaunay_.is_ghost(delaunay_.mirror(f).tet());
+    if (is_finite ? isosurface_.is_clear(from, to) : isosurface_.is_clear_box(from, to)) {
+      ++counters_.searches;
+      return;
+    }
+  }
+  search_facet(f);
+}
+
 // Computes V_sigma and Sigma for a facet and keeps its dual edge when it has hits.
 void RestrictedDelaunay::search_facet(FacetId f) {
-  const auto& tet = delaunay_.vertices(f.tet());
-  std::array<VertexId, 3> v;
-  for (unsigned i = 0; i < 3; ++i) {
-    v[i] = tet[kFacetSlots[f.face()][i]];
-    if (is_virtual(v[i])) return;
-  }
+  if (has_virtual_vertex(f)) return;
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
   const Vec3& a = delaunay_.point(v[0]);
   const Vec3& b = delaunay_.point(v[1]);
   const Vec3& c = delaunay_.point(v[2]);
@@ -242,8 +258,39 @@ void RestrictedDelaunay::settle_hits(DualEdge& edge) const {
   }
 }
 
-void RestrictedDelaunay::touch_vertices(FacetId f) {
-  for (const unsigned slot : kFacetSlots[f.face()]) touch(delaunay_.vertices(f.tet())[slot]);
+bool RestrictedDelaunay::has_virtual_vertex(FacetId f) const {
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
+  return is_virtual(v[0]) || is_virtual(v[1]) || is_virtual(v[2]);
+}
+
+void RestrictedDelaunay::add_restricted(FacetId f) {
+  const FacetId from_above = is_above(f.tet()) ? f : delaunay_.mirror(f);
+  for (const VertexId v : delaunay_.facet_vertices(f)) {
+    if (is_virtual(v)) continue;
+    Umbrella& umbrella = umbrellas_[v.index()];
+    ++umbrella.size;
+    umbrella.facet = from_above;
+    touch(v);
+  }
+}
+
+void RestrictedDelaunay::remove_restricted(FacetId f) {
+  for (const VertexId v : delaunay_.facet_vertices(f)) {
+    if (is_virtual(v)) continue;
+    --umbrellas_[v.index()].size;
+    touch(v);
+  }
+}
+
+UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) const {
+  const auto& [size, facet] = umbrellas_[q.index()];
+  if (size == 0) return UmbrellaShape::kEmpty;
+  // The facet known may be gone, and another one stand in its place.
+  if (facet.is_none() || !delaunay_.is_live(facet.tet()) || !is_above(facet.tet()) || !is_restricted(facet))
+    return UmbrellaShape::kBroken;
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(facet);
+  if (v[0] != q && v[1] != q && v[2] != q) return UmbrellaShape::kBroken;
+  return shape_by_walk(*this, q, facet, size);
 }
 
 void RestrictedDelaunay::touch(VertexId v) {

@@ -52,7 +52,9 @@ class SignedDelaunay {
  protected:
   enum class Sign : std::uint8_t { kBelow, kAbove };
   [[nodiscard]] Sign sign_at(const Vec3& p) const { return isosurface_.is_above(p) ? Sign::kAbove : Sign::kBelow; }
-  [[nodiscard]] Sign sign_of(TetId t) const;
+  [[nodiscard]] Sign sign_of(TetId t) const { return sign_at(dual_point(t)); }
+  // The circumcenter of t; of a ghost, where its dual ray ends up when it is clamped to the box.
+  [[nodiscard]] Vec3 dual_point(TetId t) const;
 
   const Isosurface& isosurface_;
   BowyerWatson delaunay_;
