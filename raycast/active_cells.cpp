@@ -96,6 +96,26 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
     }
 }
 
+bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
+  // Bits of a brick whose coordinates along an axis lie in [first, last] of the brick.
+  const auto mask = [](std::size_t axis, std::int32_t first, std::int32_t last) {
+    constexpr std::array<Word, 3> kSpread = {0x1111111111111111u, 0x000F000F000F000Fu, 0xFFFFu};
+    Word bits = 0;
+    for (std::int32_t c = std::max(first, 0); c <= std::min(last, 3); ++c)
+      bits |= kSpread[axis] << (static_cast<unsigned>(c) << (2 * axis));
+    return bits;
+  };
+  for (std::int32_t z = low[2] & ~3; z <= high[2]; z += 4) {
+    const Word in_z = mask(2, low[2] - z, high[2] - z);
+    for (std::int32_t y = low[1] & ~3; y <= high[1]; y += 4) {
+      const Word in_yz = in_z & mask(1, low[1] - y, high[1] - y);
+      for (std::int32_t x = low[0] & ~3; x <= high[0]; x += 4)
+        if ((brick({x, y, z}) & in_yz & mask(0, low[0] - x, high[0] - x)) != 0) return true;
+    }
+  }
+  return false;
+}
+
 std::size_t ActiveCells::count() const {
   std::size_t cells = 0;
   for (const Word word : words_) cells += static_cast<std::size_t>(std::popcount(word));

@@ -24,6 +24,8 @@ class ActiveCells {
   }
   // The bits of the brick of 4 x 4 x 4 cells that holds a cell.
   [[nodiscard]] std::uint64_t brick(const Cell& cell) const { return words_[place_of(cell) / 64]; }
+  // Is a cell active in the box from `low` to `high`, both inclusive?
+  [[nodiscard]] bool any_active(const Cell& low, const Cell& high) const;
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 

@@ -1,17 +1,10 @@
 #include "raycast/empty_bricks.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace deliso {
 
 namespace {
-
-// Index-space length by which blocks are taken smaller than they are, so that ends of segments may be rounded.
-constexpr double kMargin = 1e-5;
-// Steps from block to block after which a segment is given up.
-constexpr int kMostSteps = 8;
 
 // Distances along a line of bricks: to the nearest brick with distance 0, at most `farthest`.
 void spread_along_row(std::int8_t* row, std::size_t count) {
@@ -68,50 +61,6 @@ EmptyBricks::EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, doub
           clearance = static_cast<std::int8_t>(-clearance);
         }
       }
-}
-
-bool EmptyBricks::empty_block(const AxisValues& p, AxisValues& low, AxisValues& high) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Cell cell = {extended_cell(p[0], dims_[0]), extended_cell(p[1], dims_[1]), extended_cell(p[2], dims_[2])};
-  const int reach = std::abs(clearance(cell)) - 1;
-  if (reach < 0) return false;
-  for (std::size_t a = 0; a < 3; ++a) {
-    // Cell e covers [e - 1, e]; the outermost bricks go on outward for ever.
-    const std::int32_t first = (cell[a] >> kShift) - reach;
-    const std::int32_t last = (cell[a] >> kShift) + reach;
-    low[a] = first <= 0 ? -kInfinity : (first << kShift) - 1 + kMargin;
-    high[a] = last + 1 >= static_cast<std::int32_t>(bricks_[a]) ? kInfinity : ((last + 1) << kShift) - 1 - kMargin;
-    if (!(low[a] <= p[a] && p[a] <= high[a])) return false;
-  }
-  return true;
-}
-
-bool EmptyBricks::is_clear_box(const AxisValues& a, const AxisValues& b) const {
-  AxisValues low;
-  AxisValues high;
-  if (!empty_block(a, low, high)) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!(low[axis] <= b[axis] && b[axis] <= high[axis])) return false;
-  return true;
-}
-
-bool EmptyBricks::is_clear(const AxisValues& a, const AxisValues& b) const {
-  AxisValues p = a;
-  for (int step = 0; step < kMostSteps; ++step) {
-    AxisValues low;
-    AxisValues high;
-    if (!empty_block(p, low, high)) return false;
-    // Go on to where the segment leaves the block.
-    double t = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double way = b[axis] - p[axis];
-      if (b[axis] > high[axis]) t = std::min(t, (high[axis] - p[axis]) / way);
-      if (b[axis] < low[axis]) t = std::min(t, (low[axis] - p[axis]) / way);
-    }
-    if (t == 1) return true;
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] += t * (b[axis] - p[axis]);
-  }
-  return false;
 }
 
 }  // namespace deliso

@@ -1,10 +1,12 @@
 // How far the isosurface is, by bricks of 4 x 4 x 4 extended cells: one signed byte each, small enough for the caches.
 //
-// Most points that a mesher asks about lie far from the surface, and one look at this table tells their side; most
-// segments lie far from it too, and a step or two from empty block to empty block tell that they have no hit.
+// Most points and segments that a mesher asks about lie far from the surface: one look at this table tells on which
+// side a point lies, or that a segment has no hit.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "raycast/active_cells.h"
@@ -25,12 +27,13 @@ class EmptyBricks {
                             static_cast<std::size_t>(cell[2]) >> kShift)];
   }
 
-  // True only when no cell within 1e-5 voxels (in every direction) of the segment from a to b, both in index space, is
-  // active. False tells nothing.
-  [[nodiscard]] bool is_clear(const AxisValues& a, const AxisValues& b) const;
-  // The same for the box that a and b span.
-  [[nodiscard]] bool is_clear_box(const AxisValues& a, const AxisValues& b) const;
-
+  // Is the box of bricks that two cells with these clearances span known to be empty?
+  static bool is_empty_between(const Cell& a, int clearance_a, const Cell& b, int clearance_b) {
+    int apart = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      apart = std::max(apart, std::abs((a[axis] >> kShift) - (b[axis] >> kShift)));
+    return apart < std::max(std::abs(clearance_a), std::abs(clearance_b));
+  }
   [[nodiscard]] std::size_t bytes() const { return clearance_.size(); }
 
  private:
@@ -39,9 +42,6 @@ class EmptyBricks {
 
   // The first cell of a brick along an axis.
   static std::int32_t brick_cell(std::size_t brick) { return static_cast<std::int32_t>(brick << kShift); }
-  // The empty block around a point, in index space, a little smaller than it is. False when the point's brick is not
-  // empty, or the point so close to the side of the block that it lies in that margin.
-  bool empty_block(const AxisValues& p, AxisValues& low, AxisValues& high) const;
   [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
     return x + bricks_[0] * (y + bricks_[1] * z);
   }

@@ -41,9 +41,9 @@ void RestrictedDelaunay::search_everything() {
   touched_stamp_.assign(delaunay_.vertex_count(), 0);
   umbrellas_.assign(delaunay_.vertex_count(), {});
   position_.assign(slots, 0);
-  std::vector<Vec3> dual_points(slots);
+  std::vector<DualEnd> dual_ends(slots);
   for (std::size_t i = 0; i < slots; ++i) {
-    if (delaunay_.is_live(TetId(i))) dual_points[i] = dual_point(TetId(i));
+    if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_of(TetId(i));
   }
   for (std::size_t i = 0; i < slots; ++i) {
     if (!delaunay_.is_live(TetId(i))) continue;
@@ -52,7 +52,7 @@ void RestrictedDelaunay::search_everything() {
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
       if (is_restricted(f)) add_restricted(f);
-      search_facet_between(f, dual_points[i], dual_points[mirror.tet().index()]);
+      search_facet_between(f, dual_ends[i], dual_ends[mirror.tet().index()]);
     }
   }
 }
@@ -98,6 +98,11 @@ void RestrictedDelaunay::forget_region() {
   }
 }
 
+RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
+  const Vec3 p = dual_point(t);
+  return {p, isosurface_.place_of(p)};
+}
+
 // After the cavity is filled: signs of the new tetrahedra, then their facets, the rim first.
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
@@ -106,12 +111,12 @@ void RestrictedDelaunay::renew_star() {
   touched_stamp_.resize(delaunay_.vertex_count(), 0);
   umbrellas_.resize(delaunay_.vertex_count());
   const std::span<const TetId> created = delaunay_.created();
-  dual_points_.resize(created.size());
+  dual_ends_.resize(created.size());
   for (std::size_t i = 0; i < created.size(); ++i) {
     const TetId t = created[i];
     position_[t.index()] = static_cast<std::uint32_t>(i);
-    dual_points_[i] = dual_point(t);
-    sign_[t.index()] = sign_at(dual_points_[i]);
+    dual_ends_[i] = dual_end_of(t);
+    sign_[t.index()] = isosurface_.is_above(dual_ends_[i].point, dual_ends_[i].place) ? Sign::kAbove : Sign::kBelow;
     edge_of_[t.index()].fill(DualEdgeId::none());
   }
   for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
@@ -121,7 +126,7 @@ void RestrictedDelaunay::renew_star() {
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
       if (is_restricted(f)) add_restricted(f);
-      search_facet_between(f, dual_points_[i], dual_points_[position_[mirror.tet().index()]]);
+      search_facet_between(f, dual_ends_[i], dual_ends_[position_[mirror.tet().index()]]);
     }
   }
   touch(last_vertex());
@@ -159,11 +164,12 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
 
 // The same as search_facet, given the dual points of the tetrahedra on both sides: most dual edges lie far from the
 // isosurface.
-void RestrictedDelaunay::search_facet_between(FacetId f, const Vec3& from, const Vec3& to) {
+void RestrictedDelaunay::search_facet_between(FacetId f, const DualEnd& from, const DualEnd& to) {
   if (has_virtual_vertex(f)) return;
   if (!is_restricted(f)) {
     const bool is_finite = !delaunay_.is_ghost(f.tet()) && !delaunay_.is_ghost(delaunay_.mirror(f).tet());
-    if (is_finite ? isosurface_.is_clear(from, to) : isosurface_.is_clear_box(from, to)) {
+    if (is_finite ? isosurface_.is_clear(from.point, from.place, to.point, to.place)
+                  : isosurface_.is_clear_box(from.place, to.place)) {
       ++counters_.searches;
       return;
     }

@@ -77,7 +77,13 @@ class RestrictedDelaunay : public SignedDelaunay {
   void search_facet(FacetId f);
   void settle_hits(DualEdge& edge) const;
   [[nodiscard]] double dual_end(const DualEdge& edge, TetId t, int side) const;
-  void search_facet_between(FacetId f, const Vec3& from, const Vec3& to);
+  // Where the dual edges of a tetrahedron end.
+  struct DualEnd {
+    Vec3 point;
+    Isosurface::Place place;
+  };
+  [[nodiscard]] DualEnd dual_end_of(TetId t) const;
+  void search_facet_between(FacetId f, const DualEnd& from, const DualEnd& to);
   [[nodiscard]] bool has_virtual_vertex(FacetId f) const;
   void add_restricted(FacetId f);
   void remove_restricted(FacetId f);
@@ -90,7 +96,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   std::uint32_t stamp_ = 0;
   // Of each tetrahedron: its position in the conflict region or, later, in created(); right only if that agrees.
   std::vector<std::uint32_t> position_;
-  std::vector<Vec3> dual_points_;  // of created()
+  std::vector<DualEnd> dual_ends_;  // of created()
   // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
   struct Umbrella {
     std::uint32_t size = 0;

@@ -1,11 +1,13 @@
 // The violations that stage 1 still has to look at, in the order it takes them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <queue>
 #include <vector>
 
 #include "surface/parameters.h"
@@ -21,38 +23,75 @@ struct Violation {
   std::uint32_t generation = 0;  // of the dual edge when it was queued
 };
 
-// One heap for each kind: the larger badness first, or the earlier entry, as the order says; ties by age.
+// For each kind a row of stacks, one for every power of two of the badness (or of the radius, as the order says). The
+// worst stack comes first, and of that the latest entry: it lies near the latest insertions, which the caches still
+// hold. First in, first out has one queue for each kind.
 class ViolationQueue {
  public:
   explicit ViolationQueue(QueueOrder order) : order_(order) {}
 
   // `badness`: how far beyond its threshold; `radius`: size of the facet. The order decides which of them counts.
   void push(const Violation& violation, double badness, double radius) {
-    const double key = order_ == QueueOrder::kWorstFirst ? badness : order_ == QueueOrder::kLargestRadius ? radius : 0;
-    heaps_[static_cast<std::size_t>(violation.kind)].push({key, next_age_++, violation});
+    Stacks& stacks = stacks_[static_cast<std::size_t>(violation.kind)];
+    const bool is_fifo = order_ == QueueOrder::kFirstInFirstOut;
+    const std::size_t place = is_fifo ? 0 : place_of(order_ == QueueOrder::kWorstFirst ? badness : radius);
+    stacks.entries[place].push_back({violation.element, violation.generation});
+    stacks.used |= std::uint64_t{1} << place;
+    ++size_;
   }
+
   std::optional<Violation> pop() {
-    for (auto& heap : heaps_) {
-      if (heap.empty()) continue;
-      const Violation top = heap.top().violation;
-      heap.pop();
-      return top;
+    for (std::size_t kind = 0; kind < stacks_.size(); ++kind) {
+      if (stacks_[kind].used == 0) continue;
+      --size_;
+      const Entry entry = order_ == QueueOrder::kFirstInFirstOut ? pop_first(stacks_[kind]) : pop_last(stacks_[kind]);
+      return Violation{static_cast<ViolationKind>(kind), entry.element, entry.generation};
     }
     return std::nullopt;
   }
-  [[nodiscard]] std::size_t size() const { return heaps_[0].size() + heaps_[1].size() + heaps_[2].size(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
   struct Entry {
-    double key;
-    std::uint64_t age;
-    Violation violation;
-    // std::priority_queue pops the largest.
-    bool operator<(const Entry& b) const { return key != b.key ? key < b.key : age > b.age; }
+    std::uint32_t element;
+    std::uint32_t generation;
   };
+  static constexpr int kPlaces = 64;
+  static constexpr int kMiddle = 32;  // place of keys from 1/2 to 1
+  struct Stacks {
+    std::array<std::vector<Entry>, kPlaces> entries;
+    std::uint64_t used = 0;  // bit i: entries[i] is not empty
+    std::size_t first = 0;   // entries[0] begins here when it is a queue
+  };
+
+  static std::size_t place_of(double key) {
+    if (!(key < 0x1p31)) return kPlaces - 1;
+    int exponent = 0;
+    std::frexp(key, &exponent);
+    return static_cast<std::size_t>(std::clamp(exponent + kMiddle, 0, kPlaces - 1));
+  }
+  static Entry pop_last(Stacks& stacks) {
+    const auto place = static_cast<std::size_t>(std::bit_width(stacks.used)) - 1;
+    std::vector<Entry>& stack = stacks.entries[place];
+    const Entry entry = stack.back();
+    stack.pop_back();
+    if (stack.empty()) stacks.used ^= std::uint64_t{1} << place;
+    return entry;
+  }
+  static Entry pop_first(Stacks& stacks) {
+    std::vector<Entry>& queue = stacks.entries[0];
+    const Entry entry = queue[stacks.first++];
+    if (2 * stacks.first >= queue.size()) {
+      queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(stacks.first));
+      stacks.first = 0;
+    }
+    if (queue.empty()) stacks.used = 0;
+    return entry;
+  }
+
   QueueOrder order_;
-  std::uint64_t next_age_ = 0;
-  std::array<std::priority_queue<Entry>, 3> heaps_;
+  std::array<Stacks, 3> stacks_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace deliso
