@@ -25,7 +25,7 @@ struct Violation {
 
 // For each kind a row of stacks, one for every power of two of the badness (or of the radius, as the order says). The
 // worst stack comes first, and of that the latest entry: it lies near the latest insertions, which the caches still
-// hold. First in, first out has one queue for each kind.
+// hold. Umbrellas, which are only good or bad, come first in, first out; so does everything in the order of that name.
 class ViolationQueue {
  public:
   explicit ViolationQueue(QueueOrder order) : order_(order) {}
@@ -33,8 +33,8 @@ class ViolationQueue {
   // `badness`: how far beyond its threshold; `radius`: size of the facet. The order decides which of them counts.
   void push(const Violation& violation, double badness, double radius) {
     Stacks& stacks = stacks_[static_cast<std::size_t>(violation.kind)];
-    const bool is_fifo = order_ == QueueOrder::kFirstInFirstOut;
-    const std::size_t place = is_fifo ? 0 : place_of(order_ == QueueOrder::kWorstFirst ? badness : radius);
+    const std::size_t place =
+        is_by_age(violation.kind) ? 0 : place_of(order_ == QueueOrder::kWorstFirst ? badness : radius);
     stacks.entries[place].push_back({violation.element, violation.generation});
     stacks.used |= std::uint64_t{1} << place;
     ++size_;
@@ -44,7 +44,8 @@ class ViolationQueue {
     for (std::size_t kind = 0; kind < stacks_.size(); ++kind) {
       if (stacks_[kind].used == 0) continue;
       --size_;
-      const Entry entry = order_ == QueueOrder::kFirstInFirstOut ? pop_first(stacks_[kind]) : pop_last(stacks_[kind]);
+      const Entry entry =
+          is_by_age(static_cast<ViolationKind>(kind)) ? pop_first(stacks_[kind]) : pop_last(stacks_[kind]);
       return Violation{static_cast<ViolationKind>(kind), entry.element, entry.generation};
     }
     return std::nullopt;
@@ -64,7 +65,11 @@ class ViolationQueue {
     std::size_t first = 0;   // entries[0] begins here when it is a queue
   };
 
+  [[nodiscard]] bool is_by_age(ViolationKind kind) const {
+    return order_ == QueueOrder::kFirstInFirstOut || kind == ViolationKind::kExtractManifold;
+  }
   static std::size_t place_of(double key) {
+    if (!(key > 0)) return 0;
     if (!(key < 0x1p31)) return kPlaces - 1;
     int exponent = 0;
     std::frexp(key, &exponent);
