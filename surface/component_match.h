@@ -19,10 +19,12 @@ struct MeshPiece {
   bool mixed = false;           // it has vertices of other components, too
 };
 
-// How a component and its main piece, the largest that lies on it, agree.
+// How a component and its main piece, the largest that lies on it, agree. kPartial is for callers that know the
+// surface; match_components never says so.
 enum class Agreement {
   kNone,        // no piece, or one of another topology
-  kMixed,       // the same (Euler characteristic, boundary loops), but vertices are mixed with another component's
+  kPartial,     // the same (Euler characteristic, boundary loops), but a part of the component lies far from it
+  kMixed,       // the same, but vertices are mixed with another component's
   kWithStrays,  // the same, and there are smaller pieces on the component beside it
   kExact,       // the same, and there is no other piece
 };

@@ -2,9 +2,12 @@
 // topology nor any dual edge tells of it.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "surface/box_tree.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/surface_mesh.h"
 #include "volume/exact_topology.h"
@@ -12,15 +15,44 @@
 
 namespace deliso {
 
-// The grid-edge crossings (places in topology.crossings, ascending) of the `wanted` components that lie farther from
-// every triangle than 0.8 mesh-space units and than 0.3 circumradii of the nearest triangle, which is more than the
-// coarse mesh of stage 1 is off a surface that it approximates.
-std::vector<std::uint32_t> uncovered_crossings(const SurfaceMesh& mesh, const ScalarGrid& grid, const Vec3& step,
-                                               const IsosurfaceTopology& topology, const std::vector<bool>& wanted);
+// The triangles of a mesh by place, for asking whether points of the surface lie near them.
+class MeshCover {
+ public:
+  // Of the triangles for which takes(t) holds; keeps a reference to the mesh.
+  template <class Takes>
+  MeshCover(const SurfaceMesh& mesh, Takes takes) : MeshCover(mesh, chosen(mesh, takes)) {}
 
-// Inserts uncovered crossings into the triangulation, unless one of its vertices is nearer than `min_distance`. Returns
-// how many went in; stage 1 has to go on then.
+  // Whether p lies within 0.8 mesh-space units of some triangle, or within `radius_fraction` circumradii of the nearest
+  // one: a coarse triangle may well be that far off the surface that it approximates.
+  [[nodiscard]] bool covers(const Vec3& p, double radius_fraction);
+
+ private:
+  MeshCover(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles);
+  template <class Takes>
+  static std::vector<std::uint32_t> chosen(const SurfaceMesh& mesh, Takes takes) {
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (takes(t)) triangles.push_back(t);
+    }
+    return triangles;
+  }
+  [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t place) const;
+
+  const SurfaceMesh& mesh_;
+  std::vector<std::uint32_t> triangles_;
+  BoxTree tree_;
+  std::array<std::uint32_t, 4> recent_{};  // places that covered recent points: good guesses for the next
+  std::size_t turn_ = 0;
+};
+
+// Inserts grid-edge crossings that the mesh of the triangulation does not cover (with 0.3 circumradii), unless a vertex
+// is nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that
+// are not covered stay in it. Returns how many went in; stage 1 has to go on then.
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
-                              const IsosurfaceTopology& topology, double min_distance);
+                              const IsosurfaceTopology& topology, double min_distance,
+                              std::vector<std::uint32_t>& suspects);
+
+// All crossings, in an order that keeps neighbours together.
+std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology);
 
 }  // namespace deliso

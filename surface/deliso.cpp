@@ -147,8 +147,9 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     recover(*restricted, stage1, controls, result.recover);
     if (!needs_topology) return;
     // Fingers of the surface that hide within a Voronoi cell.
+    std::vector<std::uint32_t> suspects = all_crossings(grid, topology);
     for (int i = 0; i < kCoverageRounds; ++i) {
-      const std::int64_t inserted = insert_uncovered(*restricted, grid, topology, lengths.size_bound);
+      const std::int64_t inserted = insert_uncovered(*restricted, grid, topology, lengths.size_bound, suspects);
       if (inserted == 0) break;
       result.recover.insertions += inserted;
       result.recover.uncovered += inserted;

@@ -38,12 +38,14 @@ void link_sides(SurfaceMesh& mesh) {
 
 }  // namespace
 
-SurfaceMesh polygonized_components(const ScalarGrid& grid, const Isosurface& isosurface,
-                                   const IsosurfaceTopology& topology, const std::vector<bool>& done) {
+PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
+                                       const IsosurfaceTopology& topology) {
   const MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue());
+  PolygonizedSurface surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
-  std::vector<std::uint32_t> component(cubes.points.size(), kNoSide);
+  std::vector<std::uint32_t>& component = surface.component;
+  component.assign(cubes.points.size(), kNoSide);
   for (std::size_t v = 0; v < cubes.crossing_count; ++v) component[v] = topology.crossings[v].component;
   for (bool changed = true; changed;) {
     changed = false;
@@ -58,23 +60,18 @@ SurfaceMesh polygonized_components(const ScalarGrid& grid, const Isosurface& iso
     }
   }
 
-  SurfaceMesh mesh;
-  std::vector<std::uint32_t> new_vertex(cubes.points.size(), kNoSide);
   const Vec3& step = isosurface.step();
+  surface.mesh.points.reserve(cubes.points.size());
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
-    if (component[v] == kNoSide || done[component[v]]) continue;
-    new_vertex[v] = static_cast<std::uint32_t>(mesh.points.size());
     Vec3 p = cubes.points[v] - grid.origin();
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
     if (v < cubes.crossing_count) p = scaled(crossing_position(grid, topology.crossings[v]), step);
-    mesh.points.push_back(p);
-    mesh.pole_heights.push_back(1);
+    surface.mesh.points.push_back(p);
   }
-  for (const auto& v : cubes.triangles) {
-    if (new_vertex[v[0]] != kNoSide) mesh.triangles.push_back({new_vertex[v[0]], new_vertex[v[1]], new_vertex[v[2]]});
-  }
-  link_sides(mesh);
-  return mesh;
+  surface.mesh.pole_heights.assign(cubes.points.size(), 1);
+  surface.mesh.triangles.assign(cubes.triangles.begin(), cubes.triangles.end());
+  link_sides(surface.mesh);
+  return surface;
 }
 
 }  // namespace deliso

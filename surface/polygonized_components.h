@@ -1,6 +1,7 @@
-// The last resort of repair: components taken from marching cubes, whose topology is exact.
+// The surface by marching cubes, whose topology is exact: what repair compares its meshes with, and its last resort.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -10,8 +11,12 @@
 
 namespace deliso {
 
-// The marching-cubes mesh, in mesh space, of the components that `done` leaves out. Pole heights are one voxel.
-SurfaceMesh polygonized_components(const ScalarGrid& grid, const Isosurface& isosurface,
-                                   const IsosurfaceTopology& topology, const std::vector<bool>& done);
+// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
+struct PolygonizedSurface {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> component;
+};
+PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
+                                       const IsosurfaceTopology& topology);
 
 }  // namespace deliso

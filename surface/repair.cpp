@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
+#include "surface/coverage.h"
 #include "surface/founded_signs.h"
 #include "surface/poles.h"
 #include "surface/polygonized_components.h"
 #include "surface/raised_cells.h"
 #include "surface/sample_lattice.h"
 #include "surface/sign_rules.h"
+#include "surface/sweep_difference.h"
 #include "surface/trouble.h"
 
 namespace deliso {
@@ -21,7 +25,12 @@ namespace deliso {
 namespace {
 
 // After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
-constexpr std::int32_t kMixedPatience = 3;
+constexpr std::int32_t kMixedPatience = 8;
+// A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
+constexpr double kMissingRadii = 0.5;
+// After so many rounds sweeps look for the differences, and what they find counts unless it is more than kMostPlaces.
+constexpr std::int32_t kSeenSigns = 1;
+constexpr std::size_t kMostPlaces = 512;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -53,6 +62,10 @@ class Repair {
   bool try_rule(SignRule rule);
   void try_rules();
   MatchedMesh assemble();
+  void find_missing_parts(MatchedMesh& mesh);
+  [[nodiscard]] std::uint32_t component_at(const Vec3& p) const;
+  std::vector<Places> places_of_difference(std::int32_t round);
+  const PolygonizedSurface& polygonized();
   void keep(const MatchedMesh& mesh);
   void accept_mixed();
   SurfaceMesh assemble_kept();
@@ -68,10 +81,11 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::vector<Sample> samples_;
-  MatchedMesh mesh_;                  // the latest
-  std::vector<bool> done_;            // of each exact component: needs no more work
-  std::vector<Agreement> best_;       // of each: kNone, kMixed or kWithStrays, reached by some mesh in history_
-  std::vector<MatchedMesh> history_;  // meshes that brought a component further
+  MatchedMesh mesh_;             // the latest
+  std::vector<bool> done_;       // of each exact component: needs no more work
+  std::vector<Agreement> best_;  // of each: the best, kWithStrays at most, reached by some mesh in history_
+  std::optional<PolygonizedSurface> polygonized_;  // made when first needed
+  std::vector<MatchedMesh> history_;               // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -84,7 +98,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep(mesh_);
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
-    raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_));
+    raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_, places_of_difference(round)));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -159,15 +173,64 @@ void Repair::try_rules() {
 MatchedMesh Repair::assemble() {
   MatchedMesh mesh{build_triangle_mesh(*restricted_), {}, {}};
   const std::vector<double> heights = compute_poles(*restricted_);
-  const Vec3& step = isosurface_.step();
   for (const VertexId v : mesh.built.vertex_of) {
     mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
-    const Vec3& p = restricted_->delaunay().point(v);
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    mesh.component.push_back(component_of(grid_, isosurface_.isovalue(), topology_, index_point).value_or(0));
+    mesh.component.push_back(component_at(restricted_->delaunay().point(v)));
   }
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
+  find_missing_parts(mesh);
   return mesh;
+}
+
+std::uint32_t Repair::component_at(const Vec3& p) const {
+  const Vec3& step = isosurface_.step();
+  const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+  return component_of(grid_, isosurface_.isovalue(), topology_, index_point).value_or(0);
+}
+
+// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
+// tell: each must have one of their triangles near.
+void Repair::find_missing_parts(MatchedMesh& mesh) {
+  ComponentMatch& match = mesh.match;
+  const auto on_main_piece = [&](std::uint32_t v) {
+    const std::uint32_t piece = match.piece_of[v];
+    return piece != kNoPiece && match.main_piece[match.pieces[piece].component] == piece;
+  };
+  std::vector<bool> used(restricted_->delaunay().vertex_count(), false);
+  for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
+    if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
+  }
+  MeshCover cover(mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
+    const Vec3& p = restricted_->delaunay().point(VertexId(i));
+    Agreement& agreement = match.agreement[component_at(p)];
+    if (agreement <= Agreement::kPartial || cover.covers(p, kMissingRadii)) continue;
+    agreement = Agreement::kPartial;
+    ++match.error;
+  }
+}
+
+// Where sweeps along the axes see main pieces part from their components; nothing in the first rounds, when other signs
+// tell more.
+std::vector<Places> Repair::places_of_difference(std::int32_t round) {
+  std::vector<Places> places(done_.size());
+  const ComponentMatch& match = mesh_.match;
+  for (std::uint32_t c = 0; c < done_.size() && round > kSeenSigns; ++c) {
+    const std::uint32_t main = match.main_piece[c];
+    if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
+    auto& layers = places[c].layers;
+    layers = jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
+                           {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
+                           isosurface_.step(), grid_.dims());
+    if (places[c].count() > kMostPlaces) places[c] = {};
+  }
+  return places;
+}
+
+const PolygonizedSurface& Repair::polygonized() {
+  if (!polygonized_) polygonized_ = polygonized_surface(grid_, isosurface_, topology_);
+  return *polygonized_;
 }
 
 // Keeps a mesh when some component agrees with it that agreed with no earlier one.
@@ -197,6 +260,7 @@ SurfaceMesh Repair::assemble_kept() {
     for (std::size_t c = 0; c < done_.size(); ++c) {
       if (taken[c] || best_[c] == Agreement::kNone || match.agreement[c] < best_[c]) continue;
       taken[c] = wanted[match.main_piece[c]] = true;
+      stats_.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
@@ -204,8 +268,8 @@ SurfaceMesh Repair::assemble_kept() {
   }
   stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
   if (stats_.components_polygonized > 0) {
-    const SurfaceMesh polygonized = polygonized_components(grid_, isosurface_, topology_, taken);
-    append_pieces(polygonized, std::vector<std::uint32_t>(polygonized.points.size(), 0), {true}, kept);
+    taken.flip();
+    append_pieces(polygonized().mesh, polygonized().component, taken, kept);
   }
   return kept;
 }

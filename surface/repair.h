@@ -23,6 +23,7 @@ struct RepairStats : StageStats {
   std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
   std::int64_t components_mixed = 0;        // done with a piece that holds vertices of another component
   std::int64_t components_stray = 0;        // done after stray pieces were dropped
+  std::int64_t components_partial = 0;      // right in topology, though a part of the surface is far from the piece
   std::int64_t components_polygonized = 0;  // taken from marching cubes at last
   std::int64_t vertices_before = 0;         // of the mesh of stage 1
   std::int64_t vertices_after = 0;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "volume/critical_points.h"
+#include "surface/evidence.h"
 
 namespace deliso {
 
@@ -20,24 +20,30 @@ struct Shape {
   bool is_small = false;
 };
 
+// Of a ghost behind a facet on the box: that of the facet, for there the surface's boundary curve is decided.
 Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   const auto& v = delaunay.vertices(t);
-  if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); })) return {};
+  const bool is_ghost = delaunay.is_ghost(t);
+  const unsigned corners = is_ghost ? 3 : 4;
   Vec3 sum;
   double longest = 0;
-  for (unsigned a = 0; a < 4; ++a) {
+  for (unsigned a = 0; a < corners; ++a) {
+    if (restricted.is_virtual(v[a]) || (is_ghost && !restricted.is_on_box(v[a]))) return {};
     sum += delaunay.point(v[a]);
     for (unsigned b = 0; b < a; ++b) {
       longest = std::max(longest, squared_distance(delaunay.point(v[a]), delaunay.point(v[b])));
     }
   }
-  return {sum / 4, longest <= kLongEdge * kLongEdge};
+  const Vec3 centroid = sum / corners;
+  if (is_ghost && !SignedDelaunay::on_box(restricted.isosurface().box(), centroid)) return {};
+  return {centroid, longest <= kLongEdge * kLongEdge};
 }
 
 bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3& centroid) {
   std::array<Vec3, 4> gradient;
-  for (unsigned a = 0; a < 4; ++a) {
+  const unsigned corners = restricted.delaunay().is_ghost(t) ? 3 : 4;
+  for (unsigned a = 0; a < corners; ++a) {
     const Vec3& p = restricted.delaunay().point(restricted.delaunay().vertices(t)[a]);
     gradient[a] = restricted.isosurface().gradient(p + kInwards * (centroid - p));
     for (unsigned b = 0; b < a; ++b) {
@@ -47,21 +53,13 @@ bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3
   return false;
 }
 
-void take_signs_from_critical_points(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised) {
-  const Isosurface& isosurface = restricted.isosurface();
-  std::vector<CriticalPoint> critical;
-  TetId hint = restricted.delaunay().incident_tet(VertexId(std::size_t{0}));
-  for (const auto& [name, level] : raised.levels()) {
-    const CellIndex cell = raised.cell(name);
-    critical.clear();
-    append_critical_points(grid.cell(cell[0], cell[1], cell[2]), critical);
-    for (const CriticalPoint& c : critical) {
-      const Vec3 index_point{cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z};
-      hint = restricted.locate(scaled(index_point, isosurface.step()), hint);
-      if (restricted.delaunay().is_ghost(hint) || c.value == isosurface.isovalue()) continue;
-      if (restricted.is_above(hint) == (c.value > isosurface.isovalue())) continue;
-      if (shape_of(restricted, hint).is_small) restricted.overturn_sign(hint);
-    }
+// Evidence overrules: a small tetrahedron that segments of one side alone cross takes that side.
+void take_signs_from_evidence(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised) {
+  const std::vector<std::uint8_t> evidence = evidence_in(restricted, grid, raised);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    if (evidence[i] != kAbove && evidence[i] != kBelow) continue;
+    if (restricted.is_above(TetId(i)) == (evidence[i] == kAbove)) continue;
+    if (shape_of(restricted, TetId(i)).is_small) restricted.overturn_sign(TetId(i));
   }
 }
 
@@ -83,7 +81,7 @@ void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const Raised
     if (rule == SignRule::kCentroidWhereOpposed && !has_opposed_gradients(restricted, t, shape.centroid)) continue;
     restricted.take_sign_at(t, shape.centroid);
   }
-  take_signs_from_critical_points(restricted, grid, raised);
+  take_signs_from_evidence(restricted, grid, raised);
 }
 
 }  // namespace deliso

@@ -1,25 +1,49 @@
 #include "surface/trouble.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "surface/evidence.h"
 #include "volume/critical_points.h"
 
 namespace deliso {
 
+bool Places::near(const CellIndex& cell, std::int32_t reach) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::none_of(layers[axis].begin(), layers[axis].end(),
+                     [&](std::int32_t layer) { return std::abs(cell[axis] - layer) <= reach; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
 namespace {
+
+// How many layers from a place trouble is looked for, and how many all active cells are taken.
+constexpr std::int32_t kNear = 6;
+constexpr std::int32_t kVeryNear = 3;
+constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where jumps along the axes cross by chance
 
 class TroubleFinder {
  public:
   TroubleFinder(const ScalarGrid& grid, const IsosurfaceTopology& topology, const SignedDelaunay& restricted,
-                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done)
+                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done,
+                const std::vector<Places>& places)
       : grid_(grid),
         topology_(topology),
         restricted_(restricted),
         mesh_(mesh),
         cells_(cells),
         done_(done),
+        places_(places),
         has_sign_(done.size(), false) {}
 
   std::vector<CellName> find() {
+    flag_places();
     flag_mesh();
+    flag_conflicts();
     flag_unused_vertices();
     flag_critical_points();
     flag_silent_components();
@@ -27,15 +51,28 @@ class TroubleFinder {
   }
 
  private:
+  void flag_places();
   void flag_mesh();
+  void flag_conflicts();
   void flag_unused_vertices();
   void flag_critical_points();
   void flag_silent_components();
-  [[nodiscard]] std::uint32_t component_in(const CellIndex& cell) const;
+  [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
+  [[nodiscard]] std::optional<std::uint32_t> component_at(const Vec3& p) const {
+    const Vec3& step = restricted_.isosurface().step();
+    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+    return component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
+  }
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
-  void flag(const Vec3& p, std::uint32_t component) {
+  // What a sign of trouble tells of: of a component whose piece has the right topology only some signs matter.
+  enum class Tells { kTopology, kMissingPart, kMixing };
+  void flag(const Vec3& p, std::uint32_t component, Tells tells) {
     if (done_[component]) return;
+    const Agreement agreement = mesh_.match.agreement[component];
+    if (agreement == Agreement::kMixed && tells != Tells::kMixing) return;
+    if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return;
+    if (!places_[component].empty() && !places_[component].near(cells_.cell_of(p), kNear)) return;
     has_sign_[component] = true;
     cells_.append_cells_of(p, found_);
   }
@@ -46,37 +83,63 @@ class TroubleFinder {
   const MatchedMesh& mesh_;
   const RaisedCells& cells_;
   const std::vector<bool>& done_;
-  std::vector<bool> has_sign_;  // of each exact component
+  const std::vector<Places>& places_;  // of each exact component
+  std::vector<bool> has_sign_;         // of each exact component
   std::vector<CellName> found_;
 };
+
+void TroubleFinder::flag_places() {
+  for (std::uint32_t c = 0; c < places_.size(); ++c) {
+    if (done_[c] || places_[c].empty()) continue;
+    topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+      if (places_[c].count() <= kFewPlaces && places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
+    });
+  }
+}
 
 // Split vertices, triangles between components, and strays.
 void TroubleFinder::flag_mesh() {
   const SurfaceMesh& surface = mesh_.built.mesh;
   const ComponentMatch& match = mesh_.match;
-  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v]);
+  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v], Tells::kTopology);
   for (const auto& v : surface.triangles) {
     const std::uint32_t piece = match.piece_of[v[0]];
     const bool is_stray = match.main_piece[match.pieces[piece].component] != piece;
     const bool is_between =
         mesh_.component[v[0]] != mesh_.component[v[1]] || mesh_.component[v[0]] != mesh_.component[v[2]];
     if (!is_stray && !is_between) continue;
-    flag((surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3, mesh_.component[v[0]]);
-    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q]);
+    const Tells tells = is_between ? Tells::kMixing : Tells::kMissingPart;
+    const Vec3 centroid = (surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3;
+    flag(centroid, mesh_.component[v[0]], tells);
+    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q], tells);
+  }
+}
+
+// Tetrahedra that reach from one side of the isovalue to the other.
+void TroubleFinder::flag_conflicts() {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  const std::vector<std::uint8_t> evidence = evidence_in(restricted_, grid_, cells_);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    if (evidence[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
+    const auto& v = delaunay.vertices(TetId(i));
+    for (unsigned a = 0; a < 4; ++a) {
+      for (unsigned b = 0; b <= a; ++b) {
+        if (restricted_.is_virtual(v[a]) || restricted_.is_virtual(v[b])) continue;
+        const auto component = component_at(delaunay.point(v[a]));
+        if (component) flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), *component, Tells::kTopology);
+      }
+    }
   }
 }
 
 void TroubleFinder::flag_unused_vertices() {
   const Tetrahedralization& delaunay = restricted_.delaunay();
-  const Vec3& step = restricted_.isosurface().step();
   std::vector<bool> used(delaunay.vertex_count(), false);
   for (const VertexId v : mesh_.built.vertex_of) used[v.index()] = true;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
     const Vec3& p = delaunay.point(VertexId(i));
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    const auto component = component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
-    if (component) flag(p, *component);
+    if (const auto component = component_at(p)) flag(p, *component, Tells::kMissingPart);
   }
 }
 
@@ -84,18 +147,29 @@ void TroubleFinder::flag_unused_vertices() {
 // way.
 void TroubleFinder::flag_critical_points() {
   const double isovalue = restricted_.isosurface().isovalue();
-  std::vector<CriticalPoint> critical;
+  std::vector<CriticalPoint> saddles;
   TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+  const auto check = [&](const CellIndex& cell, const Vec3& uvw, bool above, std::uint32_t component) {
+    const Vec3 p = to_mesh_space({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z});
+    hint = restricted_.locate(p, hint);
+    if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
+  };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-    critical.clear();
-    append_critical_points(grid_.cell(cell[0], cell[1], cell[2]), critical);
-    if (critical.empty()) return;
-    const std::uint32_t component = component_in(cell);
-    if (done_[component]) return;
-    for (const CriticalPoint& c : critical) {
-      const Vec3 p = to_mesh_space({cell[0] + c.uvw.x, cell[1] + c.uvw.y, cell[2] + c.uvw.z});
-      hint = restricted_.locate(p, hint);
-      if (c.value != isovalue && restricted_.is_above(hint) != (c.value > isovalue)) flag(p, component);
+    const auto component = open_component_in(cell);
+    if (!component) return;
+    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+    saddles.clear();
+    append_critical_points(corners, saddles);
+    for (const CriticalPoint& saddle : saddles) {
+      const int side = side_of_saddle(corners, isovalue, saddle);
+      if (side != 0) check(cell, saddle.uvw, side > 0, *component);
+    }
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const CellIndex offset{static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1),
+                             static_cast<int>(corner >> 2)};
+      if (!is_critical_sample(grid_, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]})) continue;
+      const Vec3 uvw{static_cast<double>(offset[0]), static_cast<double>(offset[1]), static_cast<double>(offset[2])};
+      check(cell, uvw, corners[corner] > isovalue, *component);
     }
   });
 }
@@ -103,33 +177,37 @@ void TroubleFinder::flag_critical_points() {
 void TroubleFinder::flag_silent_components() {
   const std::vector<bool> had_sign = has_sign_;
   for (const SurfaceSaddle& saddle : topology_.saddles) {
-    if (!had_sign[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component);
+    if (!had_sign[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component, Tells::kTopology);
   }
   const std::vector<bool> had_saddle = has_sign_;
   for (const EdgeCrossing& crossing : topology_.crossings) {
-    if (!had_saddle[crossing.component]) flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component);
+    if (!had_saddle[crossing.component])
+      flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component, Tells::kTopology);
   }
 }
 
-// The exact component of some crossing on the edges of an active cell.
-std::uint32_t TroubleFinder::component_in(const CellIndex& cell) const {
+// A component with a crossing on the edges of an active cell that is not done.
+std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& cell) const {
   for (std::int32_t edge = 0; edge < 12; ++edge) {
     const auto axis = static_cast<std::size_t>(edge / 4);
     CellIndex sample = cell;
     sample[(axis + 1) % 3] += edge & 1;
     sample[(axis + 2) % 3] += edge >> 1 & 1;
     const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
-    if (crossing != CrossingIndex::kNone) return topology_.crossings[crossing].component;
+    if (crossing == CrossingIndex::kNone) continue;
+    const std::uint32_t component = topology_.crossings[crossing].component;
+    if (!done_[component]) return component;
   }
-  return 0;
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                                        const SignedDelaunay& restricted, const MatchedMesh& mesh,
-                                       const RaisedCells& cells, const std::vector<bool>& done) {
-  return TroubleFinder(grid, topology, restricted, mesh, cells, done).find();
+                                       const RaisedCells& cells, const std::vector<bool>& done,
+                                       const std::vector<Places>& places) {
+  return TroubleFinder(grid, topology, restricted, mesh, cells, done, places).find();
 }
 
 }  // namespace deliso

@@ -1,6 +1,8 @@
 // Where a mesh differs from the isosurface, as far as signs of it can be seen.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "surface/build_triangle_mesh.h"
@@ -18,13 +20,25 @@ struct MatchedMesh {
   ComponentMatch match;
 };
 
+// Where sweeps see a component and its main piece part: along each axis the layers near which they do. Empty when there
+// is no telling.
+struct Places {
+  std::array<std::vector<std::int32_t>, 3> layers;
+
+  [[nodiscard]] std::size_t count() const { return layers[0].size() * layers[1].size() * layers[2].size(); }
+  [[nodiscard]] bool empty() const { return count() == 0; }
+  [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const;
+};
+
 // The voxel cells near the trouble of the components that `done` leaves out; may repeat cells. Signs of trouble:
 // vertices that had to be split; triangles between two components; pieces beside the main piece of their component;
 // vertices of the triangulation that no triangle uses; critical points of the
 // interpolant in tetrahedra of the other sign. For a component without any such sign its saddles are taken, and when
-// there are none all its crossings.
+// there are none all its crossings. Of a component with known `places` only cells near them are taken, and all active
+// ones very near.
 std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
                                        const SignedDelaunay& restricted, const MatchedMesh& mesh,
-                                       const RaisedCells& cells, const std::vector<bool>& done);
+                                       const RaisedCells& cells, const std::vector<bool>& done,
+                                       const std::vector<Places>& places);
 
 }  // namespace deliso

@@ -1,0 +1,131 @@
+#include "surface/evidence.h"
+
+#include <array>
+#include <cmath>
+
+#include "delaunay/predicates.h"
+#include "volume/critical_points.h"
+#include "volume/exact_topology_cell.h"
+
+namespace deliso {
+
+namespace {
+
+// Segments are followed down to this length (mesh-space units); shorter passages through a tetrahedron may be missed.
+constexpr double kShortest = 1.0 / 64;
+
+class Collector {
+ public:
+  Collector(const SignedDelaunay& restricted, const ScalarGrid& grid)
+      : restricted_(restricted),
+        delaunay_(restricted.delaunay()),
+        grid_(grid),
+        sides_(delaunay_.tet_slots(), kNoEvidence),
+        hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
+
+  void collect(const CellIndex& cell);
+  std::vector<std::uint8_t> take() { return std::move(sides_); }
+
+ private:
+  void collect_edges(const CellIndex& cell, const CellCorners& corners);
+  void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
+  void follow(const Vec3& a, const Vec3& b, std::uint8_t side);
+  void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
+  TetId note(const Vec3& p, std::uint8_t side);
+  [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
+    return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
+  }
+  [[nodiscard]] std::uint8_t side_of(double value) const {
+    return value > restricted_.isosurface().isovalue() ? kAbove : kBelow;
+  }
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+  const ScalarGrid& grid_;
+  std::vector<std::uint8_t> sides_;
+  TetId hint_;
+  std::vector<CriticalPoint> critical_;
+};
+
+Vec3 corner_place(unsigned corner) {
+  return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
+}
+
+void Collector::collect(const CellIndex& cell) {
+  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+  collect_edges(cell, corners);
+  collect_critical_points(cell, corners);
+}
+
+void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    for (unsigned axis = 1; axis <= 4; axis *= 2) {
+      if ((corner & axis) != 0) continue;
+      const std::uint8_t side = side_of(corners[corner]);
+      if (side != side_of(corners[corner | axis])) continue;
+      follow(place(cell, corner_place(corner)), place(cell, corner_place(corner | axis)), side);
+    }
+  }
+}
+
+// Saddles of faces, joined to the corners of their face that lie farther on their side; saddles of the body alone.
+void Collector::collect_critical_points(const CellIndex& cell, const CellCorners& corners) {
+  critical_.clear();
+  append_critical_points(corners, critical_);
+  for (const CriticalPoint& c : critical_) {
+    const int known = side_of_saddle(corners, restricted_.isosurface().isovalue(), c);
+    if (known == 0) continue;
+    const std::uint8_t side = known > 0 ? kAbove : kBelow;
+    const Vec3 p = place(cell, c.uvw);
+    note(p, side);
+    if (c.face < 0) continue;
+    for (const int corner : face_corners(c.face)) {
+      const double value = corners[static_cast<std::size_t>(corner)];
+      if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
+        follow(p, place(cell, corner_place(static_cast<unsigned>(corner))), side);
+      }
+    }
+  }
+}
+
+void Collector::follow(const Vec3& a, const Vec3& b, std::uint8_t side) {
+  const TetId at_a = note(a, side);
+  follow(a, at_a, b, note(b, side), side);
+}
+
+// Halves the segment until both ends lie in one tetrahedron.
+void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
+  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest) return;
+  const Vec3 middle = 0.5 * (a + b);
+  const TetId at_middle = note(middle, side);
+  follow(a, at_a, middle, at_middle, side);
+  follow(middle, at_middle, b, at_b, side);
+}
+
+// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on.
+TetId Collector::note(const Vec3& p, std::uint8_t side) {
+  hint_ = restricted_.locate(p, hint_);
+  sides_[hint_.index()] |= side;
+  if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return hint_;
+  const auto& v = delaunay_.vertices(hint_);
+  for (unsigned face = 0; face < 4; ++face) {
+    const TetId across = delaunay_.neighbour(hint_, face);
+    if (delaunay_.is_ghost(across) == delaunay_.is_ghost(hint_)) continue;
+    const auto& slots = kFacetSlots[face];
+    if (orient3d(delaunay_.point(v[slots[0]]), delaunay_.point(v[slots[1]]), delaunay_.point(v[slots[2]]), p) == 0) {
+      sides_[across.index()] |= side;
+    }
+  }
+  return hint_;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
+                                      const RaisedCells& raised) {
+  Collector collector(restricted, grid);
+  for (const auto& [name, level] : raised.levels()) collector.collect(raised.cell(name));
+  return collector.take();
+}
+
+}  // namespace deliso
