@@ -17,6 +17,8 @@ namespace deliso {
 
 class EmptyBricks {
  public:
+  static constexpr int kFarthest = 12;  // bricks; greater distances count as this one
+
   // `active` has been made for this grid and isovalue.
   EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, double isovalue);
 
@@ -38,7 +40,6 @@ class EmptyBricks {
 
  private:
   static constexpr unsigned kShift = 2;  // cells per side of a brick, as a power of two
-  static constexpr int kFarthest = 24;   // greater distances count as this one
 
   // The first cell of a brick along an axis.
   static std::int32_t brick_cell(std::size_t brick) { return static_cast<std::int32_t>(brick << kShift); }

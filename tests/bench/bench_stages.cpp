@@ -52,7 +52,6 @@ struct Run {
   double index = 0;
   double initial = 0;
   double stage1 = 0;
-  double restricted = 0;  // of stage1
   double build = 0;
   double stage2 = 0;
   RecoverStats recover;
@@ -93,12 +92,10 @@ Run run_once(const ScalarGrid& grid, double given_isovalue) {
   RecoverOptions stage1;
   stage1.geometry.r_min = r_min;
   stage1.size_bound = std::max(r_min, 0.3);
-  const double restricted_before = restricted->restricted_seconds();
   Controls controls({}, nullptr, {});
   laps.lap();
   recover(*restricted, stage1, controls, run.recover);
   run.stage1 = laps.lap();
-  run.restricted = restricted->restricted_seconds() - restricted_before;
 
   const std::vector<double> heights = compute_poles(*restricted);
   BuiltMesh built = build_triangle_mesh(*restricted);
@@ -138,8 +135,7 @@ void bench(const std::string& name, const ScalarGrid& grid, double isovalue, int
   std::cout << "volume=" << name << " topology=" << median(runs, &Run::topology)
             << " index=" << median(runs, &Run::index) << " initial=" << median(runs, &Run::initial)
             << " stage1=" << stage1 << " insertions1=" << one.recover.insertions
-            << " us_per_insertion1=" << 1e6 * stage1 / insertions1
-            << " restricted_share=" << median(runs, &Run::restricted) / stage1 << " build=" << median(runs, &Run::build)
+            << " us_per_insertion1=" << 1e6 * stage1 / insertions1 << " build=" << median(runs, &Run::build)
             << " stage2=" << stage2 << " insertions2=" << one.refine.insertions
             << " us_per_insertion2=" << 1e6 * stage2 / insertions2 << " vertices=" << one.vertices << std::hex
             << " hash1=" << one.hash1 << " hash2=" << one.hash2 << std::dec << std::endl;

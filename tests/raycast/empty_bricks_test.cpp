@@ -69,7 +69,7 @@ TEST(EmptyBricks, ClearanceIsTheDistanceToTheNearestActiveBrick) {
     Rng rng(4);
     for (int trial = 0; trial < 300; ++trial) {
       const Cell cell = random_cell(grid.dims(), rng);
-      std::int32_t nearest = 24;  // greater ones count as this
+      std::int32_t nearest = EmptyBricks::kFarthest;
       for (const Cell& other : active_cells) nearest = std::min(nearest, brick_distance(cell, other));
       ASSERT_EQ(std::abs(bricks.clearance(cell)), nearest) << cell[0] << " " << cell[1] << " " << cell[2];
     }
