@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/base/vec3.h"
-#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "raycast/cell_walk.h"
 #include "volume/scalar_grid.h"
 
@@ -37,7 +38,7 @@ class ActiveCells {
   }
 
   std::array<std::vector<std::size_t>, 3> places_;
-  std::vector<std::uint64_t> words_;
+  LargeArray<std::uint64_t> words_;
 };
 
 }  // namespace deliso

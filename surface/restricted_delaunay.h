@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "delaunay/base/counters.h"
+#include "delaunay/base/huge_pages.h"
 #include "surface/signed_delaunay.h"
 #include "surface/umbrella.h"
 
@@ -91,11 +92,11 @@ class RestrictedDelaunay : public SignedDelaunay {
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
-  std::vector<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
-  std::vector<std::uint32_t> touched_stamp_;        // of each vertex: the insertion that touched it last
+  LargeArray<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
+  std::vector<std::uint32_t> touched_stamp_;       // of each vertex: the insertion that touched it last
   std::uint32_t stamp_ = 0;
   // Of each tetrahedron: its position in the conflict region or, later, in created(); right only if that agrees.
-  std::vector<std::uint32_t> position_;
+  LargeArray<std::uint32_t> position_;
   std::vector<DualEnd> dual_ends_;  // of created()
   // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
   struct Umbrella {
@@ -104,7 +105,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   };
   std::vector<Umbrella> umbrellas_;
 
-  std::vector<DualEdge> dual_edges_;
+  LargeArray<DualEdge> dual_edges_;
   std::vector<DualEdgeId> free_edges_;
   std::vector<DualEdgeId> touched_edges_;
   std::vector<VertexId> touched_vertices_;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/bowyer_watson.h"
 #include "raycast/isosurface.h"
 
@@ -58,7 +59,7 @@ class SignedDelaunay {
 
   const Isosurface& isosurface_;
   BowyerWatson delaunay_;
-  std::vector<Sign> sign_;  // of each tetrahedron
+  LargeArray<Sign> sign_;  // of each tetrahedron
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };
