@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "delaunay/base/vec3.h"
 #include "surface/parameters.h"
 
 namespace deliso {
@@ -23,30 +24,37 @@ struct Violation {
   std::uint32_t generation = 0;  // of the dual edge when it was queued
 };
 
-// For each kind a row of stacks, one for every power of two of the badness (or of the radius, as the order says). The
-// worst stack comes first, and of that the latest entry: it lies near the latest insertions, which the caches still
-// hold. Umbrellas, which are only good or bad, come first in, first out; so does everything in the order of that name.
+// The worst or the largest first; ApproximateGeom, which makes most of the insertions, block by block of 32 voxels'
+// side in the order of a space-filling curve (Morton), and within a block in that order: so insertions that follow each
+// other find their surroundings in the caches. Umbrellas, which are only good or bad, come first in, first out; so does
+// everything in the order of that name.
 class ViolationQueue {
  public:
   explicit ViolationQueue(QueueOrder order) : order_(order) {}
 
-  // `badness`: how far beyond its threshold; `radius`: size of the facet. The order decides which of them counts.
-  void push(const Violation& violation, double badness, double radius) {
-    Stacks& stacks = stacks_[static_cast<std::size_t>(violation.kind)];
-    const std::size_t place =
-        is_by_age(violation.kind) ? 0 : place_of(order_ == QueueOrder::kWorstFirst ? badness : radius);
-    stacks.entries[place].push_back({violation.element, violation.generation});
-    stacks.used |= std::uint64_t{1} << place;
+  // `badness`: how far beyond its threshold; `radius`: size of the facet: the order decides which of them counts.
+  // `where`: a point nearby, in mesh space.
+  void push(const Violation& violation, double badness, double radius, const Vec3& where) {
+    std::vector<Entry>& entries = entries_[static_cast<std::size_t>(violation.kind)];
     ++size_;
+    if (is_by_age(violation.kind)) {
+      entries.push_back({0, violation.element, violation.generation});
+      return;
+    }
+    const double key = order_ == QueueOrder::kWorstFirst ? badness : radius;
+    const std::uint64_t block = violation.kind == ViolationKind::kApproximateGeometry ? block_of(where) : 0;
+    entries.push_back({(block << 32) | rank_of(key), violation.element, violation.generation});
+    std::push_heap(entries.begin(), entries.end());
   }
 
   std::optional<Violation> pop() {
-    for (std::size_t kind = 0; kind < stacks_.size(); ++kind) {
-      if (stacks_[kind].used == 0) continue;
+    for (const ViolationKind kind :
+         {ViolationKind::kMultiIntersect, ViolationKind::kExtractManifold, ViolationKind::kApproximateGeometry}) {
+      const auto i = static_cast<std::size_t>(kind);
+      if (entries_[i].empty()) continue;
       --size_;
-      const Entry entry =
-          is_by_age(static_cast<ViolationKind>(kind)) ? pop_first(stacks_[kind]) : pop_last(stacks_[kind]);
-      return Violation{static_cast<ViolationKind>(kind), entry.element, entry.generation};
+      const Entry entry = is_by_age(kind) ? pop_oldest(entries_[i], first_[i]) : pop_greatest(entries_[i]);
+      return Violation{kind, entry.element, entry.generation};
     }
     return std::nullopt;
   }
@@ -54,48 +62,53 @@ class ViolationQueue {
 
  private:
   struct Entry {
+    std::uint64_t rank;  // block, then badness or radius
     std::uint32_t element;
     std::uint32_t generation;
-  };
-  static constexpr int kPlaces = 64;
-  static constexpr int kMiddle = 32;  // place of keys from 1/2 to 1
-  struct Stacks {
-    std::array<std::vector<Entry>, kPlaces> entries;
-    std::uint64_t used = 0;  // bit i: entries[i] is not empty
-    std::size_t first = 0;   // entries[0] begins here when it is a queue
+    // The standard heap pops the greatest. A total order, so that every library pops the same.
+    bool operator<(const Entry& b) const {
+      if (rank != b.rank) return rank < b.rank;
+      return element != b.element ? element > b.element : generation < b.generation;
+    }
   };
 
   [[nodiscard]] bool is_by_age(ViolationKind kind) const {
     return order_ == QueueOrder::kFirstInFirstOut || kind == ViolationKind::kExtractManifold;
   }
-  static std::size_t place_of(double key) {
-    if (!(key > 0)) return 0;
-    if (!(key < 0x1p31)) return kPlaces - 1;
-    int exponent = 0;
-    std::frexp(key, &exponent);
-    return static_cast<std::size_t>(std::clamp(exponent + kMiddle, 0, kPlaces - 1));
+  // The bits of a float that is not negative, which compare as it does.
+  static std::uint32_t rank_of(double key) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return std::bit_cast<std::uint32_t>(static_cast<float>(std::min(std::max(key, 0.0), kMost)));
   }
-  static Entry pop_last(Stacks& stacks) {
-    const auto place = static_cast<std::size_t>(std::bit_width(stacks.used)) - 1;
-    std::vector<Entry>& stack = stacks.entries[place];
-    const Entry entry = stack.back();
-    stack.pop_back();
-    if (stack.empty()) stacks.used ^= std::uint64_t{1} << place;
+  // Eight bits of every coordinate, interleaved; what lies beyond counts with the outermost block.
+  static std::uint32_t block_of(const Vec3& where) {
+    constexpr double kSide = 32;
+    constexpr double kLast = 255;
+    std::uint32_t block = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto c = static_cast<std::uint32_t>(std::min(std::max(where[axis] / kSide, 0.0), kLast));
+      for (unsigned bit = 0; bit < 8; ++bit) block |= ((c >> bit) & 1u) << (3 * bit + axis);
+    }
+    return block;
+  }
+  static Entry pop_greatest(std::vector<Entry>& heap) {
+    std::pop_heap(heap.begin(), heap.end());
+    const Entry entry = heap.back();
+    heap.pop_back();
     return entry;
   }
-  static Entry pop_first(Stacks& stacks) {
-    std::vector<Entry>& queue = stacks.entries[0];
-    const Entry entry = queue[stacks.first++];
-    if (2 * stacks.first >= queue.size()) {
-      queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(stacks.first));
-      stacks.first = 0;
+  static Entry pop_oldest(std::vector<Entry>& queue, std::size_t& first) {
+    const Entry entry = queue[first++];
+    if (2 * first >= queue.size()) {
+      queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(first));
+      first = 0;
     }
-    if (queue.empty()) stacks.used = 0;
     return entry;
   }
 
   QueueOrder order_;
-  std::array<Stacks, 3> stacks_;
+  std::array<std::vector<Entry>, 3> entries_;  // of each kind: a heap, or a queue that begins at first_
+  std::array<std::size_t, 3> first_{};
   std::size_t size_ = 0;
 };
 
