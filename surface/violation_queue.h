@@ -24,10 +24,11 @@ struct Violation {
   std::uint32_t generation = 0;  // of the dual edge when it was queued
 };
 
-// The worst or the largest first; ApproximateGeom, which makes most of the insertions, block by block of 32 voxels'
-// side in the order of a space-filling curve (Morton), and within a block in that order: so insertions that follow each
-// other find their surroundings in the caches. Umbrellas, which are only good or bad, come first in, first out; so does
-// everything in the order of that name.
+// The worst or the largest first. ApproximateGeom, which makes most of the insertions, takes those of one power of two
+// block by block of 32 voxels' side, in the order of a space-filling curve (Morton), and within a block the worst
+// first: so refinement goes on from coarse to fine everywhere, and insertions that follow each other find their
+// surroundings in the caches. Umbrellas, which are only good or bad, come first in, first out; so does everything in
+// the order of that name.
 class ViolationQueue {
  public:
   explicit ViolationQueue(QueueOrder order) : order_(order) {}
@@ -41,9 +42,12 @@ class ViolationQueue {
       entries.push_back({0, violation.element, violation.generation});
       return;
     }
-    const double key = order_ == QueueOrder::kWorstFirst ? badness : radius;
-    const std::uint64_t block = violation.kind == ViolationKind::kApproximateGeometry ? block_of(where) : 0;
-    entries.push_back({(block << 32) | rank_of(key), violation.element, violation.generation});
+    // Of a float's bits the exponent comes before the block, all of them after it.
+    std::uint64_t rank = bits_of(order_ == QueueOrder::kWorstFirst ? badness : radius);
+    if (violation.kind == ViolationKind::kApproximateGeometry) {
+      rank |= ((rank >> 23) << 56) | (std::uint64_t{block_of(where)} << 32);
+    }
+    entries.push_back({rank, violation.element, violation.generation});
     std::push_heap(entries.begin(), entries.end());
   }
 
@@ -62,7 +66,7 @@ class ViolationQueue {
 
  private:
   struct Entry {
-    std::uint64_t rank;  // block, then badness or radius
+    std::uint64_t rank;
     std::uint32_t element;
     std::uint32_t generation;
     // The standard heap pops the greatest. A total order, so that every library pops the same.
@@ -76,7 +80,7 @@ class ViolationQueue {
     return order_ == QueueOrder::kFirstInFirstOut || kind == ViolationKind::kExtractManifold;
   }
   // The bits of a float that is not negative, which compare as it does.
-  static std::uint32_t rank_of(double key) {
+  static std::uint32_t bits_of(double key) {
     constexpr double kMost = std::numeric_limits<float>::max();
     return std::bit_cast<std::uint32_t>(static_cast<float>(std::min(std::max(key, 0.0), kMost)));
   }
@@ -87,7 +91,7 @@ class ViolationQueue {
     std::uint32_t block = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto c = static_cast<std::uint32_t>(std::min(std::max(where[axis] / kSide, 0.0), kLast));
-      for (unsigned bit = 0; bit < 8; ++bit) block |= ((c >> bit) & 1u) << (3 * bit + axis);
+      for (std::size_t bit = 0; bit < 8; ++bit) block |= ((c >> bit) & 1u) << (3 * bit + axis);
     }
     return block;
   }

@@ -55,35 +55,37 @@ std::vector<Pushed> all_in_order_of_pops(QueueOrder order, const std::vector<Pus
   return popped;
 }
 
-// One for all multiple hits.
-std::array<int, 3> block_of(const Pushed& pushed) {
+// The power of two and the block that one comes with; one for all multiple hits.
+std::array<int, 4> group_of(const Pushed& pushed, double key) {
   if (pushed.violation.kind == ViolationKind::kMultiIntersect) return {};
-  const Vec3& p = pushed.where;
   const auto coordinate = [](double x) { return static_cast<int>(std::clamp(x / 32, 0.0, 255.0)); };
-  return {coordinate(p.x), coordinate(p.y), coordinate(p.z)};
+  const int octave = key == 0 ? -1000 : std::isinf(key) ? 1000 : std::ilogb(static_cast<float>(key));
+  return {octave, coordinate(pushed.where.x), coordinate(pushed.where.y), coordinate(pushed.where.z)};
 }
 
-TEST(ViolationQueue, KindsComeInThePapersOrderThenBlocksAfterEachOtherAndTheWorstOfABlockFirst) {
+TEST(ViolationQueue, KindsComeInThePapersOrderThenPowersOfTwoThenBlocksAndTheWorstOfABlockFirst) {
   for (const QueueOrder order : {QueueOrder::kWorstFirst, QueueOrder::kLargestRadius}) {
+    const auto key = [&](const Pushed& p) { return order == QueueOrder::kWorstFirst ? p.badness : p.radius; };
     const std::vector<Pushed> popped = all_in_order_of_pops(order, random_violations(1));
-    std::set<std::pair<ViolationKind, std::array<int, 3>>> left;  // blocks that have been left
+    std::set<std::array<int, 4>> left;  // groups that have been left
     for (std::size_t i = 1; i < popped.size(); ++i) {
       const Pushed& a = popped[i - 1];
       const Pushed& b = popped[i];
       ASSERT_LE(a.violation.kind, b.violation.kind);
       if (a.violation.kind != b.violation.kind) continue;
+      const auto group_a = group_of(a, key(a));
+      const auto group_b = group_of(b, key(b));
       if (a.violation.kind == ViolationKind::kExtractManifold) {
         ASSERT_LT(a.violation.element, b.violation.element);  // by age
-      } else if (block_of(a) != block_of(b)) {
-        left.emplace(a.violation.kind, block_of(a));
-        ASSERT_EQ(left.count({b.violation.kind, block_of(b)}), 0u);
+      } else if (group_a != group_b) {
+        ASSERT_GE(group_a[0], group_b[0]);
+        left.insert(group_a);
+        ASSERT_EQ(left.count(group_b), 0u);
       } else {
-        const double worse = order == QueueOrder::kWorstFirst ? a.badness : a.radius;
-        const double better = order == QueueOrder::kWorstFirst ? b.badness : b.radius;
-        ASSERT_GE(worse, better * (1 - 1e-6));
+        ASSERT_GE(key(a), key(b) * (1 - 1e-6));
       }
     }
-    EXPECT_GT(left.size(), 10u);
+    EXPECT_GT(left.size(), 20u);
   }
 }
 
