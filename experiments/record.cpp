@@ -46,6 +46,7 @@ Json refine_json(const RefineStats& refine) {
     refused[std::string(kRefusalNames[cause])] = refine.refused[cause];
   }
   json["stopped_at_r_min"] = refine.stopped_at_r_min;
+  json["restarts"] = refine.restarts;
   return json;
 }
 

@@ -26,6 +26,10 @@ class BoxTree {
     if (!nodes_.empty()) pairs_within(0, visit);
   }
 
+  // Calls visit(i) for each box that has a point in common with `box`, faces included.
+  template <class Visit>
+  void for_each_meeting(const Box3& box, Visit&& visit) const;
+
   // The thing nearest to p among those nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
   // none. measure(i) gives the squared distance of thing i from p.
   template <class Measure>
@@ -102,6 +106,26 @@ void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) con
   } else {
     for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
       for (std::uint32_t j = nb.first; j < nb.first + nb.count; ++j) report(i, j, visit);
+    }
+  }
+}
+
+template <class Visit>
+void BoxTree::for_each_meeting(const Box3& box, Visit&& visit) const {
+  if (nodes_.empty()) return;
+  std::array<std::uint32_t, kMaxDepth> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    const Node& n = nodes_[node];
+    if (!touch(n.box, box)) continue;
+    if (n.count == 0) {
+      stack[depth++] = n.first;
+      stack[depth++] = node + 1;
+      continue;
+    }
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+      if (touch(boxes_[i], box)) visit(things_[i]);
     }
   }
 }

@@ -11,11 +11,6 @@ namespace deliso {
 
 namespace {
 
-// How far the copies of a split vertex move (mesh-space units), and at most this fraction of the way to their
-// neighbours.
-constexpr double kApart = 2e-4;
-constexpr double kApartFraction = 0.01;
-
 // Disjoint sets with path halving; the smallest member represents its set.
 class DisjointSets {
  public:
@@ -43,7 +38,7 @@ class MeshBuilder {
     pair_sides();
     name_vertices();
     subdivide_shared_edges();
-    move_copies_apart();
+    group_copies();
     return std::move(built_);
   }
 
@@ -56,11 +51,11 @@ class MeshBuilder {
   [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
   [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
-  void subdivide(TriangleSide side);
+  Copy subdivide(TriangleSide side);
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
-  void move_copies_apart();
+  void group_copies();
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
@@ -190,12 +185,17 @@ void MeshBuilder::subdivide_shared_edges() {
     uses.emplace_back(std::min(from, to), std::max(from, to), t);
   }
   std::sort(uses.begin(), uses.end());
-  for (std::size_t i = 1; i < uses.size(); ++i) {
-    const auto& [from, to, triangle] = uses[i];
-    if (std::get<0>(uses[i - 1]) != from || std::get<1>(uses[i - 1]) != to) continue;
-    const TriangleSide side = find_side(triangle, from, to);
-    DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
-    subdivide(side);
+  for (std::size_t first = 0; first < uses.size();) {
+    const auto [from, to, ignored] = uses[first];
+    std::size_t last = first;
+    while (last < uses.size() && std::get<0>(uses[last]) == from && std::get<1>(uses[last]) == to) ++last;
+    if (last - first > 1) built_.groups.emplace_back();
+    for (std::size_t i = first; last - first > 1 && i < last; ++i) {
+      const TriangleSide side = find_side(std::get<2>(uses[i]), from, to);
+      DELISO_CHECK(side != kNoSide, "a shared edge must still be there when its turn comes");
+      built_.groups.back().push_back(subdivide(side));
+    }
+    first = last;
   }
 }
 
@@ -214,13 +214,14 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
 }
 
 // Puts a vertex on an edge, as near to the isosurface as a hit along the triangles' common normal allows.
-void MeshBuilder::subdivide(TriangleSide side) {
+Copy MeshBuilder::subdivide(TriangleSide side) {
   const std::uint32_t t = side >> 2;
   const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
   const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
   const TriangleSide across = mesh_.neighbours[t][side & 3u];
   const Vec3 normal = normal_of(t) + (across == kNoSide ? Vec3{} : normal_of(across >> 2));
-  Vec3 middle = 0.5 * (mesh_.points[a] + mesh_.points[b]);
+  const Vec3 halfway = 0.5 * (mesh_.points[a] + mesh_.points[b]);
+  Vec3 middle = halfway;
   if (norm(normal) > 0) {
     const Line line{middle, normal / norm(normal)};
     SearchCounters ignored;
@@ -239,6 +240,7 @@ void MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
+  return {m, halfway};
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
@@ -278,28 +280,13 @@ Vec3 MeshBuilder::normal_of(std::uint32_t triangle) const {
   return norm(n) > 0 ? n / norm(n) : Vec3{};
 }
 
-// Copies of a vertex would touch: each moves a little into its own fan, on the box within its face.
-void MeshBuilder::move_copies_apart() {
-  std::vector<Vec3> link_sum(built_.copies.size());
-  std::vector<double> link_size(built_.copies.size(), 0);
-  std::vector<std::uint32_t> place(mesh_.points.size(), kNoSide);
-  for (std::uint32_t i = 0; i < built_.copies.size(); ++i) place[built_.copies[i]] = i;
-  for (const auto& triangle : mesh_.triangles) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const std::uint32_t at = place[triangle[i]];
-      if (at == kNoSide) continue;
-      link_sum[at] += mesh_.points[triangle[(i + 1) % 3]] + mesh_.points[triangle[(i + 2) % 3]];
-      link_size[at] += 2;
-    }
-  }
-  const Box3& box = restricted_.isosurface().box();
-  for (std::size_t i = 0; i < built_.copies.size(); ++i) {
-    Vec3& p = mesh_.points[built_.copies[i]];
-    Vec3 inwards = link_sum[i] / link_size[i] - p;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (p[axis] == box.low[axis] || p[axis] == box.high[axis]) inwards[axis] = 0;
-    }
-    if (norm(inwards) > 0) p += std::min(kApart / norm(inwards), kApartFraction) * inwards;
+void MeshBuilder::group_copies() {
+  const std::size_t subdivided = built_.groups.size();
+  for (const std::uint32_t copy : built_.copies) {
+    const bool continues = built_.groups.size() > subdivided &&
+                           built_.vertex_of[built_.groups.back().back().vertex] == built_.vertex_of[copy];
+    if (!continues) built_.groups.emplace_back();
+    built_.groups.back().push_back({copy, mesh_.points[copy]});
   }
 }
 

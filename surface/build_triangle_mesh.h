@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "surface/separate_copies.h"
 #include "surface/signed_delaunay.h"
 #include "surface/surface_mesh.h"
 
@@ -12,14 +13,15 @@ struct BuiltMesh {
   SurfaceMesh mesh;                   // without balls and pole heights
   std::vector<VertexId> vertex_of;    // of each mesh vertex; for a vertex put on a subdivided edge, an end of that edge
   std::vector<std::uint32_t> copies;  // mesh vertices that share their vertex with another one, ascending
+  std::vector<CopyGroup> groups;      // of copies, and of vertices on the same subdivided edge
 };
 
 // The restricted facets bound the tetrahedra above the isovalue, so around every edge their number is even. Where it is
 // more than two the surface touches itself; the facets are then paired by side: around the sectors whose sign is not
 // that of the field at the edge's midpoint, so that the side which holds the midpoint stays connected. A vertex is
-// given once for each fan of paired triangles, its copies a hair apart. An edge that two pairs still share afterwards
-// is subdivided in all but one of them. The result is a manifold with boundary, oriented, by construction. Vertices
-// without triangles are left out.
+// given once for each fan of paired triangles. An edge that two pairs still share afterwards
+// is subdivided in each of them. The result is a manifold with boundary, oriented, by construction. Vertices
+// without triangles are left out. It touches itself at the copies until separate_copies has moved them apart.
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted);
 
 }  // namespace deliso

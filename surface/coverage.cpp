@@ -1,6 +1,7 @@
 #include "surface/coverage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,43 +17,73 @@ namespace {
 constexpr double kNear = 0.8;  // mesh-space units
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
+constexpr double kFewRadii = 0.5;  // the same where little is at stake
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
 
-std::vector<Box3> boxes_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  std::vector<Box3> boxes(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const std::uint32_t v : mesh.triangles[triangles[i]]) boxes[i].extend(mesh.points[v]);
+std::vector<Box3> boxes_of(const SurfaceMesh& mesh) {
+  std::vector<Box3> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
   }
   return boxes;
 }
 
+double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
+  const auto& v = mesh.triangles[t];
+  return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
+}
+
 }  // namespace
 
-MeshCover::MeshCover(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles)
-    : mesh_(mesh), triangles_(std::move(triangles)), tree_(boxes_of(mesh_, triangles_)) {}
+MeshCover::MeshCover(const SurfaceMesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
 
-double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t place) const {
-  const auto& v = mesh_.triangles[triangles_[place]];
+double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
+  const auto& v = mesh_.triangles[triangle];
   return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
 }
 
-bool MeshCover::covers(const Vec3& p, double radius_fraction) {
-  if (triangles_.empty()) return false;
-  for (const std::uint32_t place : recent_) {
-    if (squared_distance_to(p, place) < kNear * kNear) return true;
+bool MeshCover::covers(const Vec3& p) {
+  if (mesh_.triangles.empty()) return false;
+  for (const std::uint32_t t : recent_) {
+    if (squared_distance_to(p, t) < kNear * kNear) return true;
   }
   // Most points have a triangle close by; only for the others the nearest one matters.
-  const auto measure = [&](std::uint32_t place) { return squared_distance_to(p, place); };
+  const auto measure = [&](std::uint32_t t) { return squared_distance_to(p, t); };
   const auto close = tree_.nearest(p, kNear * kNear, measure);
   if (close.second < kNear * kNear) {
     recent_[turn_++ % recent_.size()] = close.first;
     return true;
   }
-  const auto [place, squared] = tree_.nearest(p, std::numeric_limits<double>::infinity(), measure);
-  const auto& v = mesh_.triangles[triangles_[place]];
-  const double radius = circumcircle(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]).radius;
-  return squared <= radius_fraction * radius_fraction * radius * radius;
+  const auto [nearest, squared] = tree_.nearest(p, std::numeric_limits<double>::infinity(), measure);
+  const double reach = kRadiusFraction * circumradius(mesh_, nearest);
+  return squared <= reach * reach;
+}
+
+std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                                 const std::function<bool(std::uint32_t)>& takes) {
+  std::vector<bool> covered(points.size(), false);
+  if (points.empty()) return covered;
+  std::vector<Box3> boxes(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) boxes[i].extend(points[i]);
+  const BoxTree tree(boxes);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!takes(t)) continue;
+    const auto& v = mesh.triangles[t];
+    const double radius = circumradius(mesh, t);
+    const double reach = std::isfinite(radius) ? std::max(kNear, kFewRadii * radius) : kNear;
+    Box3 around;
+    for (const std::uint32_t q : v) {
+      around.extend(mesh.points[q] - Vec3{reach, reach, reach});
+      around.extend(mesh.points[q] + Vec3{reach, reach, reach});
+    }
+    tree.for_each_meeting(around, [&](std::uint32_t i) {
+      if (covered[i]) return;
+      covered[i] = squared_distance_to_triangle(points[i], mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <=
+                   reach * reach;
+    });
+  }
+  return covered;
 }
 
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology) {
@@ -77,8 +108,8 @@ std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& 
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };
-  MeshCover cover(mesh, [](std::uint32_t) { return true; });
-  std::erase_if(suspects, [&](std::uint32_t i) { return cover.covers(position(i), kRadiusFraction); });
+  MeshCover cover(mesh);
+  std::erase_if(suspects, [&](std::uint32_t i) { return cover.covers(position(i)); });
   std::int64_t inserted = 0;
   for (const std::uint32_t i : suspects) {
     const TetId start = restricted.delaunay().incident_tet(restricted.last_vertex());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "surface/box_tree.h"
@@ -15,39 +16,33 @@
 
 namespace deliso {
 
-// The triangles of a mesh by place, for asking whether points of the surface lie near them.
+// The triangles of a mesh by place, for asking whether many points of the surface lie near them.
 class MeshCover {
  public:
-  // Of the triangles for which takes(t) holds; keeps a reference to the mesh.
-  template <class Takes>
-  MeshCover(const SurfaceMesh& mesh, Takes takes) : MeshCover(mesh, chosen(mesh, takes)) {}
+  // Keeps a reference to the mesh.
+  explicit MeshCover(const SurfaceMesh& mesh);
 
-  // Whether p lies within 0.8 mesh-space units of some triangle, or within `radius_fraction` circumradii of the nearest
-  // one: a coarse triangle may well be that far off the surface that it approximates.
-  [[nodiscard]] bool covers(const Vec3& p, double radius_fraction);
+  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse
+  // triangle may well be that far off the surface that it approximates.
+  [[nodiscard]] bool covers(const Vec3& p);
 
  private:
-  MeshCover(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles);
-  template <class Takes>
-  static std::vector<std::uint32_t> chosen(const SurfaceMesh& mesh, Takes takes) {
-    std::vector<std::uint32_t> triangles;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (takes(t)) triangles.push_back(t);
-    }
-    return triangles;
-  }
-  [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t place) const;
+  [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
 
   const SurfaceMesh& mesh_;
-  std::vector<std::uint32_t> triangles_;
   BoxTree tree_;
-  std::array<std::uint32_t, 4> recent_{};  // places that covered recent points: good guesses for the next
+  std::array<std::uint32_t, 4> recent_{};  // triangles that covered recent points: good guesses for the next
   std::size_t turn_ = 0;
 };
 
-// Inserts grid-edge crossings that the mesh of the triangulation does not cover (with 0.3 circumradii), unless a vertex
-// is nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that
-// are not covered stay in it. Returns how many went in; stage 1 has to go on then.
+// For a few points: which lie within 0.8 mesh-space units, or within half its circumradius, of a triangle t for which
+// takes(t) holds.
+std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                                 const std::function<bool(std::uint32_t)>& takes);
+
+// Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
+// nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are
+// not covered stay in it. Returns how many went in; stage 1 has to go on then.
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
                               std::vector<std::uint32_t>& suspects);

@@ -94,6 +94,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   options.r_min = lengths.r_min_stage2;
   if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
   options.order = parameters.queue_order;
+  options.restart_at_crossings = parameters.certify;
   return options;
 }
 
@@ -174,6 +175,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     const std::vector<double> heights = timed(result.poles, [&] { return compute_poles(*restricted); });
     surface = timed(result.build, [&] {
       BuiltMesh built = build_triangle_mesh(*restricted);
+      separate_copies(built.mesh, built.groups, built.vertex_of, isosurface->box());
       for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
       return std::move(built.mesh);
     });

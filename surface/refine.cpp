@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
+#include "surface/crossing_guard.h"
+#include "surface/self_intersection.h"
 #include "surface/triangle_queue.h"
 
 namespace deliso {
@@ -15,13 +19,24 @@ namespace {
 
 // A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
 constexpr double kNearestVertex = 0.5;
+// A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
+constexpr double kFarthestMove = 0.8;
+// Starts again at most this often, with at most so many new suspects of a kind.
+constexpr std::int64_t kMostRestarts = 3;
+constexpr std::size_t kMostSuspects = 1000;
 // A boundary edge is split only this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
 
 class Refinement {
  public:
-  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), queue_(options.order) {}
+  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
+             std::span<const Vec3> suspects, RefineStats& stats)
+      : mesh_(mesh),
+        isosurface_(isosurface),
+        options_(options),
+        stats_(stats),
+        queue_(options.order),
+        guard_(mesh, suspects) {}
 
   void run(Controls& controls);
 
@@ -53,8 +68,11 @@ class Refinement {
   [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
   [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const Candidate& candidate) const;
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  [[nodiscard]] double distance_to_disk(const Vec3& p) const;
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
+  bool retry_crossed();
+  void requeue(std::uint32_t triangle);
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
@@ -68,6 +86,7 @@ class Refinement {
   const RefineOptions& options_;
   RefineStats& stats_;
   TriangleQueue queue_;
+  CrossingGuard guard_;
 
   std::vector<std::uint32_t> generation_;     // of each triangle: grows when its slot is taken anew
   std::vector<bool> refused_;                 // of each triangle: waits for a change around it
@@ -79,15 +98,19 @@ class Refinement {
   std::vector<std::uint32_t> disk_;  // E
   std::vector<RimEdge> rim_;         // boundary of E, in order after order_rim
   std::vector<RimEdge> ordered_;
-  std::vector<NewTriangle> star_;  // D, one for each rim edge
+  std::vector<CrossingGuard::Edge> rim_edges_;
+  std::vector<NewTriangle> star_;       // D, one for each rim edge
+  std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   double star_pole_height_ = 0;
+  std::int64_t insertions_at_retry_ = 0;
 };
 
 void Refinement::run(Controls& controls) {
   queue_everything();
   while (!controls.must_stop("refine", mesh_.points.size(), queue_.size())) {
     const auto entry = queue_.pop();
-    if (!entry) break;
+    if (!entry && !retry_crossed()) break;
+    if (!entry) continue;
     if (generation_[entry->triangle] != entry->generation || refused_[entry->triangle]) continue;
     if (treat(entry->triangle)) wake_neighbours();
   }
@@ -132,6 +155,7 @@ bool Refinement::treat(std::uint32_t triangle) {
   if (refusal) {
     ++stats_.refused[static_cast<std::size_t>(*refusal)];
     refused_[triangle] = true;
+    if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
   ++stats_.insertions;
@@ -268,6 +292,11 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
     }
     if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
   }
+  rim_edges_.clear();
+  for (const RimEdge& edge : rim_) rim_edges_.push_back({edge.from, edge.to});
+  const double moved = distance_to_disk(p);
+  if (candidate.split == kNoSide && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
+  if (guard_.crosses(p, moved, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
   auto corners = static_cast<double>(rim_.size());
   if (candidate.split != kNoSide) {
     pole_sum += mesh_.pole_heights[rim_.back().to];
@@ -280,6 +309,17 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
     star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole));
   }
   return std::nullopt;
+}
+
+// How far p lies off the planes of E's triangles at most.
+double Refinement::distance_to_disk(const Vec3& p) const {
+  double farthest = 0;
+  for (const std::uint32_t t : disk_) {
+    const Vec3& a = corner(t, 0);
+    const Vec3 normal = cross(corner(t, 1) - a, corner(t, 2) - a);
+    farthest = std::max(farthest, std::abs(dot(normal, p - a)) / std::max(norm(normal), 1e-300));
+  }
+  return farthest;
 }
 
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
@@ -318,8 +358,10 @@ double Refinement::badness_of(std::uint32_t triangle, double& radius) const {
 void Refinement::replace_disk(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const auto p = static_cast<std::uint32_t>(mesh_.points.size());
+  for (const std::uint32_t t : disk_) guard_.forget(t);
   mesh_.points.push_back(candidate.point);
   mesh_.pole_heights.push_back(star_pole_height_);
+  guard_.add_vertex();
   while (disk_.size() < rim_.size()) {
     disk_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
     mesh_.triangles.emplace_back();
@@ -340,6 +382,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
                            first ? kNoSide : 4 * disk_[(i + count - 1) % count] + 1};
     if (edge.outer != kNoSide) mesh_.neighbours[edge.outer >> 2][edge.outer & 3u] = 4 * t;
     mesh_.balls[t] = star_[i].ball;
+    guard_.learn(t);
     ++generation_[t];
     refused_[t] = false;
     if (star_[i].badness > 1 && star_[i].radius > options_.r_min) {
@@ -348,15 +391,30 @@ void Refinement::replace_disk(const Candidate& candidate) {
   }
 }
 
+// The sheet in the way may be finer now. True when a triangle was queued again.
+bool Refinement::retry_crossed() {
+  if (stats_.insertions == insertions_at_retry_) return false;
+  insertions_at_retry_ = stats_.insertions;
+  bool any = false;
+  for (const std::uint32_t t : std::exchange(crossed_, {})) {
+    if (!refused_[t]) continue;
+    any = true;
+    requeue(t);
+  }
+  return any;
+}
+
+void Refinement::requeue(std::uint32_t triangle) {
+  refused_[triangle] = false;
+  double radius = 0;
+  const double bad = badness_of(triangle, radius);
+  queue_.push({triangle, generation_[triangle]}, bad, radius);
+}
+
 // Triangles around the new star that were refused before get another chance.
 void Refinement::wake_neighbours() {
   for (const RimEdge& edge : rim_) {
-    if (edge.outer == kNoSide || !refused_[edge.outer >> 2]) continue;
-    const std::uint32_t t = edge.outer >> 2;
-    refused_[t] = false;
-    double radius = 0;
-    const double bad = badness_of(t, radius);
-    queue_.push({t, generation_[t]}, bad, radius);
+    if (edge.outer != kNoSide && refused_[edge.outer >> 2]) requeue(edge.outer >> 2);
   }
 }
 
@@ -364,7 +422,27 @@ void Refinement::wake_neighbours() {
 
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats) {
-  Refinement(mesh, isosurface, options, stats).run(controls);
+  if (!options.restart_at_crossings) {
+    Refinement(mesh, isosurface, options, {}, stats).run(controls);
+    return;
+  }
+  const SurfaceMesh start = mesh;
+  const RefineStats before = stats;
+  std::vector<Vec3> suspects;
+  for (std::int64_t restarts = 0;; ++restarts) {
+    const SearchCounters searches = stats.search;
+    stats = before;
+    stats.search = searches;
+    stats.restarts = restarts;
+    Refinement(mesh, isosurface, options, suspects, stats).run(controls);
+    if (restarts == kMostRestarts || controls.stopped()) return;
+    const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects);
+    if (found.crossing.empty() && found.touching.empty()) return;
+    for (const auto* pairs : {&found.crossing, &found.touching}) {
+      for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+    }
+    mesh = start;
+  }
 }
 
 }  // namespace deliso

@@ -2,7 +2,8 @@
 //
 // A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E;
 // it is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no triangle
-// turned against the gradient), so the mesh stays homeomorphic to what stage 1 gave, whatever the data.
+// turned against the gradient, no triangle that crosses another), so the mesh stays homeomorphic to what stage 1 gave,
+// whatever the data.
 #pragma once
 
 #include <array>
@@ -23,21 +24,33 @@ struct RefineOptions {
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
   QueueOrder order = QueueOrder::kWorstFirst;
+  bool restart_at_crossings = true;  // when triangles of the result cross, start again with more care around them
 };
 
 // Why an insertion was refused.
-enum class Refusal { kNoHit, kNotADisk, kRepeatedVertex, kFlippedTriangle, kTooClose, kCount };
+enum class Refusal {
+  kNoHit,
+  kNotADisk,
+  kRepeatedVertex,
+  kFlippedTriangle,
+  kTooClose,
+  kTooFar,
+  kCrossingTriangle,
+  kCount
+};
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::kCount)> kRefusalNames = {
-    "no_hit", "not_a_disk", "repeated_vertex", "flipped_triangle", "too_close"};
+    "no_hit", "not_a_disk", "repeated_vertex", "flipped_triangle", "too_close", "too_far", "crossing_triangle"};
 
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;
   std::int64_t boundary_splits = 0;  // of them on boundary edges
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
+  std::int64_t restarts = 0;
   SearchCounters search;
 };
 
+// Counters are those of the last start, but for the searches and the seconds.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats);
 

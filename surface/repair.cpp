@@ -26,8 +26,6 @@ namespace {
 
 // After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
 constexpr std::int32_t kMixedPatience = 8;
-// A part of the surface is missing when no triangle lies within 0.8 voxel of it, or within so many circumradii.
-constexpr double kMissingRadii = 0.5;
 // After so many rounds sweeps look for the differences, and what they find counts unless it is more than kMostPlaces.
 constexpr std::int32_t kSeenSigns = 1;
 constexpr std::size_t kMostPlaces = 512;
@@ -59,6 +57,7 @@ class Repair {
   void take_samples();
   void resample();
   void triangulate();
+  void look_around();
   bool try_rule(SignRule rule);
   void try_rules();
   MatchedMesh assemble();
@@ -80,6 +79,8 @@ class Repair {
   std::unique_ptr<SignedDelaunay> restricted_;
   SampleLattice lattice_;
   RaisedCells raised_;
+  std::vector<bool> at_circumcenters_;              // signs, by slot of the tetrahedron
+  std::vector<std::uint32_t> component_of_vertex_;  // of the triangulation
   std::vector<Sample> samples_;
   MatchedMesh mesh_;             // the latest
   std::vector<bool> done_;       // of each exact component: needs no more work
@@ -90,6 +91,7 @@ class Repair {
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   take_samples();
+  look_around();
   overturn_unfounded_signs(*restricted_, grid_);
   mesh_ = assemble();
   stats_.vertices_before = static_cast<std::int64_t>(mesh_.built.mesh.points.size());
@@ -145,11 +147,22 @@ void Repair::triangulate() {
   for (const Sample& sample : samples_) points.push_back(sample.point);
   restricted_.reset();
   restricted_ = std::make_unique<SignedDelaunay>(isosurface_, points);
+  look_around();
+}
+
+// What all rules need of a new triangulation.
+void Repair::look_around() {
+  at_circumcenters_ = restricted_->signs();
+  const Tetrahedralization& delaunay = restricted_->delaunay();
+  component_of_vertex_.assign(delaunay.vertex_count(), 0);
+  for (std::size_t i = 0; i < component_of_vertex_.size(); ++i) {
+    if (!restricted_->is_virtual(VertexId(i))) component_of_vertex_[i] = component_at(delaunay.point(VertexId(i)));
+  }
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
 bool Repair::try_rule(SignRule rule) {
-  take_signs(*restricted_, grid_, raised_, rule);
+  take_signs(*restricted_, grid_, raised_, at_circumcenters_, rule);
   overturn_unfounded_signs(*restricted_, grid_);
   mesh_ = assemble();
   keep(mesh_);
@@ -169,14 +182,10 @@ void Repair::try_rules() {
   if (best != kRules.back()) try_rule(best);
 }
 
-// The mesh, its pole heights and its match with the exact components.
+// The mesh and its match with the exact components.
 MatchedMesh Repair::assemble() {
   MatchedMesh mesh{build_triangle_mesh(*restricted_), {}, {}};
-  const std::vector<double> heights = compute_poles(*restricted_);
-  for (const VertexId v : mesh.built.vertex_of) {
-    mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
-    mesh.component.push_back(component_at(restricted_->delaunay().point(v)));
-  }
+  for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
   find_missing_parts(mesh);
   return mesh;
@@ -200,12 +209,19 @@ void Repair::find_missing_parts(MatchedMesh& mesh) {
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
     if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
   }
-  MeshCover cover(mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+  std::vector<Vec3> left_out;
+  std::vector<std::uint32_t> component;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
-    const Vec3& p = restricted_->delaunay().point(VertexId(i));
-    Agreement& agreement = match.agreement[component_at(p)];
-    if (agreement <= Agreement::kPartial || cover.covers(p, kMissingRadii)) continue;
+    if (match.agreement[component_of_vertex_[i]] <= Agreement::kPartial) continue;
+    left_out.push_back(restricted_->delaunay().point(VertexId(i)));
+    component.push_back(component_of_vertex_[i]);
+  }
+  const std::vector<bool> covered = covered_points(
+      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    Agreement& agreement = match.agreement[component[i]];
+    if (covered[i] || agreement == Agreement::kPartial) continue;
     agreement = Agreement::kPartial;
     ++match.error;
   }
@@ -242,7 +258,11 @@ void Repair::keep(const MatchedMesh& mesh) {
     done_[c] = best_[c] == Agreement::kWithStrays;
     helps = true;
   }
-  if (helps) history_.push_back(mesh);
+  if (!helps) return;
+  history_.push_back(mesh);
+  const std::vector<double> heights = compute_poles(*restricted_);
+  SurfaceMesh& kept = history_.back().built.mesh;
+  for (const VertexId v : mesh.built.vertex_of) kept.pole_heights.push_back(heights[v.index()]);
 }
 
 void Repair::accept_mixed() {
@@ -264,6 +284,8 @@ SurfaceMesh Repair::assemble_kept() {
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
+    separate_copies(mesh->built.mesh, mesh->built.groups, mesh->built.vertex_of, isosurface_.box());
     append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
   stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);

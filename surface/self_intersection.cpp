@@ -170,20 +170,21 @@ TriangleContact contact_at_edge(const Corners& s, const Vec3& apex_of_t) {
 }
 
 // The corners of triangle t from corner `first` on.
-Corners corners_from(const TriangleMesh& mesh, std::uint32_t t, std::size_t first) {
-  const auto& v = mesh.triangles[t];
-  return {mesh.points[v[first]], mesh.points[v[(first + 1) % 3]], mesh.points[v[(first + 2) % 3]]};
+Corners corners_from(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& t, std::size_t first) {
+  return {points[t[first]], points[t[(first + 1) % 3]], points[t[(first + 2) % 3]]};
 }
 
 }  // namespace
 
-TriangleContact triangle_contact(const TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
-  const auto &vs = mesh.triangles[s], &vt = mesh.triangles[t];
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) { return !collinear(a, b, c); }
+
+TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
+                                 const std::array<std::uint32_t, 3>& t) {
   // The places of shared and of unshared corners.
   std::array<std::size_t, 3> place_in_t{};
   std::size_t shared = 0, last_shared = 0, unshared_in_s = 0, unshared_in_t = 3;
   for (std::size_t i = 0; i < 3; ++i) {
-    place_in_t[i] = static_cast<std::size_t>(std::find(vt.begin(), vt.end(), vs[i]) - vt.begin());
+    place_in_t[i] = static_cast<std::size_t>(std::find(t.begin(), t.end(), s[i]) - t.begin());
     if (place_in_t[i] < 3) {
       ++shared;
       last_shared = i;
@@ -194,26 +195,27 @@ TriangleContact triangle_contact(const TriangleMesh& mesh, std::uint32_t s, std:
   }
   switch (shared) {
     case 0:
-      return contact_of_disjoint(corners_from(mesh, s, 0), corners_from(mesh, t, 0));
+      return contact_of_disjoint(corners_from(points, s, 0), corners_from(points, t, 0));
     case 1:
-      return contact_at_vertex(corners_from(mesh, s, last_shared), corners_from(mesh, t, place_in_t[last_shared]));
+      return contact_at_vertex(corners_from(points, s, last_shared), corners_from(points, t, place_in_t[last_shared]));
     case 2:
-      return contact_at_edge(corners_from(mesh, s, (unshared_in_s + 1) % 3), mesh.points[vt[unshared_in_t]]);
+      return contact_at_edge(corners_from(points, s, (unshared_in_s + 1) % 3), points[t[unshared_in_t]]);
     default:
       return TriangleContact::kCrossing;  // the same triangle twice
   }
 }
 
-SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep) {
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep) {
   SelfIntersections found;
 
   // Broad phase: boxes of the triangles that have an area.
   std::vector<Box3> boxes;
   std::vector<std::uint32_t> triangle_of_box;
-  boxes.reserve(mesh.triangles.size());
-  triangle_of_box.reserve(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Corners corners = corners_from(mesh, t, 0);
+  boxes.reserve(triangles.size());
+  triangle_of_box.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const Corners corners = corners_from(points, triangles[t], 0);
     if (collinear(corners[0], corners[1], corners[2])) {
       ++found.zero_area_triangles;
       continue;
@@ -237,7 +239,7 @@ SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep)
   };
   BoxTree(boxes).for_each_touching_pair([&](std::uint32_t i, std::uint32_t j) {
     const std::uint32_t s = triangle_of_box[i], t = triangle_of_box[j];
-    const TriangleContact contact = triangle_contact(mesh, s, t);
+    const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
     if (contact == TriangleContact::kNone) return;
     const Box3 both{{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
                      std::max(boxes[i].low.z, boxes[j].low.z)},

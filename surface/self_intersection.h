@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/triangle_mesh.h"
@@ -35,11 +36,20 @@ struct SelfIntersections {
   std::vector<TrianglePair> touching;    // the same
 };
 
-// How the triangles s and t of the mesh meet beyond what they share. Precondition: neither has zero area.
-TriangleContact triangle_contact(const TriangleMesh& mesh, std::uint32_t s, std::uint32_t t);
+// How two triangles, given by the indices of their corners, meet beyond what they share. Precondition: neither has zero
+// area.
+TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
+                                 const std::array<std::uint32_t, 3>& t);
+
+// Whether three points are not in line, exactly.
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // All pairs; at most `keep` of each kind are kept. Precondition: indices in range, coordinates as orient3d
 // wants them (delaunay/predicates.h).
-SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10);
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10);
+inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {
+  return self_intersections(mesh.points, mesh.triangles, keep);
+}
 
 }  // namespace deliso

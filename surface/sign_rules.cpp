@@ -65,14 +65,14 @@ void take_signs_from_evidence(SignedDelaunay& restricted, const ScalarGrid& grid
 
 }  // namespace
 
-void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised, SignRule rule) {
+void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
+                const std::vector<bool>& at_circumcenters, SignRule rule) {
+  restricted.set_signs(at_circumcenters);
   const auto zone = raised.zone();
   const Tetrahedralization& delaunay = restricted.delaunay();
   for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
     const TetId t(i);
-    if (!delaunay.is_live(t)) continue;
-    restricted.take_sign_at_circumcenter(t);
-    if (rule == SignRule::kCircumcenter) continue;
+    if (!delaunay.is_live(t) || rule == SignRule::kCircumcenter) continue;
     const Shape shape = shape_of(restricted, t);
     if (!shape.is_small) continue;
     const auto at = zone.find(raised.name(raised.cell_of(shape.centroid)));

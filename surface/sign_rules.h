@@ -5,6 +5,8 @@
 // everywhere; repair tries them in turn.
 #pragma once
 
+#include <vector>
+
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
 
@@ -17,9 +19,11 @@ enum class SignRule {
   kCircumcenter,
 };
 
-// Gives every tetrahedron its sign anew by a rule, and then, in raised cells, each tetrahedron that holds a critical
+// Gives every tetrahedron its sign by a rule, starting from the signs of the circumcenters (SignedDelaunay::signs, by
+// slot), and then, in raised cells, each tetrahedron that holds a critical
 // point of the interpolant the sign of that point: evidence that no rule may overrule, for where the surface passes a
 // critical point its topology changes.
-void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised, SignRule rule);
+void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
+                const std::vector<bool>& at_circumcenters, SignRule rule);
 
 }  // namespace deliso

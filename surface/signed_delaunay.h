@@ -42,7 +42,15 @@ class SignedDelaunay {
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
   // Gives a tetrahedron the sign of the field at another point than its circumcenter.
   void take_sign_at(TetId t, const Vec3& p) { sign_[t.index()] = sign_at(p); }
-  void take_sign_at_circumcenter(TetId t) { sign_[t.index()] = sign_of(t); }
+  // All signs as they stand, by slot of their tetrahedron; and back again.
+  [[nodiscard]] std::vector<bool> signs() const {
+    std::vector<bool> above(sign_.size());
+    for (std::size_t i = 0; i < sign_.size(); ++i) above[i] = sign_[i] == Sign::kAbove;
+    return above;
+  }
+  void set_signs(const std::vector<bool>& above) {
+    for (std::size_t i = 0; i < sign_.size(); ++i) sign_[i] = above[i] ? Sign::kAbove : Sign::kBelow;
+  }
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation takes it: coordinates below 2^-100 count as zero.

@@ -18,7 +18,8 @@ namespace {
 using testing::IntPoint;
 
 TriangleContact contact(const TriangleMesh& mesh) {
-  const TriangleContact there = triangle_contact(mesh, 0, 1), back = triangle_contact(mesh, 1, 0);
+  const TriangleContact there = triangle_contact(mesh.points, mesh.triangles[0], mesh.triangles[1]),
+                        back = triangle_contact(mesh.points, mesh.triangles[1], mesh.triangles[0]);
   EXPECT_EQ(there, back) << "not symmetric";
   return there;
 }
@@ -154,7 +155,7 @@ TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
       }
       for (std::uint32_t t = s + 1; t < mesh.triangles.size(); ++t) {
         if (!has_area(t)) continue;
-        const TriangleContact c = triangle_contact(mesh, s, t);
+        const TriangleContact c = triangle_contact(mesh.points, mesh.triangles[s], mesh.triangles[t]);
         touching += c == TriangleContact::kTouching ? 1 : 0;
         crossing += c == TriangleContact::kCrossing ? 1 : 0;
         if (c == TriangleContact::kCrossing) pairs.push_back({s, t, c, {}});

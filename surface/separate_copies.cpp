@@ -1,0 +1,214 @@
+#include "surface/separate_copies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "surface/self_intersection.h"
+
+namespace deliso {
+
+namespace {
+
+// Distances tried, in mesh-space units, and the largest fraction of the shortest edge at the copy.
+constexpr std::array<double, 3> kDistances = {2e-4, 4e-5, 8e-6};
+constexpr double kEdgeFraction = 0.05;
+// A direction is good when it makes at least this sine with every triangle of the fan.
+constexpr double kLeastSine = 0.05;
+constexpr int kSteps = 200;
+constexpr int kCrossingWeight = 100;
+// Sweeps over all groups: in the first one neighbouring copies may still share their place.
+constexpr int kSweeps = 3;
+
+class Separation {
+ public:
+  Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
+      : mesh_(mesh), groups_(groups), origin_of_(origin_of), box_(box) {
+    find_fans();
+  }
+
+  void run() {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (const CopyGroup& group : groups_) {
+        find_surroundings(group);
+        for (const Copy& copy : group) {
+          const int now = sweep == 0 ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
+          if (now > 0) move(copy, now);
+        }
+      }
+    }
+  }
+
+ private:
+  void find_fans();
+  void find_surroundings(const CopyGroup& group);
+  void move(const Copy& copy, int fewest);
+  [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy) const;
+  [[nodiscard]] Vec3 within_box_face(const Vec3& at, Vec3 d) const;
+  [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
+  [[nodiscard]] int conflicts(std::uint32_t copy) const;
+  [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
+  [[nodiscard]] const std::vector<std::uint32_t>& fan(std::uint32_t v) const { return fans_.at(origin_of_[v].index()); }
+  [[nodiscard]] bool is_around(std::uint32_t t, std::uint32_t v) const {
+    return std::find(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v) != mesh_.triangles[t].end();
+  }
+
+  SurfaceMesh& mesh_;
+  std::span<const CopyGroup> groups_;
+  std::span<const VertexId> origin_of_;
+  const Box3& box_;
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin: triangles around its copies
+  std::vector<std::uint32_t> surroundings_;                           // triangles around the group at hand
+  std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
+};
+
+// The triangles at all vertices that stand beside a copy.
+void Separation::find_fans() {
+  std::unordered_set<std::uint32_t> copies;
+  for (const CopyGroup& group : groups_) {
+    for (const Copy& copy : group) {
+      copies.insert(copy.vertex);
+      home_[copy.vertex] = mesh_.points[copy.vertex];
+    }
+  }
+  for (const auto& triangle : mesh_.triangles) {
+    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return copies.contains(v); })) continue;
+    for (const std::uint32_t v : triangle) fans_[origin_of_[v].index()];
+  }
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      const auto at = fans_.find(origin_of_[v].index());
+      if (at != fans_.end() && (at->second.empty() || at->second.back() != t)) at->second.push_back(t);
+    }
+  }
+}
+
+void Separation::find_surroundings(const CopyGroup& group) {
+  surroundings_.clear();
+  for (const Copy& copy : group) {
+    for (const std::uint32_t t : fan(copy.vertex)) {
+      if (!is_around(t, copy.vertex)) continue;
+      for (const std::uint32_t v : mesh_.triangles[t])
+        surroundings_.insert(surroundings_.end(), fan(v).begin(), fan(v).end());
+    }
+  }
+  std::sort(surroundings_.begin(), surroundings_.end());
+  surroundings_.erase(std::unique(surroundings_.begin(), surroundings_.end()), surroundings_.end());
+}
+
+double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
+  double shortest = box_.diagonal();
+  for (const std::uint32_t t : fan(copy)) {
+    if (!is_around(t, copy)) continue;
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      const double length = distance(home, mesh_.points[v]);
+      if (v != copy && length > 2 * kDistances.front()) shortest = std::min(shortest, length);
+    }
+  }
+  return shortest;
+}
+
+// Takes the trial that leaves the fewest conflicts, the first of equals, if these are fewer than `fewest`.
+void Separation::move(const Copy& copy, int fewest) {
+  const std::uint32_t v = copy.vertex;
+  Vec3 best = mesh_.points[v];
+  for (const Vec3& home : {home_[v], copy.second_home}) {
+    const double farthest = kEdgeFraction * shortest_edge(v, home);
+    mesh_.points[v] = home;
+    for (const Vec3& towards : directions(v)) {
+      for (const double length : kDistances) {
+        if (fewest == 0) break;
+        mesh_.points[v] = home + std::min(length, farthest) * towards;
+        const int left = conflicts(v);
+        if (left >= fewest) continue;
+        fewest = left;
+        best = mesh_.points[v];
+      }
+    }
+  }
+  mesh_.points[v] = best;
+}
+
+// Directions to try, the most promising first: towards either side of the whole fan; then, for a fan that no direction
+// sees as a whole, a few all around.
+std::vector<Vec3> Separation::directions(std::uint32_t copy) const {
+  std::vector<Vec3> directions;
+  for (const double side : {1.0, -1.0}) {
+    if (const auto d = direction(copy, side)) directions.push_back(*d);
+  }
+  if (directions.size() == 2) return directions;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 d = within_box_face(mesh_.points[copy], {i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
+    if (norm(d) > 0) directions.push_back(d / norm(d));
+  }
+  return directions;
+}
+
+Vec3 Separation::within_box_face(const Vec3& at, Vec3 d) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (at[axis] == box_.low[axis] || at[axis] == box_.high[axis]) d[axis] = 0;
+  }
+  return d;
+}
+
+// A direction towards one side of all triangles at the copy, which is at home (perceptron steps towards the triangle
+// that sees it least).
+std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const {
+  std::vector<Vec3> normals;
+  Vec3 sum;
+  for (const std::uint32_t t : fan(copy)) {
+    if (!is_around(t, copy)) continue;
+    const auto& v = mesh_.triangles[t];
+    const Vec3 n = cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]);
+    if (!(norm(n) > 0)) continue;
+    normals.push_back(side / norm(n) * n);
+    sum += normals.back();
+  }
+  const Vec3& at = mesh_.points[copy];
+  Vec3 d = within_box_face(at, sum);
+  for (int step = 0; step < kSteps && norm(d) > 0; ++step) {
+    d = d / norm(d);
+    const auto least = std::min_element(normals.begin(), normals.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return dot(a, d) < dot(b, d); });
+    if (dot(*least, d) >= kLeastSine) return d;
+    d += within_box_face(at, (2 * kLeastSine - dot(*least, d)) * *least);
+  }
+  return std::nullopt;
+}
+
+// Counts pairs of a triangle at this copy and one around its group that meet where they should not. Copies of a
+// neighbouring vertex may still share their place, so touching counts less.
+int Separation::conflicts(std::uint32_t copy) const {
+  int count = 0;
+  const auto has_area_at = [&](std::uint32_t t) {
+    const auto& v = mesh_.triangles[t];
+    return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+  };
+  for (const std::uint32_t s : fan(copy)) {
+    if (!is_around(s, copy)) continue;
+    if (!has_area_at(s)) {
+      count += kCrossingWeight;
+      continue;
+    }
+    for (const std::uint32_t t : surroundings_) {
+      if (s == t || !has_area_at(t)) continue;
+      const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t]);
+      if (contact == TriangleContact::kTouching) ++count;
+      if (contact == TriangleContact::kCrossing) count += kCrossingWeight;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
+                     const Box3& box) {
+  Separation(mesh, groups, origin_of, box).run();
+}
+
+}  // namespace deliso

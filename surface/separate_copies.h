@@ -1,0 +1,28 @@
+// Moves copies of a vertex apart, so that a mesh which touches itself there does so no more.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "delaunay/ids.h"
+#include "surface/surface_mesh.h"
+
+namespace deliso {
+
+// A mesh vertex that shares its place, or nearly, with others; and where else it may start from.
+struct Copy {
+  std::uint32_t vertex = 0;
+  Vec3 second_home;
+};
+using CopyGroup = std::vector<Copy>;
+
+// Each copy moves a hair's breadth (at most 2e-4 mesh-space units) towards one side of its own triangles, in a
+// direction that all of them see from that side, so that its fan shrinks away from the others; vertices on the box stay
+// on their face. Which side, and how far, is found by trial with exact tests of the triangles around. `origin_of`
+// names, for each mesh vertex, what it is a copy of: triangles that share no vertex but an origin are tested, too.
+void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
+                     const Box3& box);
+
+}  // namespace deliso
