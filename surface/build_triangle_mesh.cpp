@@ -51,6 +51,7 @@ class MeshBuilder {
   [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
   [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::vector<Vec3> places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const;
   Copy subdivide(TriangleSide side);
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
@@ -213,25 +214,34 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
   return kNoSide;
 }
 
-// Puts a vertex on an edge, as near to the isosurface as a hit along the triangles' common normal allows.
+// Places for a vertex on an edge: hits along the triangles' common normal or down the gradient, from the middle of the
+// edge to near its ends, where the surface is not far; at last the middle itself.
+std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const {
+  const Isosurface& isosurface = restricted_.isosurface();
+  std::vector<Vec3> places;
+  SearchCounters ignored;
+  for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.02, 0.98}) {
+    const Vec3 from = a + weight * (b - a);
+    for (const Vec3& direction : {normal, -isosurface.gradient(from)}) {
+      if (!(norm(direction) > 0)) continue;
+      const Line line{from, direction / norm(direction)};
+      const auto hit = isosurface.nearest_falling_hit(line, distance(a, b), ignored);
+      if (hit && isosurface.box().contains(line.at(*hit))) places.push_back(line.at(*hit));
+    }
+  }
+  places.push_back(0.5 * (a + b));
+  return places;
+}
+
 Copy MeshBuilder::subdivide(TriangleSide side) {
   const std::uint32_t t = side >> 2;
   const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
   const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
   const TriangleSide across = mesh_.neighbours[t][side & 3u];
   const Vec3 normal = normal_of(t) + (across == kNoSide ? Vec3{} : normal_of(across >> 2));
-  const Vec3 halfway = 0.5 * (mesh_.points[a] + mesh_.points[b]);
-  Vec3 middle = halfway;
-  if (norm(normal) > 0) {
-    const Line line{middle, normal / norm(normal)};
-    SearchCounters ignored;
-    const double reach = distance(mesh_.points[a], mesh_.points[b]);
-    if (const auto hit = restricted_.isosurface().nearest_falling_hit(line, reach, ignored)) {
-      if (restricted_.isosurface().box().contains(line.at(*hit))) middle = line.at(*hit);
-    }
-  }
+  const std::vector<Vec3> places = places_on(mesh_.points[a], mesh_.points[b], normal);
   const auto m = static_cast<std::uint32_t>(mesh_.points.size());
-  mesh_.points.push_back(middle);
+  mesh_.points.push_back(places.front());
   built_.vertex_of.push_back(built_.vertex_of[a]);
 
   const auto [to_middle, from_middle] = split_triangle(side, m);
@@ -240,7 +250,7 @@ Copy MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
-  return {m, halfway};
+  return {m, {places.begin() + 1, places.end()}};
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
@@ -286,7 +296,7 @@ void MeshBuilder::group_copies() {
     const bool continues = built_.groups.size() > subdivided &&
                            built_.vertex_of[built_.groups.back().back().vertex] == built_.vertex_of[copy];
     if (!continues) built_.groups.emplace_back();
-    built_.groups.back().push_back({copy, mesh_.points[copy]});
+    built_.groups.back().push_back({copy, {}});
   }
 }
 

@@ -116,7 +116,9 @@ double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
 void Separation::move(const Copy& copy, int fewest) {
   const std::uint32_t v = copy.vertex;
   Vec3 best = mesh_.points[v];
-  for (const Vec3& home : {home_[v], copy.second_home}) {
+  std::vector<Vec3> homes = copy.other_homes;
+  homes.insert(homes.begin(), home_[v]);
+  for (const Vec3& home : homes) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
     for (const Vec3& towards : directions(v)) {

@@ -11,10 +11,10 @@
 
 namespace deliso {
 
-// A mesh vertex that shares its place, or nearly, with others; and where else it may start from.
+// A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first.
 struct Copy {
   std::uint32_t vertex = 0;
-  Vec3 second_home;
+  std::vector<Vec3> other_homes;
 };
 using CopyGroup = std::vector<Copy>;
 
