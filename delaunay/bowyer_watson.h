@@ -47,6 +47,9 @@ class BowyerWatson : public Tetrahedralization {
   // The facets around the region, each as the tetrahedron outside knows it.
   [[nodiscard]] std::span<const FacetId> rim() const { return std::span(rim_).first(rim_size_); }
 
+  // The squared distance of p from the nearest vertex, which always lies on the rim.
+  [[nodiscard]] double nearest_squared_distance() const { return rows_.nearest_squared(); }
+
   // Stars p over the rim. The new tetrahedra are created(): created()[i] has p in slot 0, and its face 0 is the mirror
   // of what was rim()[i]. Their ids may be those of destroyed tetrahedra.
   VertexId fill_cavity();

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/base/vec3.h"
-#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
@@ -87,6 +88,13 @@ class LiftedRows {
 
   // The position of a vertex that has been added, or of the infinite vertex.
   [[nodiscard]] std::uint32_t find(VertexId v) const { return v == kInfiniteVertex ? kInfinite : position_[v.index()]; }
+
+  // The least squared distance of a vertex from the inserted point; infinite when there is none.
+  [[nodiscard]] double nearest_squared() const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 1; i < size_; ++i) nearest = std::min(nearest, rows_[i].w);
+    return nearest;
+  }
 
   [[nodiscard]] std::uint32_t size() const { return size_; }
   [[nodiscard]] VertexId id(std::uint32_t position) const { return ids_[position]; }

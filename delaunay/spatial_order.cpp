@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "delaunay/base/box3.h"
-#include "delaunay/huge_pages.h"
+#include "delaunay/base/huge_pages.h"
 
 namespace deliso {
 namespace {

@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/base/vec3.h"
-#include "delaunay/huge_pages.h"
 #include "delaunay/ids.h"
 
 namespace deliso {

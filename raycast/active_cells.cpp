@@ -3,27 +3,14 @@
 #include <algorithm>
 #include <bit>
 
+#include "volume/sample_sides.h"
+
 namespace deliso {
 
 namespace {
 
 using Word = std::uint64_t;
-constexpr std::size_t kWordBits = 64;
-
-// Bit i of a row of words: is sample i of the row above the isovalue?
-template <class Sample>
-void pack_row(const Sample* samples, std::size_t count, double isovalue, Word* row) {
-  std::array<std::uint8_t, kWordBits> above{};
-  for (std::size_t first = 0; first < count; first += kWordBits) {
-    const std::size_t here = std::min(kWordBits, count - first);
-    above.fill(0);
-    for (std::size_t i = 0; i < here; ++i)
-      above[i] = static_cast<std::uint8_t>(static_cast<double>(samples[first + i]) > isovalue);
-    Word word = 0;
-    for (std::size_t i = 0; i < kWordBits; ++i) word |= static_cast<Word>(above[i]) << i;
-    row[first / kWordBits] = word;
-  }
-}
+constexpr std::size_t kWordBits = kSidesPerWord;
 
 // The signs of all samples, in rows of whole words.
 struct SampleSigns {
@@ -37,9 +24,9 @@ struct SampleSigns {
     rows_per_slice = static_cast<std::size_t>(grid.dims()[1]);
     const std::size_t rows = rows_per_slice * static_cast<std::size_t>(grid.dims()[2]);
     words.resize(rows * words_per_row);
-    visit_samples(grid.samples(), [&](const auto& samples) {
-      for (std::size_t row = 0; row < rows; ++row)
-        pack_row(samples.data() + row * n, n, isovalue, words.data() + row * words_per_row);
+    visit_samples(grid.samples(), [&]<class Sample>(const std::vector<Sample>& samples) {
+      const SideTest<Sample> sides(isovalue);
+      for (std::size_t row = 0; row < rows; ++row) sides.pack(samples.data() + row * n, n, &words[row * words_per_row]);
     });
   }
   [[nodiscard]] const Word* row(std::int32_t j, std::int32_t k) const {
@@ -86,14 +73,35 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
       activate_row({signs.row(j0, k0), signs.row(j1, k0), signs.row(j0, k1), signs.row(j1, k1)},
                    static_cast<std::size_t>(n[0]), active);
       // Deal the row out to its bricks, four cells each.
-      for (std::int32_t x = 0; x <= n[0]; x += 4) {
-        const auto word = static_cast<std::size_t>(x) / kWordBits;
-        const Word four = (active[word] >> (static_cast<std::size_t>(x) % kWordBits)) & 15u;
-        if (four == 0) continue;
-        const std::size_t place = place_of({x, y, z});
-        words_[place / kWordBits] |= four << (place % kWordBits);
+      for (std::size_t word = 0; word < active.size(); ++word) {
+        std::int32_t x = static_cast<std::int32_t>(word * kWordBits);
+        for (Word left = active[word]; left != 0; left >>= 4, x += 4) {
+          if ((left & 15u) == 0) continue;
+          const std::size_t place = place_of({x, y, z});
+          words_[place / kWordBits] |= (left & 15u) << (place % kWordBits);
+        }
       }
     }
+}
+
+bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
+  // Bits of a brick whose coordinates along an axis lie in [first, last] of the brick.
+  const auto mask = [](std::size_t axis, std::int32_t first, std::int32_t last) {
+    constexpr std::array<Word, 3> kSpread = {0x1111111111111111u, 0x000F000F000F000Fu, 0xFFFFu};
+    Word bits = 0;
+    for (std::int32_t c = std::max(first, 0); c <= std::min(last, 3); ++c)
+      bits |= kSpread[axis] << (static_cast<unsigned>(c) << (2 * axis));
+    return bits;
+  };
+  for (std::int32_t z = low[2] & ~3; z <= high[2]; z += 4) {
+    const Word in_z = mask(2, low[2] - z, high[2] - z);
+    for (std::int32_t y = low[1] & ~3; y <= high[1]; y += 4) {
+      const Word in_yz = in_z & mask(1, low[1] - y, high[1] - y);
+      for (std::int32_t x = low[0] & ~3; x <= high[0]; x += 4)
+        if ((brick({x, y, z}) & in_yz & mask(0, low[0] - x, high[0] - x)) != 0) return true;
+    }
+  }
+  return false;
 }
 
 std::size_t ActiveCells::count() const {

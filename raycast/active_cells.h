@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "raycast/cell_walk.h"
 #include "volume/scalar_grid.h"
 
@@ -22,6 +23,10 @@ class ActiveCells {
     const std::size_t place = place_of(cell);
     return ((words_[place / 64] >> (place % 64)) & 1) != 0;
   }
+  // The bits of the brick of 4 x 4 x 4 cells that holds a cell.
+  [[nodiscard]] std::uint64_t brick(const Cell& cell) const { return words_[place_of(cell) / 64]; }
+  // Is a cell active in the box from `low` to `high`, both inclusive?
+  [[nodiscard]] bool any_active(const Cell& low, const Cell& high) const;
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
@@ -33,7 +38,7 @@ class ActiveCells {
   }
 
   std::array<std::vector<std::size_t>, 3> places_;
-  std::vector<std::uint64_t> words_;
+  LargeArray<std::uint64_t> words_;
 };
 
 }  // namespace deliso

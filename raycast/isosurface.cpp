@@ -8,6 +8,7 @@
 #include "raycast/active_cells.h"
 #include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
+#include "raycast/empty_bricks.h"
 #include "raycast/min_max_kdtree.h"
 #include "raycast/voxel_intersection.h"
 
@@ -130,6 +131,7 @@ Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOpti
     tree_ = std::make_unique<MinMaxKdTree>(grid, options.leaf_cells);
   } else {
     active_ = std::make_unique<ActiveCells>(grid, isovalue);
+    bricks_ = std::make_unique<EmptyBricks>(grid, *active_, isovalue);
   }
 }
 

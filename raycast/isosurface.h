@@ -15,6 +15,7 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/base/counters.h"
 #include "delaunay/base/vec3.h"
+#include "raycast/cell_walk.h"
 #include "raycast/search_options.h"
 #include "volume/scalar_grid.h"
 
@@ -33,6 +34,7 @@ struct Line {
 };
 
 class ActiveCells;
+class EmptyBricks;
 class MinMaxKdTree;
 
 class Isosurface {
@@ -54,7 +56,22 @@ class Isosurface {
   // Field minus isovalue at p, extended beyond the box.
   [[nodiscard]] double value(const Vec3& p) const;
   // Which side: value >= 0. The one tie rule of the project: exactly zero counts as above.
-  [[nodiscard]] bool is_above(const Vec3& p) const { return value(p) >= 0; }
+  [[nodiscard]] bool is_above(const Vec3& p) const { return is_above(p, place_of(p)); }
+
+  // Where a point is, for quick answers: its extended cell and the clearance of its brick (see empty_bricks.h).
+  struct Place {
+    Cell cell{};
+    int clearance = 0;  // 0: nothing is known
+  };
+  [[nodiscard]] Place place_of(const Vec3& p) const;
+  [[nodiscard]] bool is_above(const Vec3& p, const Place& place) const {
+    return place.clearance != 0 ? place.clearance > 0 : value(p) >= 0;
+  }
+  // True only when the box of cells that two places span (that the segment between the two points passes) has no active
+  // cell, so that no hit lies there. False tells nothing. Fast; always false but for traversal kCellWalk with pruning.
+  [[nodiscard]] bool is_clear_box(const Place& a, const Place& b) const;
+  [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b) const;
+
   // Gradient of the field at p (clamped to the box), with respect to mesh-space coordinates.
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
@@ -72,6 +89,8 @@ class Isosurface {
 
  private:
   struct Segment;
+  [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b,
+                              int halvings) const;
   [[nodiscard]] CellCorners relative_corners(const Vec3& index_point, Vec3& uvw) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
@@ -86,6 +105,7 @@ class Isosurface {
   Vec3 inverse_step_;
   std::unique_ptr<MinMaxKdTree> tree_;   // traversal kKdTree, when pruning
   std::unique_ptr<ActiveCells> active_;  // traversal kCellWalk, when pruning
+  std::unique_ptr<EmptyBricks> bricks_;  // the same
 };
 
 }  // namespace deliso

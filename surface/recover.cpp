@@ -101,17 +101,20 @@ void Recovery::queue_edge(DualEdgeId e) {
   const DualEdge& edge = restricted_.dual_edge(e);
   if (edge.hits.size() > 1) {
     const double farthest = std::max(std::abs(edge.hits.front().t), std::abs(edge.hits.back().t));
-    queue_.push({ViolationKind::kMultiIntersect, e.value, edge.generation}, farthest, edge.radius);
+    queue_.push({ViolationKind::kMultiIntersect, e.value, edge.generation}, farthest, edge.radius, edge.dual.origin);
   }
   const double badness = geometric_badness(edge);
-  if (badness > 1) queue_.push({ViolationKind::kApproximateGeometry, e.value, edge.generation}, badness, edge.radius);
+  if (badness > 1) {
+    queue_.push({ViolationKind::kApproximateGeometry, e.value, edge.generation}, badness, edge.radius,
+                edge.dual.origin);
+  }
 }
 
 void Recovery::queue_umbrella(VertexId q) {
   umbrella_queued_.resize(delaunay_.vertex_count(), false);
   if (umbrella_queued_[q.index()]) return;
   umbrella_queued_[q.index()] = true;
-  queue_.push({ViolationKind::kExtractManifold, q.value, 0}, 0, 0);
+  queue_.push({ViolationKind::kExtractManifold, q.value, 0}, 0, 0, {});
 }
 
 // MultiIntersect: a dual edge with several hits gives the one farthest from its facet.
@@ -126,9 +129,10 @@ std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
 // ExtractManifold: an umbrella that is no disk gives its x_sigma farthest from the vertex. On the box a half disk will
 // do.
 std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
-  const UmbrellaShape shape = umbrella_.inspect(q);
-  if (shape == UmbrellaShape::kDisk) return std::nullopt;
-  if (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q)) return std::nullopt;
+  const auto will_do = [&](UmbrellaShape shape) {
+    return shape == UmbrellaShape::kDisk || (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q));
+  };
+  if (will_do(restricted_.quick_umbrella_shape(q)) || will_do(umbrella_.inspect(q))) return std::nullopt;
   if (auto candidate = farthest_of_umbrella(q)) return candidate;
   return farthest_in_voronoi_cell(q);
 }

@@ -2,31 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "delaunay/base/check.h"
 #include "delaunay/base/stopwatch.h"
-#include "delaunay/constructions.h"
 
 namespace deliso {
-
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A hit this near to an end of its dual edge (mesh-space units, or this fraction of the edge's distance from the facet)
-// may be an artefact of rounded circumcenters.
-constexpr double kEndTolerance = 1e-7;
-
-}  // namespace
-
-double surface_hit(const DualEdge& edge) {
-  // Hits alternate, and the first one crosses in the direction of the signs.
-  double nearest = edge.hits.front().t;
-  for (std::size_t i = 2; i < edge.hits.size(); i += 2) {
-    if (std::abs(edge.hits[i].t) < std::abs(nearest)) nearest = edge.hits[i].t;
-  }
-  return nearest;
-}
 
 RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points)
     : SignedDelaunay(isosurface, points) {
@@ -39,12 +18,20 @@ void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
   edge_of_.assign(slots, {});
   touched_stamp_.assign(delaunay_.vertex_count(), 0);
-  leaving_stamp_.assign(slots, 0);
+  umbrellas_.assign(delaunay_.vertex_count(), {});
+  position_.assign(slots, 0);
+  std::vector<DualEnd> dual_ends(slots);
+  for (std::size_t i = 0; i < slots; ++i) {
+    if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_of(TetId(i));
+  }
   for (std::size_t i = 0; i < slots; ++i) {
     if (!delaunay_.is_live(TetId(i))) continue;
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(TetId(i), face);
-      if (f < delaunay_.mirror(f)) search_facet(f);
+      const FacetId mirror = delaunay_.mirror(f);
+      if (mirror < f) continue;
+      if (is_restricted(f)) add_restricted(f);
+      search_facet_between(f, dual_ends[i], dual_ends[mirror.tet().index()]);
     }
   }
 }
@@ -52,7 +39,7 @@ void RestrictedDelaunay::search_everything() {
 RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId start, double min_distance) {
   const Vec3 p = snapped(point);
   if (delaunay_.find_conflicts(p, start)) return Outcome::kDuplicate;
-  if (nearest_rim_vertex(p) < min_distance) {
+  if (std::sqrt(delaunay_.nearest_squared_distance()) < min_distance) {
     delaunay_.abandon_cavity();
     return Outcome::kTooClose;
   }
@@ -67,18 +54,6 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
   return Outcome::kInserted;
 }
 
-// The nearest vertex of the triangulation becomes a Delaunay neighbour of p, so it lies on the rim.
-double RestrictedDelaunay::nearest_rim_vertex(const Vec3& p) const {
-  double nearest = kInfinity;
-  for (const FacetId f : delaunay_.rim()) {
-    for (const unsigned slot : kFacetSlots[f.face()]) {
-      const VertexId v = delaunay_.vertices(f.tet())[slot];
-      if (v != kInfiniteVertex) nearest = std::min(nearest, squared_distance(p, delaunay_.point(v)));
-    }
-  }
-  return std::sqrt(nearest);
-}
-
 // Before the conflict region goes: dual edges inside it are released, those of its rim are noted.
 void RestrictedDelaunay::forget_region() {
   rim_edges_.clear();
@@ -87,36 +62,50 @@ void RestrictedDelaunay::forget_region() {
     const bool inside_is_begin = !e.is_none() && dual_edges_[e.index()].facet != f;
     rim_edges_.push_back({e, inside_is_begin, is_restricted(f)});
   }
-  for (const TetId t : delaunay_.conflict_region()) leaving_stamp_[t.index()] = stamp_;
-  for (const TetId t : delaunay_.conflict_region()) {
+  const std::span<const TetId> region = delaunay_.conflict_region();
+  for (std::size_t i = 0; i < region.size(); ++i) position_[region[i].index()] = static_cast<std::uint32_t>(i);
+  for (const TetId t : region) {
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(t, face);
       const FacetId mirror = delaunay_.mirror(f);
-      const bool inside = leaving_stamp_[mirror.tet().index()] == stamp_;
+      const std::uint32_t position = position_[mirror.tet().index()];
+      const bool inside = position < region.size() && region[position] == mirror.tet();
       if (!inside || mirror < f) continue;
-      if (is_restricted(f)) touch_vertices(f);
+      if (is_restricted(f)) remove_restricted(f);
       if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
     }
   }
+}
+
+RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
+  const Vec3 p = dual_point(t);
+  return {p, isosurface_.place_of(p)};
 }
 
 // After the cavity is filled: signs of the new tetrahedra, then their facets, the rim first.
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
   edge_of_.resize(delaunay_.tet_slots());
-  leaving_stamp_.resize(delaunay_.tet_slots(), 0);
+  position_.resize(delaunay_.tet_slots(), 0);
   touched_stamp_.resize(delaunay_.vertex_count(), 0);
-  for (const TetId t : delaunay_.created()) {
-    sign_[t.index()] = sign_of(t);
+  umbrellas_.resize(delaunay_.vertex_count());
+  const std::span<const TetId> created = delaunay_.created();
+  dual_ends_.resize(created.size());
+  for (std::size_t i = 0; i < created.size(); ++i) {
+    const TetId t = created[i];
+    position_[t.index()] = static_cast<std::uint32_t>(i);
+    dual_ends_[i] = dual_end_of(t);
+    sign_[t.index()] = isosurface_.is_above(dual_ends_[i].point, dual_ends_[i].place) ? Sign::kAbove : Sign::kBelow;
     edge_of_[t.index()].fill(DualEdgeId::none());
   }
-  for (std::size_t i = 0; i < rim_edges_.size(); ++i) renew_rim_facet(delaunay_.created()[i], rim_edges_[i]);
-  for (const TetId t : delaunay_.created()) {
+  for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
+  for (std::size_t i = 0; i < created.size(); ++i) {
     for (unsigned face = 1; face < 4; ++face) {
-      const FacetId f(t, face);
-      if (delaunay_.mirror(f) < f) continue;
-      if (is_restricted(f)) touch_vertices(f);
-      search_facet(f);
+      const FacetId f(created[i], face);
+      const FacetId mirror = delaunay_.mirror(f);
+      if (mirror < f) continue;
+      if (is_restricted(f)) add_restricted(f);
+      search_facet_between(f, dual_ends_[i], dual_ends_[position_[mirror.tet().index()]]);
     }
   }
   touch(last_vertex());
@@ -126,7 +115,8 @@ void RestrictedDelaunay::renew_star() {
 void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   const FacetId f(created, 0);
   const bool restricted = is_restricted(f);
-  if (restricted != rim.was_restricted) touch_vertices(f);
+  if (restricted && !rim.was_restricted) add_restricted(f);
+  if (!restricted && rim.was_restricted) remove_restricted(f);
   DualEdgeId e = rim.edge;
   if (e.is_none()) {
     if (restricted) search_facet(f);  // the signs disagree with the search that found nothing: they win
@@ -151,99 +141,39 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   }
 }
 
-// Computes V_sigma and Sigma for a facet and keeps its dual edge when it has hits.
-void RestrictedDelaunay::search_facet(FacetId f) {
-  const auto& tet = delaunay_.vertices(f.tet());
-  std::array<VertexId, 3> v;
-  for (unsigned i = 0; i < 3; ++i) {
-    v[i] = tet[kFacetSlots[f.face()][i]];
-    if (is_virtual(v[i])) return;
-  }
-  const Vec3& a = delaunay_.point(v[0]);
-  const Vec3& b = delaunay_.point(v[1]);
-  const Vec3& c = delaunay_.point(v[2]);
-  const Circumcircle circle = circumcircle(a, b, c);
-  const Vec3 normal = cross(b - a, c - a);
-  const double length = norm(normal);
-  DualEdge& edge = scratch_;
-  edge.facet = f;
-  edge.vertices = v;
-  edge.hits.clear();
-  if (std::isfinite(circle.radius) && length > 0) {
-    edge.dual = {circle.center, normal / length};
-    edge.radius = circle.radius;
-    edge.t_begin = dual_end(edge, f.tet(), -1);
-    edge.t_end = std::max(edge.t_begin, dual_end(edge, delaunay_.mirror(f).tet(), +1));
-    isosurface_.all_hits(edge.dual, edge.t_begin, edge.t_end, edge.hits, counters_);
-  } else {
-    edge.dual = {(a + b + c) / 3, {0, 0, 0}};  // a needle: nothing can be measured on it
-    edge.radius = kInfinity;
-    edge.t_begin = edge.t_end = 0;
-  }
-  settle_hits(edge);
-  if (edge.hits.empty()) return;
-  const DualEdgeId e = make_edge();
-  DualEdge& kept = dual_edges_[e.index()];
-  const std::uint32_t generation = kept.generation;
-  std::swap(kept, edge);
-  kept.generation = generation;
-  edge_of_[f.tet().index()][f.face()] = e;
-  const FacetId mirror = delaunay_.mirror(f);
-  edge_of_[mirror.tet().index()][mirror.face()] = e;
-  touched_edges_.push_back(e);
+bool RestrictedDelaunay::has_virtual_vertex(FacetId f) const {
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
+  return is_virtual(v[0]) || is_virtual(v[1]) || is_virtual(v[2]);
 }
 
-// The parameter of the Voronoi vertex of t on the dual line of one of its facets; `side` is -1 when the line leaves t
-// through the facet, +1 when it enters. The apex d satisfies |x(t) - d| = |x(t) - a|, which gives t = (|d - c|^2 - r^2)
-// / (2 n.(d - c)); the sign of n.(d - c) is known exactly, so a rounded one that disagrees counts as 0.
-double RestrictedDelaunay::dual_end(const DualEdge& edge, TetId t, int side) const {
-  VertexId apex;
-  for (const VertexId v : delaunay_.vertices(t)) {
-    if (v != edge.vertices[0] && v != edge.vertices[1] && v != edge.vertices[2]) apex = v;
-  }
-  if (apex == kInfiniteVertex) return side * kInfinity;
-  const Vec3 d = delaunay_.point(apex) - edge.dual.origin;
-  const double height = std::max(side * dot(edge.dual.direction, d), std::numeric_limits<double>::min());
-  return side * (squared_norm(d) - edge.radius * edge.radius) / (2 * height);
-}
-
-// The signs of the two tetrahedra win over the search: where the first or last hit contradicts them, a hit within
-// rounding of that end is dropped, or else one is put there.
-void RestrictedDelaunay::settle_hits(DualEdge& edge) const {
-  const bool begin_above = is_above(edge.facet.tet());
-  const bool end_above = is_above(delaunay_.mirror(edge.facet).tet());
-  auto& hits = edge.hits;
-  const auto clamped_end = [&](double t) {
-    const double reach = edge.radius + isosurface_.box().diagonal();
-    return std::isfinite(edge.radius) ? std::clamp(t, -reach, reach) : 0;
-  };
-  const auto is_near = [](double t, double end) {
-    return std::abs(t - end) <= kEndTolerance * std::max(1.0, std::abs(end));
-  };
-  if (!hits.empty() && hits.front().falling != begin_above) {
-    if (is_near(hits.front().t, edge.t_begin)) {
-      hits.erase(hits.begin());
-    } else {
-      hits.insert(hits.begin(), {clamped_end(edge.t_begin), begin_above});
-    }
-  }
-  const bool state = hits.empty() ? begin_above : !hits.back().falling;
-  if (state == end_above) return;
-  if (!hits.empty() && is_near(hits.back().t, edge.t_end)) {
-    hits.pop_back();
-  } else if (!hits.empty()) {
-    hits.push_back({clamped_end(edge.t_end), state});
-  } else {
-    const double begin = clamped_end(edge.t_begin);
-    const double end = clamped_end(edge.t_end);
-    const bool at_begin =
-        std::abs(isosurface_.value(edge.dual.at(begin))) < std::abs(isosurface_.value(edge.dual.at(end)));
-    hits.push_back({at_begin ? begin : end, state});
+void RestrictedDelaunay::add_restricted(FacetId f) {
+  const FacetId from_above = is_above(f.tet()) ? f : delaunay_.mirror(f);
+  for (const VertexId v : delaunay_.facet_vertices(f)) {
+    if (is_virtual(v)) continue;
+    Umbrella& umbrella = umbrellas_[v.index()];
+    ++umbrella.size;
+    umbrella.facet = from_above;
+    touch(v);
   }
 }
 
-void RestrictedDelaunay::touch_vertices(FacetId f) {
-  for (const unsigned slot : kFacetSlots[f.face()]) touch(delaunay_.vertices(f.tet())[slot]);
+void RestrictedDelaunay::remove_restricted(FacetId f) {
+  for (const VertexId v : delaunay_.facet_vertices(f)) {
+    if (is_virtual(v)) continue;
+    --umbrellas_[v.index()].size;
+    touch(v);
+  }
+}
+
+UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) const {
+  const auto& [size, facet] = umbrellas_[q.index()];
+  if (size == 0) return UmbrellaShape::kEmpty;
+  // The facet known may be gone, and another one stand in its place.
+  if (facet.is_none() || !delaunay_.is_live(facet.tet()) || !is_above(facet.tet()) || !is_restricted(facet))
+    return UmbrellaShape::kBroken;
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(facet);
+  if (v[0] != q && v[1] != q && v[2] != q) return UmbrellaShape::kBroken;
+  return shape_by_walk(*this, q, facet, size);
 }
 
 void RestrictedDelaunay::touch(VertexId v) {

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "delaunay/base/counters.h"
+#include "delaunay/base/huge_pages.h"
 #include "surface/signed_delaunay.h"
+#include "surface/umbrella.h"
 
 namespace deliso {
 
@@ -54,6 +56,10 @@ class RestrictedDelaunay : public SignedDelaunay {
   // The dual edge of a facet, or none when it has no hit.
   [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return edge_of_[f.tet().index()][f.face()]; }
 
+  // The umbrella of a vertex, as far as a quick walk can tell (see shape_by_walk). Only while nobody but insert() has
+  // changed signs.
+  [[nodiscard]] UmbrellaShape quick_umbrella_shape(VertexId q) const;
+
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
   // Wall-clock time spent deciding which facets are restricted.
   [[nodiscard]] double restricted_seconds() const { return restricted_seconds_; }
@@ -72,18 +78,34 @@ class RestrictedDelaunay : public SignedDelaunay {
   void search_facet(FacetId f);
   void settle_hits(DualEdge& edge) const;
   [[nodiscard]] double dual_end(const DualEdge& edge, TetId t, int side) const;
-  [[nodiscard]] double nearest_rim_vertex(const Vec3& p) const;
-  void touch_vertices(FacetId f);
+  // Where the dual edges of a tetrahedron end.
+  struct DualEnd {
+    Vec3 point;
+    Isosurface::Place place;
+  };
+  [[nodiscard]] DualEnd dual_end_of(TetId t) const;
+  void search_facet_between(FacetId f, const DualEnd& from, const DualEnd& to);
+  [[nodiscard]] bool has_virtual_vertex(FacetId f) const;
+  void add_restricted(FacetId f);
+  void remove_restricted(FacetId f);
   void touch(VertexId v);
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
-  std::vector<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
-  std::vector<std::uint32_t> touched_stamp_;        // of each vertex: the insertion that touched it last
-  std::vector<std::uint32_t> leaving_stamp_;        // of each tetrahedron: the insertion that destroyed it
+  LargeArray<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
+  std::vector<std::uint32_t> touched_stamp_;       // of each vertex: the insertion that touched it last
   std::uint32_t stamp_ = 0;
+  // Of each tetrahedron: its position in the conflict region or, later, in created(); right only if that agrees.
+  LargeArray<std::uint32_t> position_;
+  std::vector<DualEnd> dual_ends_;  // of created()
+  // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
+  struct Umbrella {
+    std::uint32_t size = 0;
+    FacetId facet;
+  };
+  std::vector<Umbrella> umbrellas_;
 
-  std::vector<DualEdge> dual_edges_;
+  LargeArray<DualEdge> dual_edges_;
   std::vector<DualEdgeId> free_edges_;
   std::vector<DualEdgeId> touched_edges_;
   std::vector<VertexId> touched_vertices_;

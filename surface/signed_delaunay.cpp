@@ -78,19 +78,13 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
   }
 }
 
-// One sign per tetrahedron: that of the (clamped) field at its circumcenter, or at the far end of a ghost's dual ray.
-SignedDelaunay::Sign SignedDelaunay::sign_of(TetId t) const {
+Vec3 SignedDelaunay::dual_point(TetId t) const {
   const auto& v = delaunay_.vertices(t);
-  Vec3 where;
-  if (delaunay_.is_ghost(t)) {
-    const Vec3& a = delaunay_.point(v[0]);
-    const Vec3& b = delaunay_.point(v[1]);
-    const Vec3& c = delaunay_.point(v[2]);
-    where = clamped_limit(isosurface_.box(), circumcircle(a, b, c).center, cross(b - a, c - a));
-  } else {
-    where = circumcenter(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), delaunay_.point(v[3]));
-  }
-  return sign_at(where);
+  const Vec3& a = delaunay_.point(v[0]);
+  const Vec3& b = delaunay_.point(v[1]);
+  const Vec3& c = delaunay_.point(v[2]);
+  if (!delaunay_.is_ghost(t)) return circumcenter(a, b, c, delaunay_.point(v[3]));
+  return clamped_limit(isosurface_.box(), circumcircle(a, b, c).center, cross(b - a, c - a));
 }
 
 bool SignedDelaunay::on_box(const Box3& box, const Vec3& p) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/bowyer_watson.h"
 #include "raycast/isosurface.h"
 
@@ -60,11 +61,13 @@ class SignedDelaunay {
  protected:
   enum class Sign : std::uint8_t { kBelow, kAbove };
   [[nodiscard]] Sign sign_at(const Vec3& p) const { return isosurface_.is_above(p) ? Sign::kAbove : Sign::kBelow; }
-  [[nodiscard]] Sign sign_of(TetId t) const;
+  [[nodiscard]] Sign sign_of(TetId t) const { return sign_at(dual_point(t)); }
+  // The circumcenter of t; of a ghost, where its dual ray ends up when it is clamped to the box.
+  [[nodiscard]] Vec3 dual_point(TetId t) const;
 
   const Isosurface& isosurface_;
   BowyerWatson delaunay_;
-  std::vector<Sign> sign_;  // of each tetrahedron
+  LargeArray<Sign> sign_;  // of each tetrahedron
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };

@@ -1,6 +1,60 @@
 #include "surface/umbrella.h"
 
+#include <algorithm>
+#include <array>
+
 namespace deliso {
+
+namespace {
+
+constexpr std::uint32_t kLargestWalk = 32;  // restricted facets
+
+unsigned slot_of(const std::array<VertexId, 4>& tet, VertexId v) {
+  return tet[0] == v ? 0 : tet[1] == v ? 1 : tet[2] == v ? 2 : 3;
+}
+
+}  // namespace
+
+UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetId first, std::uint32_t size) {
+  if (size == 0) return UmbrellaShape::kEmpty;
+  if (size > kLargestWalk) return UmbrellaShape::kBroken;
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  std::array<VertexId, kLargestWalk> link;
+  std::uint32_t passed = 0;
+  bool at_infinity = false;
+  FacetId facet = first;
+  for (;;) {
+    // The facet's link edge runs from one vertex to the next, counterclockwise seen from below the isovalue.
+    const auto& slots = kFacetSlots[facet.face()];
+    const auto& v = delaunay.vertices(facet.tet());
+    const unsigned at = v[slots[0]] == q ? 0 : v[slots[1]] == q ? 1 : 2;
+    const VertexId from = v[slots[(at + 1) % 3]];
+    const VertexId to = v[slots[(at + 2) % 3]];
+    if (std::find(link.begin(), link.begin() + passed, from) != link.begin() + passed) return UmbrellaShape::kBroken;
+    link[passed++] = from;
+    at_infinity |= restricted.is_virtual(from);
+
+    // The next one also has the edge from q to `to`: turn around it on the side above, until the sign changes.
+    TetId t = facet.tet();
+    VertexId behind = from;
+    for (;;) {
+      const auto& tet = delaunay.vertices(t);
+      const unsigned face = slot_of(tet, behind);
+      const FacetId mirror = delaunay.mirror(FacetId(t, face));
+      if (!restricted.is_above(mirror.tet())) {
+        facet = FacetId(t, face);
+        break;
+      }
+      // The fourth vertex of t is what lies behind in the next one.
+      behind.value = tet[0].value ^ tet[1].value ^ tet[2].value ^ tet[3].value ^ q.value ^ to.value ^ behind.value;
+      t = mirror.tet();
+    }
+    if (facet == first) break;
+    if (passed == size) return UmbrellaShape::kBroken;
+  }
+  if (passed != size) return UmbrellaShape::kBroken;
+  return at_infinity ? UmbrellaShape::kHalfDisk : UmbrellaShape::kDisk;
+}
 
 UmbrellaShape UmbrellaInspector::inspect(VertexId q) {
   collect(q);

@@ -16,6 +16,11 @@ enum class UmbrellaShape {
   kBroken,    // anything else
 };
 
+// The shape of an umbrella of `size` restricted facets, by a walk from one of them to the next: `first` is one of them,
+// seen from the tetrahedron above the isovalue. Much faster than a look at the whole star, but kBroken may also mean
+// that the walk gave up.
+UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetId first, std::uint32_t size);
+
 // Walks stars. Holds scratch memory; one object serves any number of vertices of one triangulation.
 class UmbrellaInspector {
  public:

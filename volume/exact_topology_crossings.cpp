@@ -3,54 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "delaunay/base/check.h"
+#include "volume/sample_sides.h"
 
 namespace deliso {
 
 namespace {
 
-// A sample lies above the isovalue exactly when it is greater than the threshold, a number of its own type where that
-// is possible.
-template <class Sample>
-auto threshold_of(double isovalue) {
-  if constexpr (std::is_floating_point_v<Sample>) {
-    return isovalue;
-  } else {
-    // One type wider, so that a threshold below or above all samples exists.
-    using Wide = std::conditional_t<sizeof(Sample) == 4, std::int64_t, std::int32_t>;
-    const double low = static_cast<double>(std::numeric_limits<Sample>::min()) - 1;
-    const double high = static_cast<double>(std::numeric_limits<Sample>::max());
-    return static_cast<Wide>(std::floor(std::clamp(isovalue, low, high)));
-  }
-}
-
-// Sets bit b of the result when flags[b] is 1, for b < 64; flags are 0 or 1.
-std::uint64_t packed(const std::array<std::uint8_t, CrossingIndex::kWordBits>& flags) {
-  std::uint64_t word = 0;
-  for (std::size_t byte = 0; byte < 8; ++byte) {
-    // Eight flags in one number, the first lowest; the product gathers them in its top byte.
-    std::uint64_t eight = 0;
-    for (std::size_t b = 0; b < 8; ++b) eight |= static_cast<std::uint64_t>(flags[8 * byte + b]) << (8 * b);
-    word |= ((eight * 0x0102040810204080ull) >> 56) << (8 * byte);
-  }
-  return word;
-}
-
 // Marks the samples of a row above the isovalue; false when a sample equals it.
 template <class Sample>
-bool mark_row(const Sample* row, std::size_t length, double isovalue, std::uint64_t* words) {
-  const auto threshold = threshold_of<Sample>(isovalue);
-  const bool may_be_equal = static_cast<double>(threshold) == isovalue;
-  std::array<std::uint8_t, CrossingIndex::kWordBits> flags{};
-  for (std::size_t start = 0; start < length; start += flags.size()) {
-    const std::size_t count = std::min(flags.size(), length - start);
-    if (count < flags.size()) flags.fill(0);
-    for (std::size_t b = 0; b < count; ++b) flags[b] = row[start + b] > threshold ? 1 : 0;
-    *words++ = packed(flags);
-  }
-  return !may_be_equal || std::none_of(row, row + length, [&](Sample sample) { return sample == threshold; });
+bool mark_row(const SideTest<Sample>& sides, const Sample* row, std::size_t length, std::uint64_t* words) {
+  sides.pack(row, length, words);
+  return sides.never_equal() || std::none_of(row, row + length, [&](Sample sample) { return sides.equals(sample); });
 }
 
 }  // namespace
@@ -75,11 +40,12 @@ CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
   // Mark the samples above the isovalue, a row at a time.
   bool regular = true;
   std::visit(
-      [&](const auto& samples) {
+      [&]<class Sample>(const std::vector<Sample>& samples) {
+        const SideTest<Sample> sides(isovalue);
         const auto length = static_cast<std::size_t>(dims_[0]);
         const auto words = static_cast<std::size_t>(words_per_row_);
         for (std::size_t row = 0; row < rows; ++row) {
-          regular &= mark_row(samples.data() + row * length, length, isovalue, &above_[row * words]);
+          regular &= mark_row(sides, samples.data() + row * length, length, &above_[row * words]);
         }
       },
       grid.samples());

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "delaunay/base/check.h"
+#include "volume/sample_sides.h"
 
 namespace deliso {
 
@@ -157,6 +158,10 @@ ScalarGrid padded(const ScalarGrid& grid, double value) {
 }
 
 double regular_isovalue(const ScalarGrid& grid, double isovalue) {
+  const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const std::vector<Sample>&) {
+    return SideTest<Sample>(isovalue).never_equal();
+  });
+  if (never_equal) return isovalue;
   Neighbors near = find_neighbors(grid, isovalue);
   while (near.equal) {
     // Step down by 1 % of the gap; in a gap of few doubles the step may round to nothing, so try its middle too.

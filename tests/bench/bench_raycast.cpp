@@ -11,6 +11,7 @@
 
 #include "delaunay/base/rng.h"
 #include "raycast/active_cells.h"
+#include "raycast/empty_bricks.h"
 #include "raycast/isosurface.h"
 #include "raycast/min_max_kdtree.h"
 #include "tests/support/raycast_fields.h"
@@ -179,6 +180,29 @@ void build_active_cells(benchmark::State& state) {
   }
 }
 
+void build_empty_bricks(benchmark::State& state) {
+  const ActiveCells active(volume().grid, volume().isovalue);
+  for (auto _ : state) {
+    const EmptyBricks bricks(volume().grid, active, volume().isovalue);
+    benchmark::DoNotOptimize(bricks.bytes());
+  }
+}
+
+// Short segments along the surface: what a dual edge costs that has no hit.
+void clear_segment(benchmark::State& state) {
+  const Isosurface surface(volume().grid, volume().isovalue, {});
+  const std::vector<Query> queries = segments(surface, false, true);
+  std::size_t i = 0;
+  std::int64_t clear = 0;
+  for (auto _ : state) {
+    const Query& q = queries[i++ % kQueries];
+    const Vec3 a = q.line.at(q.t0);
+    const Vec3 b = q.line.at(q.t1);
+    clear += surface.is_clear(a, surface.place_of(a), b, surface.place_of(b)) ? 1 : 0;
+  }
+  state.counters["clear_share"] = static_cast<double>(clear) / static_cast<double>(state.iterations());
+}
+
 const std::vector<std::vector<std::int64_t>> kBoth = {{0, 1}, {0, 1}};
 BENCHMARK(all_hits_through)->ArgNames({"walk", "coherent"})->ArgsProduct(kBoth);
 BENCHMARK(all_hits_beside)->ArgNames({"walk", "coherent"})->ArgsProduct(kBoth);
@@ -187,6 +211,8 @@ BENCHMARK(whole_line)->ArgNames({"walk", "coherent"})->ArgsProduct(kBoth);
 BENCHMARK(value);
 BENCHMARK(build_kd_tree)->ArgName("leaf_cells")->Arg(1)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(build_active_cells)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_empty_bricks)->Unit(benchmark::kMillisecond);
+BENCHMARK(clear_segment);
 
 }  // namespace
 }  // namespace deliso

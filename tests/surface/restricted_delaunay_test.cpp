@@ -72,6 +72,23 @@ bool has_near(const std::vector<NamedHit>& hits, const Vec3& p, double tolerance
   return std::any_of(hits.begin(), hits.end(), [&](const NamedHit& h) { return distance(h.point, p) <= tolerance; });
 }
 
+// Quick umbrella shapes are right or not known, and known for most of those that are disks or half disks.
+void expect_right_quick_umbrellas(const RestrictedDelaunay& restricted) {
+  const auto facets = testing::restricted_by_name(restricted);
+  int simple = 0;
+  int known = 0;
+  for (std::size_t i = 0; i < restricted.delaunay().vertex_count(); ++i) {
+    const VertexId q(i);
+    if (restricted.is_virtual(q)) continue;
+    const UmbrellaShape shape = testing::brute_umbrella(restricted, facets, q);
+    const UmbrellaShape quick = restricted.quick_umbrella_shape(q);
+    EXPECT_TRUE(quick == shape || quick == UmbrellaShape::kBroken) << "vertex " << i;
+    simple += shape != UmbrellaShape::kBroken ? 1 : 0;
+    known += quick != UmbrellaShape::kBroken ? 1 : 0;
+  }
+  EXPECT_LE(simple, 2 * known);
+}
+
 // Hits of one table that are missing in the other, those within rounding of the end of their dual edge left out.
 std::size_t missing_hits(const HitTable& table, const HitTable& other) {
   constexpr double kRounding = 1e-5;
@@ -103,6 +120,7 @@ TEST(RestrictedDelaunay, EveryInsertionLeavesWhatAFreshComputationFinds) {
       const RestrictedDelaunay fresh(*scene->isosurface, restricted.delaunay().points());
       ASSERT_EQ(testing::signs_by_name(restricted), testing::signs_by_name(fresh));
       expect_consistent(restricted);
+      expect_right_quick_umbrellas(restricted);
       const HitTable ours = hit_table(restricted);
       const HitTable theirs = hit_table(fresh);
       EXPECT_EQ(missing_hits(ours, theirs), 0u);

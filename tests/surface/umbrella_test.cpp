@@ -27,6 +27,10 @@ std::map<UmbrellaShape, int> compare_all(const Scene& scene, const SignedDelauna
     EXPECT_EQ(shape, testing::brute_umbrella(restricted, facets, q)) << "vertex " << i;
     ++met[shape];
 
+    // The walk from any facet finds the same.
+    const auto size = static_cast<std::uint32_t>(inspector.facets().size());
+    for (const FacetId f : inspector.facets()) EXPECT_EQ(shape_by_walk(restricted, q, f, size), shape) << i;
+
     // Its facets are all restricted facets at q, seen from above; its star is all tetrahedra at q.
     std::size_t at_q = 0;
     for (const auto& f : facets) at_q += std::count(f.begin(), f.end(), q.value) != 0 ? 1u : 0u;

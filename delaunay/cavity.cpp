@@ -1,0 +1,102 @@
+// The second half of an insertion: the conflict region gives way to the star of the point.
+#include <algorithm>
+
+#include "delaunay/base/check.h"
+#include "delaunay/bowyer_watson.h"
+
+namespace deliso {
+
+namespace {
+
+// Vertex slots of face i, so that with the slot opposite it put before them they make a negative tetrahedron; slot 3,
+// where the infinite vertex of a ghost is, comes last.
+constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+
+}  // namespace
+
+VertexId BowyerWatson::fill_cavity() {
+  DELISO_CHECK(region_size_ > 0, "find_conflicts has found a region");
+  const VertexId v(points_.size());
+  points_.push_back(pending_);
+  incident_.emplace_back();
+  star_rim(v);
+  return v;
+}
+
+void BowyerWatson::abandon_cavity() {
+  region_size_ = 0;
+  rim_size_ = 0;
+}
+
+void BowyerWatson::take_slots() {
+  // The slots of the region first, then free ones, then new ones; what is left of the region is free.
+  const std::size_t reused = std::min(region_size_, rim_size_);
+  created_.assign(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(reused));
+  for (std::size_t i = reused; i < region_size_; ++i) {
+    tets_[region_[i].index()].vertices[0] = VertexId::none();
+    free_.push_back(region_[i]);
+  }
+  while (created_.size() < rim_size_) {
+    if (free_.empty()) {
+      DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
+      created_.push_back(TetId(tets_.size()));
+      tets_.emplace_back();
+    } else {
+      created_.push_back(free_.back());
+      free_.pop_back();
+    }
+  }
+}
+
+void BowyerWatson::star_rim(VertexId apex) {
+  take_slots();
+  if (rows_.size() <= SquareEdgeTable::kMostNumbers) {
+    edges_.start(rows_.size());
+    star_rim(apex, edges_);
+  } else {
+    HashedEdgeTable edges(3 * std::size_t{rim_size_});
+    star_rim(apex, edges);
+  }
+  incident_[apex.index()] = created_.front();
+  region_size_ = 0;
+  rim_size_ = 0;
+}
+
+template <class EdgeTable>
+void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
+  // Step 1: one tetrahedron over each facet of the rim, glued to the facet. Each of its other three faces stands on a
+  // directed edge of the rim.
+  for (std::uint32_t i = 0; i < rim_size_; ++i) {
+    const Corners& corners = region_corners_[rim_from_[i] >> 2];
+    const auto& slots = kStarSlots[rim_from_[i] & 3u];
+    const std::uint32_t x = corners[slots[0]];
+    const std::uint32_t y = corners[slots[1]];
+    const std::uint32_t z = corners[slots[2]];
+    const TetId t = created_[i];
+    const FacetId outside = rim_[i];
+    Tet& tet = tets_[t.index()];
+    tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
+    tet.mirrors[0] = outside;
+    tets_[outside.tet().index()].mirrors[outside.face()] = FacetId(t, 0);
+    edges.at(y, z) = FacetId(t, 1);
+    edges.at(z, x) = FacetId(t, 2);
+    edges.at(x, y) = FacetId(t, 3);
+    incident_[rows_.id(x).index()] = t;
+    incident_[rows_.id(y).index()] = t;
+    if (z != LiftedRows::kInfinite) incident_[rows_.id(z).index()] = t;
+  }
+  // Step 2: the mirror of a face stands on the reversed edge.
+  for (std::uint32_t i = 0; i < rim_size_; ++i) {
+    const Corners& corners = region_corners_[rim_from_[i] >> 2];
+    const auto& slots = kStarSlots[rim_from_[i] & 3u];
+    const std::uint32_t x = corners[slots[0]];
+    const std::uint32_t y = corners[slots[1]];
+    const std::uint32_t z = corners[slots[2]];
+    auto& mirrors = tets_[created_[i].index()].mirrors;
+    mirrors[1] = edges.at(z, y);
+    mirrors[2] = edges.at(x, z);
+    mirrors[3] = edges.at(y, x);
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,57 @@
+// Quick answers of an isosurface: on which side a point lies, and whether a segment comes near.
+#include <algorithm>
+
+#include "raycast/active_cells.h"
+#include "raycast/empty_bricks.h"
+#include "raycast/isosurface.h"
+
+namespace deliso {
+
+namespace {
+
+// Longest side of a box of cells that is searched for active ones without a ray.
+constexpr std::int32_t kMostCells = 7;
+// A segment is looked at in up to two to the power of so many pieces.
+constexpr int kMostHalvings = 3;
+
+}  // namespace
+
+Isosurface::Place Isosurface::place_of(const Vec3& p) const {
+  if (bricks_ == nullptr) return {};
+  const Dims& dims = grid_.dims();
+  const Vec3 point = scaled(p, inverse_step_);
+  const Cell cell = {extended_cell(point.x, dims[0]), extended_cell(point.y, dims[1]), extended_cell(point.z, dims[2])};
+  return {cell, bricks_->clearance(cell)};
+}
+
+bool Isosurface::is_clear_box(const Place& a, const Place& b) const {
+  if (bricks_ == nullptr) return false;
+  if (EmptyBricks::is_empty_between(a.cell, a.clearance, b.cell, b.clearance)) return true;
+  Cell low;
+  Cell high;
+  std::int32_t longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis] = std::min(a.cell[axis], b.cell[axis]);
+    high[axis] = std::max(a.cell[axis], b.cell[axis]);
+    longest = std::max(longest, high[axis] - low[axis]);
+  }
+  return longest <= kMostCells && !active_->any_active(low, high);
+}
+
+bool Isosurface::is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b) const {
+  return bricks_ != nullptr && is_clear(a, place_a, b, place_b, kMostHalvings);
+}
+
+bool Isosurface::is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b,
+                          int halvings) const {
+  if (is_clear_box(place_a, place_b)) return true;
+  if (halvings == 0 || (place_a.clearance == 0 && active_->is_active(place_a.cell)) ||
+      (place_b.clearance == 0 && active_->is_active(place_b.cell))) {
+    return false;
+  }
+  const Vec3 middle = 0.5 * (a + b);
+  const Place place = place_of(middle);
+  return is_clear(a, place_a, middle, place, halvings - 1) && is_clear(middle, place, b, place_b, halvings - 1);
+}
+
+}  // namespace deliso

@@ -1,0 +1,66 @@
+#include "raycast/empty_bricks.h"
+
+#include <algorithm>
+
+namespace deliso {
+
+namespace {
+
+// Distances along a line of bricks: to the nearest brick with distance 0, at most `farthest`.
+void spread_along_row(std::int8_t* row, std::size_t count) {
+  for (std::size_t i = 1; i < count; ++i) row[i] = std::min(row[i], static_cast<std::int8_t>(row[i - 1] + 1));
+  for (std::size_t i = count - 1; i > 0; --i) {
+    row[i - 1] = std::min(row[i - 1], static_cast<std::int8_t>(row[i] + 1));
+  }
+}
+
+// For every line of `count` rows of `width` bricks, `stride` apart: out[i] = min over j of max(|i - j|, in[j]), which
+// takes one more axis into the largest-coordinate distance.
+void spread_across_rows(const std::vector<std::int8_t>& in, std::vector<std::int8_t>& out, std::size_t first,
+                        std::size_t count, std::size_t stride, std::size_t width, int farthest) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::int8_t* const best = out.data() + first + i * stride;
+    const auto take = [&](std::size_t j, int apart) {
+      const std::int8_t* const other = in.data() + first + j * stride;
+      const auto least = static_cast<std::int8_t>(apart);
+      for (std::size_t x = 0; x < width; ++x) best[x] = std::min(best[x], std::max(other[x], least));
+    };
+    for (int apart = 1; apart < farthest; ++apart) {
+      const auto step = static_cast<std::size_t>(apart);
+      if (step <= i) take(i - step, apart);
+      if (i + step < count) take(i + step, apart);
+    }
+  }
+}
+
+}  // namespace
+
+EmptyBricks::EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, double isovalue) : dims_(grid.dims()) {
+  for (std::size_t a = 0; a < 3; ++a) bricks_[a] = (static_cast<std::size_t>(dims_[a]) >> kShift) + 1;
+  const auto [nx, ny, nz] = bricks_;
+  clearance_.assign(nx * ny * nz, kFarthest);
+  for (std::size_t z = 0; z < nz; ++z)
+    for (std::size_t y = 0; y < ny; ++y)
+      for (std::size_t x = 0; x < nx; ++x)
+        if (active.brick({brick_cell(x), brick_cell(y), brick_cell(z)}) != 0) clearance_[index(x, y, z)] = 0;
+  // The largest-coordinate distance, axis by axis.
+  for (std::size_t row = 0; row < ny * nz; ++row) spread_along_row(clearance_.data() + row * nx, nx);
+  std::vector<std::int8_t> before = clearance_;
+  for (std::size_t z = 0; z < nz; ++z) spread_across_rows(before, clearance_, nx * ny * z, ny, nx, nx, kFarthest);
+  before = clearance_;
+  spread_across_rows(before, clearance_, 0, nz, nx * ny, nx * ny, kFarthest);
+  // Signs: those of any sample; cell e has samples e - 1 and e.
+  for (std::size_t z = 0; z < nz; ++z)
+    for (std::size_t y = 0; y < ny; ++y)
+      for (std::size_t x = 0; x < nx; ++x) {
+        const auto sample = [&](std::size_t axis, std::size_t brick) {
+          return std::min(brick_cell(brick), dims_[axis] - 1);
+        };
+        if (!(grid.at(sample(0, x), sample(1, y), sample(2, z)) > isovalue)) {
+          std::int8_t& clearance = clearance_[index(x, y, z)];
+          clearance = static_cast<std::int8_t>(-clearance);
+        }
+      }
+}
+
+}  // namespace deliso

@@ -1,0 +1,81 @@
+#include "surface/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delaunay/base/rng.h"
+#include "delaunay/constructions.h"
+#include "surface/polygonized_components.h"
+#include "surface/surface_distance.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::field_scene;
+
+double distance_to(const SurfaceMesh& mesh, std::uint32_t t, const Vec3& p) {
+  const auto& v = mesh.triangles[t];
+  return std::sqrt(squared_distance_to_triangle(p, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]));
+}
+
+double radius_of(const SurfaceMesh& mesh, std::uint32_t t) {
+  const auto& v = mesh.triangles[t];
+  return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
+}
+
+// Triangles of many sizes.
+SurfaceMesh soup(Rng& rng) {
+  SurfaceMesh mesh;
+  for (std::uint32_t t = 0; t < 60; ++t) {
+    const double size = 0.2 * std::pow(20, rng.uniform());
+    const Vec3 at{20 * rng.uniform(), 20 * rng.uniform(), 20 * rng.uniform()};
+    for (int i = 0; i < 3; ++i) {
+      mesh.points.push_back(at + size * Vec3{rng.uniform(), rng.uniform(), rng.uniform()});
+    }
+    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return mesh;
+}
+
+TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
+  Rng rng(9);
+  const SurfaceMesh mesh = soup(rng);
+  std::vector<Vec3> points(2000);
+  for (Vec3& p : points) p = {20 * rng.uniform(), 20 * rng.uniform(), 20 * rng.uniform()};
+  MeshCover cover(mesh);
+  const auto takes = [](std::uint32_t t) { return t % 3 != 0; };
+  const std::vector<bool> few = covered_points(points, mesh, takes);
+  int covered = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = 0;
+    bool by_some = false;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double d = distance_to(mesh, t, points[i]);
+      if (d < nearest) triangle = t;
+      nearest = std::min(nearest, d);
+      by_some |= takes(t) && d <= std::max(0.8, 0.5 * radius_of(mesh, t));
+    }
+    const bool expected = nearest < 0.8 || nearest <= 0.3 * radius_of(mesh, triangle);
+    EXPECT_EQ(cover.covers(points[i]), expected);
+    EXPECT_EQ(few[i], by_some);
+    covered += expected ? 1 : 0;
+  }
+  EXPECT_GT(covered, 50);
+  EXPECT_LT(covered, 1950);
+}
+
+TEST(Coverage, OrdersAllCrossings) {
+  const auto scene = field_scene("bubbles", 24);
+  std::vector<std::uint32_t> crossings = all_crossings(scene->grid, scene->topology);
+  std::sort(crossings.begin(), crossings.end());
+  ASSERT_EQ(crossings.size(), scene->topology.crossings.size());
+  for (std::uint32_t i = 0; i < crossings.size(); ++i) EXPECT_EQ(crossings[i], i);
+}
+
+}  // namespace
+}  // namespace deliso

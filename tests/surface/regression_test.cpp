@@ -1,0 +1,50 @@
+// Inputs that once went wrong, from tests/regression, and fields made like them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "delaunay/base/rng.h"
+#include "surface/deliso.h"
+#include "surface/self_intersection.h"
+#include "tests/support/surface_fields.h"
+#include "volume/critical_points.h"
+#include "volume/io/volume_file.h"
+
+namespace deliso {
+namespace {
+
+const std::filesystem::path kInputs = std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression";
+
+// Samples from 1e-300 to 1e300 give surface points nearer to the box than exact predicates reach.
+TEST(Regression, SamplesOfAllMagnitudesMeshWithoutACrash) {
+  const ScalarGrid grid = read_volume(kInputs / "all_magnitudes.nrrd");
+  for (const double isovalue : {0.5, 0.0}) {
+    const MeshingResult result = mesh_isosurface(grid, isovalue, {});
+    EXPECT_FALSE(result.mesh.triangles.empty());
+    for (const Vec3& p : result.mesh.points) EXPECT_TRUE(is_finite(p));
+  }
+}
+
+// An isovalue that is the value of a saddle but for rounding: two sheets, or two arms of one, come within 1e-8 voxels.
+TEST(Regression, NecksAsThinAsRoundingKeepTheirTopology) {
+  int tried = 0;
+  for (std::uint64_t seed = 1; tried < 6; ++seed) {
+    Rng rng(seed);
+    const ScalarGrid grid = testing::noise_grid({7, 7, 7}, {1, 1, 1}, rng);
+    std::vector<CriticalPoint> saddles;
+    append_critical_points(grid.cell(3, 3, 3), saddles);
+    for (const CriticalPoint& saddle : saddles) {
+      const double isovalue = saddle.value;
+      if (saddle.face < 0 || isovalue == std::round(isovalue)) continue;
+      ++tried;
+      const MeshingResult result = mesh_isosurface(grid, isovalue, {});
+      EXPECT_EQ(result.certificate.verdict, Verdict::kHomeomorphic) << "seed " << seed << " isovalue " << isovalue;
+      EXPECT_EQ(self_intersections(result.mesh).crossing_pairs, 0) << "seed " << seed << " isovalue " << isovalue;
+      break;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deliso

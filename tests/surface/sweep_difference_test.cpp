@@ -1,0 +1,56 @@
+#include "surface/sweep_difference.h"
+
+#include <gtest/gtest.h>
+
+#include "surface/polygonized_components.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::field_scene;
+
+const auto kAll = [](std::uint32_t) { return true; };
+
+TEST(SweepDifference, EqualMeshesNeverPart) {
+  const auto scene = field_scene("gyroid", 24);
+  const SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+  for (const auto& layers : jumps_between({mesh, kAll}, {mesh, kAll}, {1, 1, 1}, scene->grid.dims())) {
+    EXPECT_TRUE(layers.empty());
+  }
+}
+
+// A hole in the mesh changes its Euler characteristic by one, for good: the sweeps must find where.
+TEST(SweepDifference, FindsWhereAHoleIsPunched) {
+  const auto scene = field_scene("gyroid", 32);
+  const SurfaceMesh exact = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+  // The same surface with a patch of a few triangles punched out: the Euler characteristic falls by one there.
+  SurfaceMesh punched = exact;
+  const Vec3 place = exact.points[exact.triangles[exact.triangles.size() / 2][0]];
+  std::vector<bool> gone(punched.triangles.size());
+  std::uint32_t kept = 0;
+  std::vector<std::uint32_t> renamed(punched.triangles.size(), kNoSide);
+  for (std::uint32_t t = 0; t < punched.triangles.size(); ++t) {
+    gone[t] = distance(punched.points[punched.triangles[t][0]], place) == 0;
+    if (!gone[t]) renamed[t] = kept++;
+  }
+  ASSERT_LT(kept, punched.triangles.size());
+  SurfaceMesh left;
+  left.points = punched.points;
+  for (std::uint32_t t = 0; t < punched.triangles.size(); ++t) {
+    if (gone[t]) continue;
+    left.triangles.push_back(punched.triangles[t]);
+    left.neighbours.push_back(punched.neighbours[t]);
+    for (TriangleSide& side : left.neighbours.back()) {
+      if (side != kNoSide) side = renamed[side >> 2] == kNoSide ? kNoSide : 4 * renamed[side >> 2] + (side & 3u);
+    }
+  }
+  const auto jumps = jumps_between({left, kAll}, {exact, kAll}, {1, 1, 1}, scene->grid.dims());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ASSERT_EQ(jumps[axis].size(), 1u) << "axis " << axis;
+    EXPECT_NEAR(jumps[axis][0], place[axis], 3) << "axis " << axis;
+  }
+}
+
+}  // namespace
+}  // namespace deliso
