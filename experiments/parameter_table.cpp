@@ -16,6 +16,8 @@ constexpr std::array<std::string_view, 2> kSeedingNames = {"components", "random
 constexpr std::array<std::string_view, 2> kBoundaryNames = {"open", "closed"};
 constexpr std::array<std::string_view, 2> kSpacingNames = {"use", "ignore"};
 constexpr std::array<std::string_view, 3> kQueueOrderNames = {"worst_first", "fifo", "largest_radius"};
+constexpr std::array<std::string_view, 2> kCriterion2Names = {"circumradius", "shortest_edge"};
+constexpr std::array<std::string_view, 2> kNewPoleNames = {"mean", "nearest"};
 constexpr std::array<std::string_view, 3> kPoleHeightNames = {"nearer", "farther", "mean"};
 constexpr std::array<std::string_view, 2> kSolverNames = {"schwarze", "bracketed"};
 constexpr std::array<std::string_view, 2> kTraversalNames = {"kd_tree", "cell_walk"};
@@ -25,6 +27,8 @@ constexpr std::span<const std::string_view> names_of(Seeding) { return kSeedingN
 constexpr std::span<const std::string_view> names_of(Boundary) { return kBoundaryNames; }
 constexpr std::span<const std::string_view> names_of(SpacingUse) { return kSpacingNames; }
 constexpr std::span<const std::string_view> names_of(QueueOrder) { return kQueueOrderNames; }
+constexpr std::span<const std::string_view> names_of(Criterion2) { return kCriterion2Names; }
+constexpr std::span<const std::string_view> names_of(NewPole) { return kNewPoleNames; }
 constexpr std::span<const std::string_view> names_of(PoleHeight) { return kPoleHeightNames; }
 constexpr std::span<const std::string_view> names_of(CubicSolver) { return kSolverNames; }
 constexpr std::span<const std::string_view> names_of(Traversal) { return kTraversalNames; }
@@ -158,6 +162,15 @@ constexpr std::array kTable = {
                                               "no refinement at or below this circumradius"),
     row<&P::stage2, &Stage2Parameters::max_distance>("stage2.max_distance", kPositive, "voxels",
                                                      "refine a triangle whose height is above this; null: no bound"),
+    row<&P::stage2, &Stage2Parameters::criterion2>("stage2.criterion2", kAny, "",
+                                                   "which length of a triangle epsilon2 compares with the mean pole "
+                                                   "height; circumradius is our reading of the paper"),
+    row<&P::stage2, &Stage2Parameters::new_pole>("stage2.new_pole", kAny, "",
+                                                 "a new vertex takes the mean pole height of its neighbours, as in the "
+                                                 "paper, or that of the nearest"),
+    row<&P::stage2, &Stage2Parameters::store_hits>("stage2.store_hits", kAny, "",
+                                                   "keep the surface point of each triangle, as the paper does; false: "
+                                                   "search it whenever it is needed"),
     row<&P::stage2, &Stage2Parameters::pole_height>("stage2.pole_height", kAny, "",
                                                     "which of a vertex's two poles gives its pole height; nearer is "
                                                     "the paper's, the others need repair.max_rounds = 0"),

@@ -79,7 +79,9 @@ RecoverOptions full3d_options(const Parameters& parameters, const Lengths& lengt
   options.geometry = {.epsilon = parameters.stage2.epsilon1,
                       .rho = parameters.stage2.rho,
                       .r_min = lengths.r_min_stage2,
-                      .epsilon2 = parameters.stage2.epsilon2};
+                      .epsilon2 = parameters.stage2.epsilon2,
+                      .criterion2 = parameters.stage2.criterion2,
+                      .new_pole = parameters.stage2.new_pole};
   if (parameters.stage2.max_distance) options.geometry.max_distance = *parameters.stage2.max_distance;
   options.size_bound = lengths.r_min_stage2;
   options.order = parameters.queue_order;
@@ -95,6 +97,9 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
   options.order = parameters.queue_order;
   options.restart_at_crossings = parameters.certify;
+  options.criterion2 = parameters.stage2.criterion2;
+  options.new_pole = parameters.stage2.new_pole;
+  options.store_hits = parameters.stage2.store_hits;
   return options;
 }
 

@@ -14,6 +14,8 @@ enum class Seeding { kComponents, kRandom };
 enum class Boundary { kOpen, kClosed };
 enum class SpacingUse { kUse, kIgnore };
 enum class PoleHeight { kNearer, kFarther, kMean };
+enum class Criterion2 { kCircumradius, kShortestEdge };
+enum class NewPole { kMean, kNearest };
 enum class QueueOrder { kWorstFirst, kFirstInFirstOut, kLargestRadius };
 
 struct InitialParameters {
@@ -30,11 +32,14 @@ struct Stage1Parameters {
 };
 
 struct Stage2Parameters {
-  double epsilon1 = 0.1;                         // h / r above which a triangle is refined; > 0
-  double epsilon2 = 0.2;                         // r / mean pole height above which a triangle is refined; > 0
-  double rho = 2.0;                              // r / l above which a triangle is refined; >= 1
-  double r_min = 0.001;                          // no refinement at or below this radius, as a fraction of b; >= 0
-  std::optional<double> max_distance;            // h above which a triangle is refined, in smallest spacings; > 0
+  double epsilon1 = 0.1;                              // h / r above which a triangle is refined; > 0
+  double epsilon2 = 0.2;                              // r / mean pole height above which a triangle is refined; > 0
+  double rho = 2.0;                                   // r / l above which a triangle is refined; >= 1
+  double r_min = 0.001;                               // no refinement at or below this radius, as a fraction of b; >= 0
+  std::optional<double> max_distance;                 // h above which a triangle is refined, in smallest spacings; > 0
+  Criterion2 criterion2 = Criterion2::kCircumradius;  // what is compared with the mean pole height
+  NewPole new_pole = NewPole::kMean;  // a new vertex takes its neighbours' mean pole height, or the nearest one's
+  bool store_hits = true;             // keep x_sigma with each triangle; else it is searched whenever it is needed
   PoleHeight pole_height = PoleHeight::kNearer;  // which of a vertex's two poles gives its height
 };
 

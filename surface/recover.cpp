@@ -216,7 +216,8 @@ double Recovery::geometric_badness(const DualEdge& edge) const {
   double badness = std::max(h / (edge.radius * limit.epsilon), edge.radius / (shortest * limit.rho));
   badness = std::max(badness, h / limit.max_distance);
   if (std::isfinite(limit.epsilon2)) {
-    badness = std::max(badness, edge.radius / (mean_pole_height(edge) * limit.epsilon2));
+    const double size = limit.criterion2 == Criterion2::kCircumradius ? edge.radius : shortest;
+    badness = std::max(badness, size / (mean_pole_height(edge) * limit.epsilon2));
   }
   return badness;
 }
@@ -227,22 +228,30 @@ double Recovery::mean_pole_height(const DualEdge& edge) const {
   return sum / 3;
 }
 
-// A new vertex takes the mean pole height of its neighbours on the surface.
+// A new vertex takes the mean pole height of its neighbours on the surface, or that of the nearest of them.
 void Recovery::inherit_pole_height() {
   if (pole_heights_ == nullptr) return;
   const VertexId q = restricted_.last_vertex();
   umbrella_.inspect(q);
   double sum = 0;
   double count = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  double nearest_height = 0;
   for (const FacetId f : umbrella_.facets()) {
     for (const unsigned slot : kFacetSlots[f.face()]) {
       const VertexId v = delaunay_.vertices(f.tet())[slot];
       if (v == q || restricted_.is_virtual(v)) continue;
-      sum += (*pole_heights_)[v.index()];
+      const double height = (*pole_heights_)[v.index()];
+      sum += height;
       count += 1;
+      const double squared = squared_distance(delaunay_.point(q), delaunay_.point(v));
+      if (squared >= nearest) continue;
+      nearest = squared;
+      nearest_height = height;
     }
   }
-  pole_heights_->push_back(count > 0 ? sum / count : isosurface_.box().diagonal());
+  const double inherited = options_.geometry.new_pole == NewPole::kMean ? sum / count : nearest_height;
+  pole_heights_->push_back(count > 0 ? inherited : isosurface_.box().diagonal());
 }
 
 // A hit outside the box stands for the point of the boundary curve that it is clamped to. A hit that the signs alone

@@ -23,6 +23,8 @@ struct GeometryCriterion {
   double r_min = 0;
   double max_distance = std::numeric_limits<double>::infinity();  // largest h
   double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / mean pole height; needs pole heights
+  Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / mean pole height
+  NewPole new_pole = NewPole::kMean;
 };
 
 struct RecoverOptions {
@@ -48,7 +50,7 @@ struct RecoverStats : StageStats {
 };
 
 // Runs until no violation is left that the size bound lets us mend, or `controls` say stop. `pole_heights`, one for
-// each vertex, is needed for a finite epsilon2; new vertices inherit the mean of their neighbours'.
+// each vertex, is needed for a finite epsilon2; new vertices inherit from their neighbours (new_pole).
 void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
              std::vector<double>* pole_heights = nullptr);
 

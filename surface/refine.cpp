@@ -76,7 +76,13 @@ class Refinement {
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
-  [[nodiscard]] double badness_of(std::uint32_t triangle, double& radius) const;
+  [[nodiscard]] double badness_of(std::uint32_t triangle, double& radius);
+  [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
+  // B_sigma as it is kept; or found anew, the same to the last bit.
+  [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
+    if (options_.store_hits) return mesh_.balls[triangle];
+    return measure(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), 1).ball;
+  }
   [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
     return mesh_.points[mesh_.triangles[triangle][i % 3]];
   }
@@ -142,7 +148,7 @@ void Refinement::queue_everything() {
 // Inserts x_sigma of one triangle, or a point of the boundary curve where x_sigma would come too near to a boundary
 // edge.
 bool Refinement::treat(std::uint32_t triangle) {
-  const SurfaceDelaunayBall& ball = mesh_.balls[triangle];
+  const SurfaceDelaunayBall ball = ball_of(triangle);
   const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
   TriangleSide encroached = kNoSide;
   std::optional<Refusal> refusal = insert(candidate, &encroached);
@@ -189,8 +195,9 @@ void Refinement::grow_disk(const Candidate& candidate) {
     for (const TriangleSide side : mesh_.neighbours[disk_[i]]) {
       if (side == kNoSide) continue;
       const std::uint32_t t = side >> 2;
-      const SurfaceDelaunayBall& ball = mesh_.balls[t];
-      if (in_disk_[t] == attempt_ || squared_distance(candidate.point, ball.center) >= ball.squared_radius) continue;
+      if (in_disk_[t] == attempt_) continue;
+      const SurfaceDelaunayBall ball = ball_of(t);
+      if (squared_distance(candidate.point, ball.center) >= ball.squared_radius) continue;
       in_disk_[t] = attempt_;
       disk_.push_back(t);
     }
@@ -282,11 +289,9 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
   const double nearest = kNearestVertex * candidate.ball_radius;
   const Vec3 gradient = isosurface_.gradient(p);
-  double pole_sum = 0;
   for (const RimEdge& edge : rim_) {
     const Vec3& a = mesh_.points[edge.from];
     const Vec3& b = mesh_.points[edge.to];
-    pole_sum += mesh_.pole_heights[edge.from];
     if (squared_distance(p, a) < nearest * nearest || squared_distance(p, b) < nearest * nearest) {
       return Refusal::kTooClose;
     }
@@ -297,12 +302,7 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const double moved = distance_to_disk(p);
   if (candidate.split == kNoSide && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
   if (guard_.crosses(p, moved, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
-  auto corners = static_cast<double>(rim_.size());
-  if (candidate.split != kNoSide) {
-    pole_sum += mesh_.pole_heights[rim_.back().to];
-    corners += 1;
-  }
-  star_pole_height_ = pole_sum / corners;
+  star_pole_height_ = inherited_pole_height(p, candidate.split == kNoSide);
   star_.clear();
   for (const RimEdge& edge : rim_) {
     const double mean_pole = (star_pole_height_ + mesh_.pole_heights[edge.from] + mesh_.pole_heights[edge.to]) / 3;
@@ -322,6 +322,21 @@ double Refinement::distance_to_disk(const Vec3& p) const {
   return farthest;
 }
 
+// The pole height of a new vertex, from its neighbours: the corners of the rim.
+double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
+  std::uint32_t nearest = rim_.front().from;
+  double sum = 0;
+  double count = 0;
+  const auto visit = [&](std::uint32_t v) {
+    sum += mesh_.pole_heights[v];
+    count += 1;
+    if (squared_distance(p, mesh_.points[v]) < squared_distance(p, mesh_.points[nearest])) nearest = v;
+  };
+  for (const RimEdge& edge : rim_) visit(edge.from);
+  if (!closed) visit(rim_.back().to);
+  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.pole_heights[nearest];
+}
+
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
 // refinement.
 Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
@@ -338,11 +353,12 @@ Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const 
 
 // The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
 double Refinement::badness(double h, double r, double l, double mean_pole) const {
-  return std::max({h / (r * options_.epsilon1), r / (mean_pole * options_.epsilon2), r / (l * options_.rho),
+  const double size = options_.criterion2 == Criterion2::kCircumradius ? r : l;
+  return std::max({h / (r * options_.epsilon1), size / (mean_pole * options_.epsilon2), r / (l * options_.rho),
                    h / options_.max_distance});
 }
 
-double Refinement::badness_of(std::uint32_t triangle, double& radius) const {
+double Refinement::badness_of(std::uint32_t triangle, double& radius) {
   const Vec3& a = corner(triangle, 0);
   const Vec3& b = corner(triangle, 1);
   const Vec3& c = corner(triangle, 2);
@@ -351,7 +367,7 @@ double Refinement::badness_of(std::uint32_t triangle, double& radius) const {
   const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
   double mean_pole = 0;
   for (const std::uint32_t v : mesh_.triangles[triangle]) mean_pole += mesh_.pole_heights[v] / 3;
-  return badness(distance(mesh_.balls[triangle].center, circle.center), radius, shortest, mean_pole);
+  return badness(distance(ball_of(triangle).center, circle.center), radius, shortest, mean_pole);
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.

@@ -25,6 +25,9 @@ struct RefineOptions {
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
   QueueOrder order = QueueOrder::kWorstFirst;
   bool restart_at_crossings = true;  // when triangles of the result cross, start again with more care around them
+  Criterion2 criterion2 = Criterion2::kCircumradius;
+  NewPole new_pole = NewPole::kMean;
+  bool store_hits = true;
 };
 
 // Why an insertion was refused.

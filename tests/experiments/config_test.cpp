@@ -43,7 +43,7 @@ constexpr const char* kDocumentedDefaults = R"({
   "initial": {"random_points": 0, "seeding": "components"},
   "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3, "coverage": true},
   "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
-             "pole_height": "nearer"},
+             "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
   "queue_order": "worst_first",
   "boundary": "open",
   "search": {"solver": "bracketed", "min_max_pruning": true, "leaf_cells": 1, "incremental": true,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 
@@ -170,6 +171,71 @@ TEST(Refine, EqualRunsGiveEqualMeshes) {
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_EQ(testing::surface_mesh_defect(a), "");
+  }
+}
+
+TEST(Refine, SearchingAgainGivesTheMeshThatKeptHitsGive) {
+  for (const auto& scene : scenes()) {
+    SCOPED_TRACE(scene->name);
+    SurfaceMesh kept = stage1_mesh(*scene);
+    SurfaceMesh searched = kept;
+    RefineOptions options = fine_options();
+    const RefineStats few = run(kept, *scene, options);
+    options.store_hits = false;
+    const RefineStats many = run(searched, *scene, options);
+    EXPECT_EQ(kept.points, searched.points);
+    EXPECT_EQ(kept.triangles, searched.triangles);
+    EXPECT_TRUE(few.insertions == 0 || many.search.searches > few.search.searches);
+  }
+}
+
+TEST(Refine, ANewVertexTakesTheMeanOrTheNearestPoleHeight) {
+  const auto scene = field_scene("torus", 16);
+  for (const NewPole rule : {NewPole::kMean, NewPole::kNearest}) {
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    const std::size_t first_new = mesh.points.size();
+    std::vector<double> known = mesh.pole_heights;
+    RefineOptions options = fine_options();
+    options.new_pole = rule;
+    run(mesh, *scene, options);
+    ASSERT_GT(mesh.points.size(), first_new + 10);
+    // Copies make no new heights, means of different ones do.
+    std::sort(known.begin(), known.end());
+    std::size_t copies = 0;
+    for (std::size_t v = first_new; v < mesh.points.size(); ++v) {
+      if (std::binary_search(known.begin(), known.end(), mesh.pole_heights[v])) ++copies;
+    }
+    if (rule == NewPole::kNearest) {
+      EXPECT_EQ(copies, mesh.points.size() - first_new);
+    } else {
+      EXPECT_EQ(copies, 0u);
+    }
+  }
+}
+
+TEST(Refine, Criterion2BoundsTheLengthItIsGiven) {
+  const auto scene = field_scene("torus", 16);
+  for (const Criterion2 criterion : {Criterion2::kCircumradius, Criterion2::kShortestEdge}) {
+    SurfaceMesh mesh = stage1_mesh(*scene);
+    RefineOptions options;
+    options.r_min = 0.05;
+    options.epsilon1 = 1e9;
+    options.rho = 1e9;
+    options.epsilon2 = 0.4;
+    options.criterion2 = criterion;
+    const RefineStats stats = run(mesh, *scene, options);
+    EXPECT_EQ(std::accumulate(stats.refused.begin(), stats.refused.end(), std::int64_t{0}), 0);
+    double largest = 0;
+    for (const auto& triangle : mesh.triangles) {
+      const Vec3 &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]], &c = mesh.points[triangle[2]];
+      double pole = 0;
+      for (const std::uint32_t v : triangle) pole += mesh.pole_heights[v] / 3;
+      const double shortest = std::min({distance(a, b), distance(b, c), distance(c, a)});
+      const double size = criterion == Criterion2::kCircumradius ? circumcircle(a, b, c).radius : shortest;
+      largest = std::max(largest, size / pole);
+    }
+    EXPECT_LE(largest, 0.4 * (1 + 1e-9));
+    EXPECT_GT(largest, 0.2);
   }
 }
 
