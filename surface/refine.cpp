@@ -21,6 +21,8 @@ namespace {
 constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
+// Triangles with an edge of at least this length (mesh-space units) are halved when their x_sigma is refused.
+constexpr double kCoarseEdge = 1.5;
 // Starts again at most this often, with at most so many new suspects of a kind.
 constexpr std::int64_t kMostRestarts = 3;
 constexpr std::size_t kMostSuspects = 1000;
@@ -47,6 +49,7 @@ class Refinement {
     double ball_radius;
     std::uint32_t seed;
     TriangleSide split = kNoSide;
+    TriangleSide halved = kNoSide;  // the inner edge whose two triangles alone make up E
   };
   struct RimEdge {
     std::uint32_t from, to;
@@ -63,6 +66,7 @@ class Refinement {
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   std::optional<Candidate> boundary_candidate(TriangleSide side);
+  [[nodiscard]] std::optional<Candidate> halving_candidate(std::uint32_t triangle);
 
   void grow_disk(const Candidate& candidate);
   [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
@@ -159,6 +163,13 @@ bool Refinement::treat(std::uint32_t triangle) {
     if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
   }
   if (refusal) {
+    const auto halving = halving_candidate(triangle);
+    if (halving && !insert(*halving, nullptr)) {
+      ++stats_.halvings;
+      refusal.reset();
+    }
+  }
+  if (refusal) {
     ++stats_.refused[static_cast<std::size_t>(*refusal)];
     refused_[triangle] = true;
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
@@ -191,7 +202,12 @@ std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSi
 void Refinement::grow_disk(const Candidate& candidate) {
   disk_.assign(1, candidate.seed);
   in_disk_[candidate.seed] = attempt_;
-  for (std::size_t i = 0; i < disk_.size(); ++i) {
+  const bool may_grow = candidate.halved == kNoSide;
+  if (!may_grow) {
+    disk_.push_back(mesh_.neighbours[candidate.halved >> 2][candidate.halved & 3u] >> 2);
+    in_disk_[disk_.back()] = attempt_;
+  }
+  for (std::size_t i = 0; i < disk_.size() && may_grow; ++i) {
     for (const TriangleSide side : mesh_.neighbours[disk_[i]]) {
       if (side == kNoSide) continue;
       const std::uint32_t t = side >> 2;
@@ -249,6 +265,31 @@ std::optional<Refinement::Candidate> Refinement::boundary_candidate(TriangleSide
   const auto hit = isosurface_.nearest_falling_hit(line, length, stats_.search);
   if (!hit || !box.contains(line.at(*hit))) return std::nullopt;
   return Candidate{line.at(*hit), 2 * kNearestEnd * length, t, side};
+}
+
+// For a coarse triangle whose x_sigma was refused: a point of the surface near the middle of its longest edge, along
+// the common normal of the two triangles there, which then make up E.
+std::optional<Refinement::Candidate> Refinement::halving_candidate(std::uint32_t triangle) {
+  const auto length = [&](unsigned i) { return distance(corner(triangle, i + 1), corner(triangle, i + 2)); };
+  unsigned longest = 0;
+  for (unsigned i = 1; i < 3; ++i) {
+    if (length(i) > length(longest)) longest = i;
+  }
+  const double edge = length(longest);
+  const TriangleSide across = mesh_.neighbours[triangle][longest];
+  if (edge < std::max(kCoarseEdge, 2 * options_.r_min) || across == kNoSide) return std::nullopt;
+  const Vec3& a = corner(triangle, longest + 1);
+  const Vec3& b = corner(triangle, longest + 2);
+  const auto normal = [&](std::uint32_t t) {
+    const Vec3 n = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    return n / std::max(norm(n), 1e-300);
+  };
+  const Vec3 sum = normal(triangle) + normal(across >> 2);
+  if (!(norm(sum) > 0)) return std::nullopt;
+  const Line line{0.5 * (a + b), sum / norm(sum)};
+  const auto hit = isosurface_.nearest_falling_hit(line, 0.5 * edge, stats_.search);
+  if (!hit || !isosurface_.box().contains(line.at(*hit))) return std::nullopt;
+  return Candidate{line.at(*hit), 0.5 * edge, triangle, kNoSide, 4 * triangle + longest};
 }
 
 // Brings the rim into order and checks that E is a disk none of whose vertices gets lost: one cycle (for a boundary

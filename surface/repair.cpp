@@ -26,8 +26,9 @@ namespace {
 
 // After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
 constexpr std::int32_t kMixedPatience = 8;
-// After so many rounds sweeps look for the differences, and what they find counts unless it is more than kMostPlaces.
-constexpr std::int32_t kSeenSigns = 1;
+// What sweeps find counts unless it is more than kMostPlaces; in the first round, when other signs tell more, unless it
+// is more than kFewPlaces.
+constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
@@ -227,19 +228,18 @@ void Repair::find_missing_parts(MatchedMesh& mesh) {
   }
 }
 
-// Where sweeps along the axes see main pieces part from their components; nothing in the first rounds, when other signs
-// tell more.
+// Where sweeps along the axes see main pieces part from their components.
 std::vector<Places> Repair::places_of_difference(std::int32_t round) {
   std::vector<Places> places(done_.size());
   const ComponentMatch& match = mesh_.match;
-  for (std::uint32_t c = 0; c < done_.size() && round > kSeenSigns; ++c) {
+  for (std::uint32_t c = 0; c < done_.size(); ++c) {
     const std::uint32_t main = match.main_piece[c];
     if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
     auto& layers = places[c].layers;
     layers = jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
                            {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
                            isosurface_.step(), grid_.dims());
-    if (places[c].count() > kMostPlaces) places[c] = {};
+    if (places[c].count() > (round == 1 ? kFewPlaces : kMostPlaces)) places[c] = {};
   }
   return places;
 }
