@@ -11,7 +11,7 @@ namespace {
 
 // Vertices nearer than this (mesh-space units) lie on top of each other.
 constexpr double kOnTop = 2e-3;
-// No clearance is trusted this near to a suspect (mesh-space units).
+// No clearance is trusted at the corners of a triangle whose box is this near to a suspect (mesh-space units).
 constexpr double kSuspectReach = 3;
 // A triangle is tight when its clearance is below so many of its longest edge.
 constexpr double kTightness = 1.5;
@@ -60,11 +60,11 @@ std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
 CrossingGuard::CrossingGuard(SurfaceMesh& mesh, std::span<const Vec3> suspects) : mesh_(mesh) {
   clearance_.assign(mesh.pole_heights.begin(), mesh.pole_heights.end());
   std::vector<std::uint32_t> reached = doubled_vertices(mesh.points);
-  for (std::uint32_t v = 0; v < mesh.points.size() && !suspects.empty(); ++v) {
-    if (std::any_of(suspects.begin(), suspects.end(), [&](const Vec3& p) {
-          return squared_distance(p, mesh.points[v]) < kSuspectReach * kSuspectReach;
-        })) {
-      reached.push_back(v);
+  for (std::uint32_t t = 0; t < mesh.triangles.size() && !suspects.empty(); ++t) {
+    const Box3 box = box_of(mesh.triangles[t]);
+    if (std::any_of(suspects.begin(), suspects.end(),
+                    [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
+      reached.insert(reached.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     }
   }
   for (const std::uint32_t v : reached) clearance_[v] = 0;
