@@ -30,6 +30,7 @@ constexpr std::int32_t kMixedPatience = 8;
 // is more than kFewPlaces.
 constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
+constexpr std::size_t kSmallSurface = 100000;  // crossings
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -289,10 +290,16 @@ SurfaceMesh Repair::assemble_kept() {
     append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
   stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
-  if (stats_.components_polygonized > 0) {
-    taken.flip();
-    append_pieces(polygonized().mesh, polygonized().component, taken, kept);
+  if (stats_.components_polygonized == 0) return kept;
+  // Pieces of two meshes may cross where components come near each other; a small surface is then polygonized as a
+  // whole.
+  if (topology_.crossings.size() <= kSmallSurface) {
+    kept = {};
+    taken.assign(taken.size(), false);
+    stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
   }
+  taken.flip();
+  append_pieces(polygonized().mesh, polygonized().component, taken, kept);
   return kept;
 }
 
