@@ -220,7 +220,7 @@ std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec
   const Isosurface& isosurface = restricted_.isosurface();
   std::vector<Vec3> places;
   SearchCounters ignored;
-  for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.02, 0.98}) {
+  for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
     const Vec3 from = a + weight * (b - a);
     for (const Vec3& direction : {normal, -isosurface.gradient(from)}) {
       if (!(norm(direction) > 0)) continue;

@@ -96,7 +96,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   options.r_min = lengths.r_min_stage2;
   if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
   options.order = parameters.queue_order;
-  options.restart_at_crossings = parameters.certify;
+  options.restart_at_crossings = parameters.certify && parameters.repair.max_rounds > 0;
   options.criterion2 = parameters.stage2.criterion2;
   options.new_pole = parameters.stage2.new_pole;
   options.store_hits = parameters.stage2.store_hits;

@@ -10,6 +10,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
+#include "surface/refinement_candidates.h"
 #include "surface/self_intersection.h"
 #include "surface/triangle_queue.h"
 
@@ -21,13 +22,9 @@ namespace {
 constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
-// Triangles with an edge of at least this length (mesh-space units) are halved when their x_sigma is refused.
-constexpr double kCoarseEdge = 1.5;
 // Starts again at most this often, with at most so many new suspects of a kind.
 constexpr std::int64_t kMostRestarts = 3;
 constexpr std::size_t kMostSuspects = 1000;
-// A boundary edge is split only this far from its ends, as a fraction of its length.
-constexpr double kNearestEnd = 0.2;
 
 class Refinement {
  public:
@@ -43,14 +40,7 @@ class Refinement {
   void run(Controls& controls);
 
  private:
-  // A point to insert, the triangle its disk grows from, and the boundary edge it splits, if any.
-  struct Candidate {
-    Vec3 point;
-    double ball_radius;
-    std::uint32_t seed;
-    TriangleSide split = kNoSide;
-    TriangleSide halved = kNoSide;  // the inner edge whose two triangles alone make up E
-  };
+  using Candidate = RefinementCandidate;
   struct RimEdge {
     std::uint32_t from, to;
     TriangleSide outer;
@@ -65,8 +55,6 @@ class Refinement {
   void queue_everything();
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
-  std::optional<Candidate> boundary_candidate(TriangleSide side);
-  [[nodiscard]] std::optional<Candidate> halving_candidate(std::uint32_t triangle);
 
   void grow_disk(const Candidate& candidate);
   [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
@@ -157,13 +145,13 @@ bool Refinement::treat(std::uint32_t triangle) {
   TriangleSide encroached = kNoSide;
   std::optional<Refusal> refusal = insert(candidate, &encroached);
   if (encroached != kNoSide) {
-    const auto on_boundary = boundary_candidate(encroached);
+    const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
     refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
     if (!refusal) ++stats_.boundary_splits;
     if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
   }
   if (refusal) {
-    const auto halving = halving_candidate(triangle);
+    const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
     if (halving && !insert(*halving, nullptr)) {
       ++stats_.halvings;
       refusal.reset();
@@ -242,54 +230,6 @@ std::optional<TriangleSide> Refinement::encroached_boundary_edge(const Candidate
     }
   }
   return std::nullopt;
-}
-
-// A point of the boundary curve between the ends of a boundary edge: the hit nearest to its midpoint on the bisector
-// within the box face.
-std::optional<Refinement::Candidate> Refinement::boundary_candidate(TriangleSide side) {
-  const std::uint32_t t = side >> 2;
-  const Vec3& a = corner(t, (side & 3u) + 1);
-  const Vec3& b = corner(t, (side & 3u) + 2);
-  const Box3& box = isosurface_.box();
-  Vec3 outward;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a[axis] == box.low[axis] && b[axis] == box.low[axis]) outward[axis] = -1;
-    if (a[axis] == box.high[axis] && b[axis] == box.high[axis]) outward[axis] = 1;
-  }
-  if (squared_norm(outward) != 1) return std::nullopt;
-  // Seen from below the mesh lies left of ab and the box's outside right of it.
-  const Vec3 towards_lower = cross(outward, b - a);
-  const double length = distance(a, b);
-  if (length <= options_.r_min) return std::nullopt;
-  const Line line{0.5 * (a + b), towards_lower / norm(towards_lower)};
-  const auto hit = isosurface_.nearest_falling_hit(line, length, stats_.search);
-  if (!hit || !box.contains(line.at(*hit))) return std::nullopt;
-  return Candidate{line.at(*hit), 2 * kNearestEnd * length, t, side};
-}
-
-// For a coarse triangle whose x_sigma was refused: a point of the surface near the middle of its longest edge, along
-// the common normal of the two triangles there, which then make up E.
-std::optional<Refinement::Candidate> Refinement::halving_candidate(std::uint32_t triangle) {
-  const auto length = [&](unsigned i) { return distance(corner(triangle, i + 1), corner(triangle, i + 2)); };
-  unsigned longest = 0;
-  for (unsigned i = 1; i < 3; ++i) {
-    if (length(i) > length(longest)) longest = i;
-  }
-  const double edge = length(longest);
-  const TriangleSide across = mesh_.neighbours[triangle][longest];
-  if (edge < std::max(kCoarseEdge, 2 * options_.r_min) || across == kNoSide) return std::nullopt;
-  const Vec3& a = corner(triangle, longest + 1);
-  const Vec3& b = corner(triangle, longest + 2);
-  const auto normal = [&](std::uint32_t t) {
-    const Vec3 n = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
-    return n / std::max(norm(n), 1e-300);
-  };
-  const Vec3 sum = normal(triangle) + normal(across >> 2);
-  if (!(norm(sum) > 0)) return std::nullopt;
-  const Line line{0.5 * (a + b), sum / norm(sum)};
-  const auto hit = isosurface_.nearest_falling_hit(line, 0.5 * edge, stats_.search);
-  if (!hit || !isosurface_.box().contains(line.at(*hit))) return std::nullopt;
-  return Candidate{line.at(*hit), 0.5 * edge, triangle, kNoSide, 4 * triangle + longest};
 }
 
 // Brings the rim into order and checks that E is a disk none of whose vertices gets lost: one cycle (for a boundary
