@@ -16,7 +16,7 @@ constexpr double kSuspectReach = 3;
 // A triangle is tight when its clearance is below so many of its longest edge.
 constexpr double kTightness = 1.5;
 // Other sheets matter when the clearance is below so many times what the mesh moves.
-constexpr double kReach = 10;
+constexpr double kReach = 20;
 // Cells are numbered up to this far from the origin; beyond it they run together.
 constexpr double kFarthest = 1e9;
 constexpr double kManyCells = 4096;
