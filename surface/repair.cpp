@@ -173,15 +173,18 @@ bool Repair::try_rule(SignRule rule) {
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules() {
-  SignRule best = kRules.front();
+  MatchedMesh best;
+  std::vector<bool> signs;
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
   for (const SignRule rule : kRules) {
     if (try_rule(rule)) return;
     if (mesh_.match.error >= least) continue;
     least = mesh_.match.error;
-    best = rule;
+    best = std::move(mesh_);
+    signs = restricted_->signs();
   }
-  if (best != kRules.back()) try_rule(best);
+  mesh_ = std::move(best);
+  restricted_->set_signs(signs);
 }
 
 // The mesh and its match with the exact components.
