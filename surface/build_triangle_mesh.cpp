@@ -218,15 +218,19 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
 // edge to near its ends, where the surface is not far; at last the middle itself.
 std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const {
   const Isosurface& isosurface = restricted_.isosurface();
+  const Box3& box = isosurface.box();
   std::vector<Vec3> places;
   SearchCounters ignored;
   for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
     const Vec3 from = a + weight * (b - a);
-    for (const Vec3& direction : {normal, -isosurface.gradient(from)}) {
+    for (Vec3 direction : {normal, -isosurface.gradient(from)}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {  // an edge on a face of the box keeps its vertices there
+        if (a[axis] == b[axis] && (a[axis] == box.low[axis] || a[axis] == box.high[axis])) direction[axis] = 0;
+      }
       if (!(norm(direction) > 0)) continue;
       const Line line{from, direction / norm(direction)};
       const auto hit = isosurface.nearest_falling_hit(line, distance(a, b), ignored);
-      if (hit && isosurface.box().contains(line.at(*hit))) places.push_back(line.at(*hit));
+      if (hit && box.contains(line.at(*hit))) places.push_back(line.at(*hit));
     }
   }
   places.push_back(0.5 * (a + b));
