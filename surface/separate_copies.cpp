@@ -143,9 +143,13 @@ std::vector<Vec3> Separation::directions(std::uint32_t copy) const {
     if (const auto d = direction(copy, side)) directions.push_back(*d);
   }
   if (directions.size() == 2) return directions;
-  for (int i = 0; i < 27; ++i) {
-    const Vec3 d = within_box_face(mesh_.points[copy], {i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
-    if (norm(d) > 0) directions.push_back(d / norm(d));
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const Vec3 d = within_box_face(mesh_.points[copy], Vec3{z * 1.0, y * 1.0, x * 1.0});
+        if (norm(d) > 0) directions.push_back(d / norm(d));
+      }
+    }
   }
   return directions;
 }
