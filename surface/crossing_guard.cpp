@@ -19,6 +19,7 @@ constexpr double kTightness = 1.5;
 constexpr double kReach = 20;
 // Cells are numbered up to this far from the origin; beyond it they run together.
 constexpr double kFarthest = 1e9;
+constexpr double kFarthestPlace = 1e18;  // the same for the cells of doubled vertices
 constexpr double kManyCells = 4096;
 
 struct CellHash {
@@ -33,9 +34,10 @@ struct CellHash {
 // Vertices with another one on top of them, found in a grid of cells just as large.
 std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
   const auto cell_of = [](const Vec3& p, int dx, int dy, int dz) {
-    return std::array<std::int64_t, 3>{static_cast<std::int64_t>(std::floor(p.x / kOnTop)) + dx,
-                                       static_cast<std::int64_t>(std::floor(p.y / kOnTop)) + dy,
-                                       static_cast<std::int64_t>(std::floor(p.z / kOnTop)) + dz};
+    const auto place = [](double x) {
+      return static_cast<std::int64_t>(std::clamp(std::floor(x / kOnTop), -kFarthestPlace, kFarthestPlace));
+    };
+    return std::array<std::int64_t, 3>{place(p.x) + dx, place(p.y) + dy, place(p.z) + dz};
   };
   std::unordered_map<std::array<std::int64_t, 3>, std::vector<std::uint32_t>, CellHash> cells;
   cells.reserve(points.size());
@@ -105,10 +107,9 @@ Box3 CrossingGuard::box_of(const Corners& v) const {
   return box;
 }
 
-// A level at which the box meets few cells.
 int CrossingGuard::level_of(const Box3& box) {
   const Vec3 size = box.size();
-  return std::clamp(std::ilogb(std::max({size.x, size.y, size.z, 0.5})) + 1, 0, kLevels - 1);
+  return std::ilogb(std::max({size.x, size.y, size.z, 0.5})) + 1;
 }
 
 std::uint64_t CrossingGuard::key(const Cell& cell) {
@@ -151,6 +152,7 @@ void CrossingGuard::learn(std::uint32_t triangle) {
   if (!is_tight(v)) return;
   const Box3 box = box_of(v);
   const int level = level_of(box);
+  if (level >= kLevels) return;  // on a volume stretched that far the check after stage 2 must do
   is_kept_[triangle] = true;
   ++kept_at_[static_cast<std::size_t>(level)];
   for_each_cell(box, level, [&](std::uint64_t at) { cells_[at].push_back(triangle); });

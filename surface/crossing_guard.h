@@ -39,12 +39,12 @@ class CrossingGuard {
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
-  // Cells of 2^level mesh-space units; a triangle is kept at the level of its size.
+  // Cells of 2^level mesh-space units; a triangle is kept at the level of its size, at which it meets few cells.
   struct Cell {
     int level = 0;
     std::array<std::int32_t, 3> at{};
   };
-  static constexpr int kLevels = 24;
+  static constexpr int kLevels = 64;
 
   [[nodiscard]] bool is_tight(const Corners& v) const;
   [[nodiscard]] Box3 box_of(const Corners& v) const;

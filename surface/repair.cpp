@@ -24,13 +24,12 @@ namespace deliso {
 
 namespace {
 
-// After so many rounds a component that agrees but for a few vertices of another one is taken as it is.
-constexpr std::int32_t kMixedPatience = 8;
 // What sweeps find counts unless it is more than kMostPlaces; in the first round, when other signs tell more, unless it
 // is more than kFewPlaces.
 constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
-constexpr std::size_t kSmallSurface = 100000;  // crossings
+// A surface of so many crossings is polygonized as a whole when one of its components has to be.
+constexpr std::size_t kSmallSurface = 100000;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -68,7 +67,6 @@ class Repair {
   std::vector<Places> places_of_difference(std::int32_t round);
   const PolygonizedSurface& polygonized();
   void keep(const MatchedMesh& mesh);
-  void accept_mixed();
   SurfaceMesh assemble_kept();
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
@@ -102,13 +100,13 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep(mesh_);
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
-    raised_.raise(cells_in_trouble(grid_, topology_, *restricted_, mesh_, raised_, done_, places_of_difference(round)));
+    raised_.raise(cells_in_trouble(
+        {grid_, topology_, *restricted_, mesh_, raised_, component_of_vertex_, done_, places_of_difference(round)}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
     try_rules();
     stats_.rounds = round;
-    if (round >= kMixedPatience) accept_mixed();
   }
   SurfaceMesh kept = assemble_kept();
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
@@ -267,10 +265,6 @@ void Repair::keep(const MatchedMesh& mesh) {
   const std::vector<double> heights = compute_poles(*restricted_);
   SurfaceMesh& kept = history_.back().built.mesh;
   for (const VertexId v : mesh.built.vertex_of) kept.pole_heights.push_back(heights[v.index()]);
-}
-
-void Repair::accept_mixed() {
-  for (std::size_t c = 0; c < done_.size(); ++c) done_[c] = done_[c] || best_[c] == Agreement::kMixed;
 }
 
 // Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are

@@ -1,10 +1,11 @@
 // Repair: resample the surface where its mesh differs from the exact topology, and only there, until nothing differs.
 //
-// Rounds of: flag the voxel cells near the trouble of the components that are not right yet; raise each flagged cell
-// one level of the sample lattice (its free samples go, lattice samples come); triangulate anew; take signs by one rule
-// after another and match the pieces of each mesh with the exact components. A component is done with the first piece
-// that agrees with it. What is left after the last round is meshed by marching cubes, whose topology is exact, and
-// reported.
+// Rounds of: flag the voxel cells near the trouble of the components that are not right yet (trouble.h); raise each
+// flagged cell one level of the sample lattice (its free samples go, lattice samples come); triangulate anew; take
+// signs by one rule after another and match the pieces of each mesh with the exact components. A component is done when
+// its main piece has its topology, holds no vertex of another component and lies near all of it. At the end each
+// component is taken from the latest mesh that has it at its best; one that no mesh has right is meshed by marching
+// cubes, whose topology is exact, and reported.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ namespace deliso {
 struct RepairStats : StageStats {
   std::int64_t rounds = 0;                  // resamplings made
   std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
-  std::int64_t components_mixed = 0;        // done with a piece that holds vertices of another component
+  std::int64_t components_mixed = 0;        // taken with vertices of another component at last
   std::int64_t components_stray = 0;        // done after stray pieces were dropped
   std::int64_t components_partial = 0;      // right in topology, though a part of the surface is far from the piece
   std::int64_t components_polygonized = 0;  // taken from marching cubes at last

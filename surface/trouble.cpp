@@ -28,17 +28,16 @@ constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where ju
 
 class TroubleFinder {
  public:
-  TroubleFinder(const ScalarGrid& grid, const IsosurfaceTopology& topology, const SignedDelaunay& restricted,
-                const MatchedMesh& mesh, const RaisedCells& cells, const std::vector<bool>& done,
-                const std::vector<Places>& places)
-      : grid_(grid),
-        topology_(topology),
-        restricted_(restricted),
-        mesh_(mesh),
-        cells_(cells),
-        done_(done),
-        places_(places),
-        has_sign_(done.size(), false) {}
+  explicit TroubleFinder(const TroubleContext& context)
+      : grid_(context.grid),
+        topology_(context.topology),
+        restricted_(context.restricted),
+        mesh_(context.mesh),
+        cells_(context.cells),
+        component_of_vertex_(context.component_of_vertex),
+        done_(context.done),
+        places_(context.places),
+        has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
     flag_places();
@@ -58,11 +57,6 @@ class TroubleFinder {
   void flag_critical_points();
   void flag_silent_components();
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
-  [[nodiscard]] std::optional<std::uint32_t> component_at(const Vec3& p) const {
-    const Vec3& step = restricted_.isosurface().step();
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    return component_of(grid_, restricted_.isosurface().isovalue(), topology_, index_point);
-  }
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
   // What a sign of trouble tells of: of a component whose piece has the right topology only some signs matter.
@@ -82,6 +76,7 @@ class TroubleFinder {
   const SignedDelaunay& restricted_;
   const MatchedMesh& mesh_;
   const RaisedCells& cells_;
+  const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
   std::vector<bool> has_sign_;         // of each exact component
@@ -90,9 +85,9 @@ class TroubleFinder {
 
 void TroubleFinder::flag_places() {
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
-    if (done_[c] || places_[c].empty()) continue;
+    if (done_[c] || places_[c].empty() || places_[c].count() > kFewPlaces) continue;
     topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-      if (places_[c].count() <= kFewPlaces && places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
+      if (places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
     });
   }
 }
@@ -125,8 +120,7 @@ void TroubleFinder::flag_conflicts() {
     for (unsigned a = 0; a < 4; ++a) {
       for (unsigned b = 0; b <= a; ++b) {
         if (restricted_.is_virtual(v[a]) || restricted_.is_virtual(v[b])) continue;
-        const auto component = component_at(delaunay.point(v[a]));
-        if (component) flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), *component, Tells::kTopology);
+        flag(0.5 * (delaunay.point(v[a]) + delaunay.point(v[b])), component_of_vertex_[v[a].index()], Tells::kTopology);
       }
     }
   }
@@ -138,8 +132,7 @@ void TroubleFinder::flag_unused_vertices() {
   for (const VertexId v : mesh_.built.vertex_of) used[v.index()] = true;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
-    const Vec3& p = delaunay.point(VertexId(i));
-    if (const auto component = component_at(p)) flag(p, *component, Tells::kMissingPart);
+    flag(delaunay.point(VertexId(i)), component_of_vertex_[i], Tells::kMissingPart);
   }
 }
 
@@ -203,11 +196,6 @@ std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& c
 
 }  // namespace
 
-std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                       const SignedDelaunay& restricted, const MatchedMesh& mesh,
-                                       const RaisedCells& cells, const std::vector<bool>& done,
-                                       const std::vector<Places>& places) {
-  return TroubleFinder(grid, topology, restricted, mesh, cells, done, places).find();
-}
+std::vector<CellName> cells_in_trouble(const TroubleContext& context) { return TroubleFinder(context).find(); }
 
 }  // namespace deliso

