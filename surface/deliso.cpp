@@ -122,6 +122,42 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
   return points;
 }
 
+// Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
+// have got samples.
+void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
+                 const Parameters& parameters, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
+  const RecoverOptions stage1 = stage1_options(parameters, lengths);
+  recover(restricted, stage1, controls, stats);
+  if (topology == nullptr || !parameters.stage1.coverage) return;
+  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology);
+  for (int i = 0; i < kCoverageRounds; ++i) {
+    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects);
+    if (inserted == 0) break;
+    stats.insertions += inserted;
+    stats.uncovered += inserted;
+    recover(restricted, stage1, controls, stats);
+  }
+}
+
+// The surface mesh that stage 2 starts from, with pole heights.
+SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const ScalarGrid& grid,
+                         const IsosurfaceTopology& topology, const Parameters& parameters, Controls& controls,
+                         MeshingResult& result) {
+  if (parameters.certify && parameters.repair.max_rounds > 0) {
+    return timed(result.repair, [&] {
+      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
+    });
+  }
+  const std::vector<double> heights =
+      timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
+  return timed(result.build, [&] {
+    BuiltMesh built = build_triangle_mesh(*restricted);
+    separate_copies(built.mesh, built.groups, built.vertex_of, restricted->isosurface().box());
+    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+    return std::move(built.mesh);
+  });
+}
+
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
@@ -152,18 +188,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
 
   timed(result.recover, [&] {
-    const RecoverOptions stage1 = stage1_options(parameters, lengths);
-    recover(*restricted, stage1, controls, result.recover);
-    if (!needs_topology || !parameters.stage1.coverage) return;
-    // Fingers of the surface that hide within a Voronoi cell.
-    std::vector<std::uint32_t> suspects = all_crossings(grid, topology);
-    for (int i = 0; i < kCoverageRounds; ++i) {
-      const std::int64_t inserted = insert_uncovered(*restricted, grid, topology, lengths.size_bound, suspects);
-      if (inserted == 0) break;
-      result.recover.insertions += inserted;
-      result.recover.uncovered += inserted;
-      recover(*restricted, stage1, controls, result.recover);
-    }
+    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, parameters, lengths, controls, result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -175,22 +200,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   result.recover.restricted_seconds = restricted->restricted_seconds();
 
   // The tetrahedra go as soon as the surface mesh stands.
-  SurfaceMesh surface;
-  if (parameters.certify && parameters.repair.max_rounds > 0) {
-    surface = timed(result.repair, [&] {
-      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
-    });
-  } else {
-    const std::vector<double> heights =
-        timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
-    surface = timed(result.build, [&] {
-      BuiltMesh built = build_triangle_mesh(*restricted);
-      separate_copies(built.mesh, built.groups, built.vertex_of, isosurface->box());
-      for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
-      return std::move(built.mesh);
-    });
-  }
-  restricted.reset();
+  SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, parameters, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage) {
     timed(result.refine,
