@@ -1,11 +1,14 @@
 // How a caller watches and stops a run: the limits of the budget, the stop flag and the progress callback in one place.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include "delaunay/base/stopwatch.h"
 #include "surface/parameters.h"
@@ -38,6 +41,23 @@ class Controls {
     if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});
   }
   [[nodiscard]] bool stopped() const { return stopped_; }
+
+  // For a part of the work, on any thread: the same limits, but `share` of the vertices left beyond `vertices`, of
+  // which the part begins with `begins`. Reports only from the thread this is called on.
+  [[nodiscard]] Controls for_part(double share, std::size_t vertices, std::size_t begins) const {
+    Controls part = *this;
+    part.calls_ = 0;
+    if (budget_.max_vertices) {
+      const double left = std::max(static_cast<double>(*budget_.max_vertices) - static_cast<double>(vertices), 0.0);
+      part.budget_.max_vertices = static_cast<std::int64_t>(begins) + static_cast<std::int64_t>(share * left);
+    }
+    if (part.progress_) {
+      part.progress_ = [report = progress_, thread = std::this_thread::get_id()](const Progress& progress) {
+        if (std::this_thread::get_id() == thread) report(progress);
+      };
+    }
+    return part;
+  }
 
  private:
   BudgetParameters budget_;

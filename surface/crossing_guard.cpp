@@ -78,28 +78,12 @@ bool do_meet(const Box3& a, const Box3& b) {
 
 bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(points[0], points[1], points[2]); }
 
-}  // namespace
-
-CrossingGuard::CrossingGuard(RefinementMesh& mesh, std::span<const Vec3> suspects) : mesh_(mesh) {
-  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = static_cast<float>(v.pole_height);
-  std::vector<std::uint32_t> reached = doubled_vertices(mesh);
-  for (std::uint32_t t = 0; t < mesh.triangles.size() && !suspects.empty(); ++t) {
-    const Box3 box = box_of(mesh.corner_points(mesh.triangles[t].corners));
-    if (std::any_of(suspects.begin(), suspects.end(),
-                    [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
-      reached.insert(reached.end(), mesh.triangles[t].corners.begin(), mesh.triangles[t].corners.end());
-    }
-  }
-  if (!reached.empty()) bound_by(std::move(reached));
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) learn(t);
-}
-
 // No clearance at the reached vertices; from there on the bound falls off by distance along edges.
-void CrossingGuard::bound_by(std::vector<std::uint32_t> reached) {
-  auto& vertices = mesh_.vertices;
+void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) {
+  auto& vertices = mesh.vertices;
   for (const std::uint32_t v : reached) vertices[v].clearance = 0;
   std::vector<std::vector<std::uint32_t>> around(vertices.size());
-  for (const RefinementMesh::Triangle& t : mesh_.triangles) {
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
     for (unsigned i = 0; i < 3; ++i) around[t.corners[i]].push_back(t.corners[(i + 1) % 3]);
   }
   for (std::size_t at = 0; at < reached.size(); ++at) {
@@ -111,6 +95,25 @@ void CrossingGuard::bound_by(std::vector<std::uint32_t> reached) {
       reached.push_back(w);
     }
   }
+}
+
+}  // namespace
+
+void set_clearances(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = static_cast<float>(v.pole_height);
+  std::vector<std::uint32_t> reached = doubled_vertices(mesh);
+  for (std::uint32_t t = 0; t < mesh.triangles.size() && !suspects.empty(); ++t) {
+    const Box3 box = box_of(mesh.corner_points(mesh.triangles[t].corners));
+    if (std::any_of(suspects.begin(), suspects.end(),
+                    [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
+      reached.insert(reached.end(), mesh.triangles[t].corners.begin(), mesh.triangles[t].corners.end());
+    }
+  }
+  if (!reached.empty()) bound_clearances(mesh, std::move(reached));
+}
+
+CrossingGuard::CrossingGuard(const RefinementMesh& mesh) : mesh_(mesh) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) learn(t);
 }
 
 void CrossingGuard::learn(std::uint32_t triangle) {

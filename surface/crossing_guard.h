@@ -20,11 +20,13 @@
 
 namespace deliso {
 
+// Sets the clearance of every vertex. Near `suspects` no pole height is trusted.
+void set_clearances(RefinementMesh& mesh, std::span<const Vec3> suspects);
+
 class CrossingGuard {
  public:
-  // Keeps a reference to the mesh and a few bytes for each of its triangles; sets the clearances of its vertices. Near
-  // `suspects` no clearance is trusted.
-  CrossingGuard(RefinementMesh& mesh, std::span<const Vec3> suspects);
+  // Keeps a reference to a mesh with clearances, and a few bytes for each of its triangles.
+  explicit CrossingGuard(const RefinementMesh& mesh);
 
   // Whether the star of p over the rim of a disk meets itself or tight triangles of the mesh outside the disk beyond
   // what they share, or folds over its neighbours. `moved`: how far the mesh moves at most. Also finds p's clearance.
@@ -43,7 +45,6 @@ class CrossingGuard {
     Box3 box;
   };
 
-  void bound_by(std::vector<std::uint32_t> reached);
   float clearance_at(const Vec3& p, std::span<const RimEdge> rim);
   [[nodiscard]] bool folds(const Vec3& p, std::span<const RimEdge> rim);
   [[nodiscard]] StarTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
@@ -51,7 +52,7 @@ class CrossingGuard {
   [[nodiscard]] bool meets(const StarTriangle& s, std::uint32_t triangle) const;
   [[nodiscard]] static bool meets(const StarTriangle& s, const StarTriangle& t);
 
-  RefinementMesh& mesh_;
+  const RefinementMesh& mesh_;
   TightTriangles tight_;
   float new_clearance_ = 0;
   std::vector<StarTriangle> star_;

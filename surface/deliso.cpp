@@ -88,8 +88,9 @@ RecoverOptions full3d_options(const Parameters& parameters, const Lengths& lengt
   return options;
 }
 
-RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths) {
+RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths, int threads) {
   RefineOptions options;
+  options.threads = threads;
   options.epsilon1 = parameters.stage2.epsilon1;
   options.epsilon2 = parameters.stage2.epsilon2;
   options.rho = parameters.stage2.rho;
@@ -203,8 +204,9 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, parameters, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage) {
-    timed(result.refine,
-          [&] { refine(surface, *isosurface, stage2_options(parameters, lengths), controls, result.refine); });
+    timed(result.refine, [&] {
+      refine(surface, *isosurface, stage2_options(parameters, lengths, options.threads), controls, result.refine);
+    });
   }
   result.stopped_early = controls.stopped();
 

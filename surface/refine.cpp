@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/parallel.h"
 #include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
 #include "surface/ranked_queue.h"
 #include "surface/refinement_candidates.h"
 #include "surface/refinement_disk.h"
+#include "surface/refinement_slabs.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -30,22 +32,35 @@ constexpr std::size_t kMostSuspects = 1000;
 
 class Refinement {
  public:
-  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
-             std::span<const Vec3> suspects, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh, suspects) {}
+  // Of a mesh whose vertices have clearances.
+  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh) {}
+  Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+      : mesh_(part.mesh),
+        part_(&part),
+        isosurface_(isosurface),
+        options_(options),
+        stats_(stats),
+        disk_(part.mesh, part.frozen),
+        guard_(part.mesh) {}
 
+  // Finds the balls of all triangles.
+  void measure_all();
+  // Refines what has balls.
   void run(Controls& controls);
+  // Counts the triangles that only r_min kept as they are.
+  void count_stopped();
 
  private:
   using Candidate = RefinementCandidate;
   // A triangle to be, with its ball and what the criteria say.
   struct NewTriangle {
     SurfaceDelaunayBall ball;
+    bool has_hit = false;
     double badness = 0;
     double radius = 0;
   };
 
-  void queue_everything();
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
@@ -67,6 +82,7 @@ class Refinement {
   }
 
   RefinementMesh& mesh_;
+  const RefinementPart* part_ = nullptr;  // when the mesh is one
   const Isosurface& isosurface_;
   const RefineOptions& options_;
   RefineStats& stats_;
@@ -76,28 +92,32 @@ class Refinement {
   std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   double star_pole_height_ = 0;
+  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, the whole mesh decides
   std::int64_t insertions_at_retry_ = 0;
 };
 
+void Refinement::measure_all() {
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const NewTriangle now = measure(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), 1);
+    mesh_.triangles[t].set_ball(now.ball, now.has_hit);
+  }
+}
+
 void Refinement::run(Controls& controls) {
-  queue_everything();
+  const std::uint32_t first = part_ == nullptr ? 0 : part_->frozen;
+  for (std::uint32_t t = first; t < mesh_.triangles.size(); ++t) queue_if_bad(t, measured(t));
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto queued = queue_.pop();
     if (!queued && !retry_crossed()) break;
     if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
     if (treat(queued->element)) wake_neighbours();
   }
+}
+
+void Refinement::count_stopped() {
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     const NewTriangle now = measured(t);
     if (now.badness > 1 && now.radius <= options_.r_min) ++stats_.stopped_at_r_min;
-  }
-}
-
-void Refinement::queue_everything() {
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const NewTriangle now = measure(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), mean_pole_height(t));
-    mesh_.triangles[t].ball = now.ball;
-    queue_if_bad(t, now);
   }
 }
 
@@ -118,6 +138,7 @@ bool Refinement::treat(std::uint32_t triangle) {
   const SurfaceDelaunayBall ball = ball_of(triangle);
   const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
   TriangleSide encroached = kNoSide;
+  is_blocked_ = false;
   std::optional<Refusal> refusal = insert(candidate, &encroached);
   if (encroached != kNoSide) {
     const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
@@ -125,7 +146,7 @@ bool Refinement::treat(std::uint32_t triangle) {
     if (!refusal) ++stats_.boundary_splits;
     if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
   }
-  if (refusal) {
+  if (refusal && !is_blocked_) {
     const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
     if (halving && !insert(*halving, nullptr)) {
       ++stats_.halvings;
@@ -134,7 +155,7 @@ bool Refinement::treat(std::uint32_t triangle) {
   }
   if (refusal) {
     ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    mesh_.triangles[triangle].state |= 1u;
+    mesh_.triangles[triangle].state |= RefinementMesh::Triangle::kRefused;
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
@@ -146,6 +167,10 @@ bool Refinement::treat(std::uint32_t triangle) {
 // reported and nothing is inserted.
 std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
   disk_.grow(candidate, [this](std::uint32_t t) { return ball_of(t); });
+  if (disk_.is_blocked() || (part_ != nullptr && !part_->contains(candidate.point))) {
+    is_blocked_ = true;
+    return Refusal::kNotADisk;
+  }
   if (encroached_edge != nullptr) {
     if (const auto side = disk_.encroached_boundary_edge(candidate, isosurface_.box())) {
       *encroached_edge = *side;
@@ -208,13 +233,14 @@ double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
 Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
   const Circumcircle circle = circumcircle(p, a, b);
   const Vec3 normal = cross(a - p, b - p);
-  if (!std::isfinite(circle.radius) || !(norm(normal) > 0)) return {{p, 0}, 0, 0};  // nothing can be measured on it
+  if (!std::isfinite(circle.radius) || !(norm(normal) > 0))
+    return {{p, 0}, false, 0, 0};  // nothing can be measured on it
   const Line dual{circle.center, normal / norm(normal)};
   const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
-  if (!t) return {{circle.center, circle.radius * circle.radius}, 0, circle.radius};
+  if (!t) return {{circle.center, circle.radius * circle.radius}, false, 0, circle.radius};
   const Vec3 x = dual.at(*t);
   const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
-  return {{x, squared_distance(x, p)}, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
+  return {{x, squared_distance(x, p)}, true, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
 }
 
 // The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
@@ -232,12 +258,13 @@ double Refinement::mean_pole_height(std::uint32_t triangle) const {
 
 // The same of a triangle of the mesh, by the ball it has.
 Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
+  if (!mesh_.triangles[triangle].has_hit()) return {ball_of(triangle), false, 0, 0};
   const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
   const Circumcircle circle = circumcircle(a, b, c);
   const SurfaceDelaunayBall ball = ball_of(triangle);
   const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
   const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
-  return {ball, bad, circle.radius};
+  return {ball, true, bad, circle.radius};
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
@@ -262,8 +289,8 @@ void Refinement::replace_disk(const Candidate& candidate) {
     triangle.neighbours = {edge.outer, last ? kNoSide : 4 * slot((i + 1) % count) + 2,
                            first ? kNoSide : 4 * slot((i + count - 1) % count) + 1};
     if (edge.outer != kNoSide) mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
-    triangle.ball = star_[i].ball;
-    triangle.state = (triangle.state | 1u) + 1;
+    triangle.renew();
+    triangle.set_ball(star_[i].ball, star_[i].has_hit);
     guard_.learn(t);
     queue_if_bad(t, star_[i]);
   }
@@ -283,7 +310,7 @@ bool Refinement::retry_crossed() {
 }
 
 void Refinement::requeue(std::uint32_t triangle) {
-  mesh_.triangles[triangle].state &= ~1u;
+  mesh_.triangles[triangle].state &= ~RefinementMesh::Triangle::kRefused;
   queue_if_bad(triangle, measured(triangle));
 }
 
@@ -291,6 +318,30 @@ void Refinement::requeue(std::uint32_t triangle) {
 void Refinement::wake_neighbours() {
   for (const RimEdge& edge : disk_.rim()) {
     if (edge.outer != kNoSide && mesh_.triangles[edge.outer >> 2].is_refused()) requeue(edge.outer >> 2);
+  }
+}
+
+// Refines the slabs apart from each other. Of their counters those of insertions count; what they refused is tried
+// again in the whole.
+void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
+                  const Controls& controls, RefineStats& stats) {
+  RefinementSlabs slabs(mesh);
+  std::vector<RefinementPart>& parts = slabs.parts();
+  if (parts.empty()) return;
+  std::vector<RefineStats> counted(parts.size());
+  std::vector<Controls> limits;
+  for (const RefinementPart& part : parts) {
+    const std::size_t vertices = mesh.vertices.size();
+    limits.push_back(controls.for_part(1.0 / static_cast<double>(parts.size()), vertices, part.mesh.vertices.size()));
+  }
+  run_tasks(parts.size(), options.threads,
+            [&](std::size_t k) { Refinement(parts[k], isosurface, options, counted[k]).run(limits[k]); });
+  slabs.join(mesh);
+  for (const RefineStats& part : counted) {
+    stats.insertions += part.insertions;
+    stats.boundary_splits += part.boundary_splits;
+    stats.halvings += part.halvings;
+    stats.search += part.search;
   }
 }
 
@@ -321,7 +372,12 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     stats.search = searches;
     stats.restarts = restarts;
     RefinementMesh refined(mesh);
-    Refinement(refined, isosurface, options, suspects, stats).run(controls);
+    set_clearances(refined, suspects);
+    Refinement(refined, isosurface, options, stats).measure_all();
+    refine_slabs(refined, isosurface, options, controls, stats);
+    Refinement rest(refined, isosurface, options, stats);
+    rest.run(controls);
+    rest.count_stopped();
     const bool is_last = !options.restart_at_crossings || restarts == kMostRestarts || controls.stopped();
     if (is_last || !add_crossings(refined, suspects)) {
       if (balls != nullptr) {

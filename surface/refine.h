@@ -30,6 +30,7 @@ struct RefineOptions {
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
+  int threads = 1;  // the result is the same for any number
 };
 
 // Why an insertion was refused.

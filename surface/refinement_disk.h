@@ -26,7 +26,8 @@ class RefinementDisk {
  public:
   enum class Shape { kDisk, kNotADisk, kRepeatedVertex };
 
-  explicit RefinementDisk(RefinementMesh& mesh) : mesh_(mesh) {}
+  // The first `frozen` triangles of the mesh must not be replaced.
+  explicit RefinementDisk(RefinementMesh& mesh, std::uint32_t frozen = 0) : mesh_(mesh), frozen_(frozen) {}
 
   // E: the triangles reached from the candidate's seed whose balls hold its point, or the two at a halved edge; and the
   // edges around them. ball_of(t) gives B_sigma.
@@ -41,6 +42,8 @@ class RefinementDisk {
   // box.
   [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const RefinementCandidate& candidate,
                                                                      const Box3& box) const;
+  // Whether E would have to hold a frozen triangle.
+  [[nodiscard]] bool is_blocked() const { return is_blocked_; }
   // How far p lies off the planes of E's triangles at most.
   [[nodiscard]] double distance_to(const Vec3& p) const;
 
@@ -50,6 +53,7 @@ class RefinementDisk {
 
  private:
   void take(std::uint32_t triangle) {
+    is_blocked_ |= triangle < frozen_;
     mesh_.triangles[triangle].attempt = attempt_;
     triangles_.push_back(triangle);
   }
@@ -57,7 +61,9 @@ class RefinementDisk {
   void find_rim(const RefinementCandidate& candidate);
 
   RefinementMesh& mesh_;
+  std::uint32_t frozen_;
   std::uint32_t attempt_ = 0;
+  bool is_blocked_ = false;
   std::vector<std::uint32_t> triangles_;
   std::vector<RimEdge> rim_;
   std::vector<RimEdge> ordered_;
@@ -66,6 +72,7 @@ class RefinementDisk {
 template <class BallOf>
 void RefinementDisk::grow(const RefinementCandidate& candidate, BallOf&& ball_of) {
   ++attempt_;
+  is_blocked_ = false;
   triangles_.clear();
   take(candidate.seed);
   if (candidate.halved != kNoSide) {

@@ -31,16 +31,26 @@ struct RefinementMesh {
     std::array<std::uint32_t, 3> corners{};
     std::array<TriangleSide, 3> neighbours{};
     SurfaceDelaunayBall ball;
-    std::uint32_t state = 0;    // twice the generation of the slot, which grows when it is taken anew; odd: refused
+    std::uint32_t state = 0;    // the two flags below, and above them the generation of the slot
     std::uint32_t attempt = 0;  // that took the triangle into its disk E
 
-    [[nodiscard]] bool is_refused() const { return (state & 1u) != 0; }
+    static constexpr std::uint32_t kRefused = 1;  // waits for a change around it
+    static constexpr std::uint32_t kNoHit = 2;    // its dual line has no falling hit: it stays as it is
+    [[nodiscard]] bool is_refused() const { return (state & kRefused) != 0; }
+    [[nodiscard]] bool has_hit() const { return (state & kNoHit) == 0; }
+    void set_ball(const SurfaceDelaunayBall& its_ball, bool its_hit) {
+      ball = its_ball;
+      state = its_hit ? state & ~kNoHit : state | kNoHit;
+    }
+    // The slot is taken anew.
+    void renew() { state = (state | kRefused | kNoHit) + 1; }
   };
   static_assert(sizeof(Triangle) == 64);
 
   LargeArray<Vertex> vertices;
   LargeArray<Triangle> triangles;
 
+  RefinementMesh() = default;
   explicit RefinementMesh(const SurfaceMesh& mesh);
 
   [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
