@@ -1,7 +1,8 @@
 // A tree of axis-aligned boxes over any things that have one: which of them may meet, which is nearest.
 //
-// Median splits along the longest side of the centres' box; nodes in depth-first order, so that a left child follows
-// its parent. Deterministic; results do not depend on rounding because boxes are only copied and merged.
+// Splits along the longest side of the centres' box, such that every left subtree is complete: so the places of all
+// nodes, in depth-first order, are known beforehand, and subtrees can be built and searched on several threads.
+// Deterministic; results do not depend on rounding because boxes are only copied and merged.
 #pragma once
 
 #include <algorithm>
@@ -18,12 +19,21 @@ namespace deliso {
 
 class BoxTree {
  public:
-  explicit BoxTree(std::span<const Box3> boxes);
+  explicit BoxTree(std::span<const Box3> boxes, int threads = 1);
 
   // Calls visit(i, j) once for each pair i < j of boxes that have a point in common, faces included.
   template <class Visit>
   void for_each_touching_pair(Visit&& visit) const {
     if (!nodes_.empty()) pairs_within(0, visit);
+  }
+  // The same in independent tasks: each pair of boxes belongs to one of them.
+  struct PairTask {
+    std::uint32_t a = 0, b = 0;  // nodes; the same for pairs within one
+  };
+  [[nodiscard]] std::vector<PairTask> pair_tasks() const;
+  template <class Visit>
+  void for_each_touching_pair(const PairTask& task, Visit&& visit) const {
+    task.a == task.b ? pairs_within(task.a, visit) : pairs_between(task.a, task.b, visit);
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -47,6 +57,7 @@ class BoxTree {
 
  private:
   static constexpr std::uint32_t kLeafSize = 8;
+  static constexpr int kTaskDepth = 4;          // subtrees of this depth are tasks
   static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
 
   struct Node {
@@ -65,7 +76,16 @@ class BoxTree {
     Vec3 point;
     std::uint32_t thing = 0;
   };
-  std::uint32_t build(std::span<const Box3> boxes, std::span<Centre> centres);
+  // The subtree of things first to last of the order of leaves, with its root at a place in nodes_.
+  struct Subtree {
+    std::uint32_t node = 0, first = 0, last = 0;
+    [[nodiscard]] bool is_leaf() const { return last - first <= kLeafSize; }
+  };
+  std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
+  void fill_leaf(const Subtree& leaf, std::span<const Box3> boxes, std::span<const Centre> centres);
+  void build(const Subtree& tree, std::span<const Box3> boxes, std::span<Centre> centres);
+  void enclose_children(std::uint32_t node);
+  void append_tasks(std::uint32_t node, int depth, std::vector<PairTask>& tasks) const;
 
   template <class Visit>
   void pairs_within(std::uint32_t node, Visit&& visit) const;

@@ -325,7 +325,7 @@ void Refinement::wake_neighbours() {
 // again in the whole.
 void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
                   const Controls& controls, RefineStats& stats) {
-  RefinementSlabs slabs(mesh);
+  RefinementSlabs slabs(mesh, options.slab_triangles);
   std::vector<RefinementPart>& parts = slabs.parts();
   if (parts.empty()) return;
   std::vector<RefineStats> counted(parts.size());
@@ -346,14 +346,14 @@ void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const Refi
 }
 
 // Adds the places where triangles of the mesh cross or touch; false when there are none.
-bool add_crossings(const RefinementMesh& mesh, std::vector<Vec3>& suspects) {
+bool add_crossings(const RefinementMesh& mesh, int threads, std::vector<Vec3>& suspects) {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   points.reserve(mesh.vertices.size());
   triangles.reserve(mesh.triangles.size());
   for (const RefinementMesh::Vertex& v : mesh.vertices) points.push_back(v.point);
   for (const RefinementMesh::Triangle& t : mesh.triangles) triangles.push_back(t.corners);
-  const SelfIntersections found = self_intersections(points, triangles, kMostSuspects);
+  const SelfIntersections found = self_intersections(points, triangles, kMostSuspects, threads);
   for (const auto* pairs : {&found.crossing, &found.touching}) {
     for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
   }
@@ -379,7 +379,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     rest.run(controls);
     rest.count_stopped();
     const bool is_last = !options.restart_at_crossings || restarts == kMostRestarts || controls.stopped();
-    if (is_last || !add_crossings(refined, suspects)) {
+    if (is_last || !add_crossings(refined, options.threads, suspects)) {
       if (balls != nullptr) {
         for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
       }

@@ -30,7 +30,8 @@ struct RefineOptions {
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
-  int threads = 1;  // the result is the same for any number
+  int threads = 1;                    // the result is the same for any number
+  std::size_t slab_triangles = 8192;  // of stage 1 in a slab (refinement_slabs.h), about
 };
 
 // Why an insertion was refused.

@@ -8,13 +8,12 @@ namespace deliso {
 
 namespace {
 
-constexpr std::size_t kTrianglesOfAPart = 8192;
 constexpr std::size_t kMostParts = 8;
 
 }  // namespace
 
-RefinementSlabs::RefinementSlabs(const RefinementMesh& whole) {
-  const std::size_t count = std::min(whole.triangles.size() / kTrianglesOfAPart, kMostParts);
+RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles) {
+  const std::size_t count = std::min(whole.triangles.size() / slab_triangles, kMostParts);
   if (count < 2) return;
   parts_.resize(count);
   choose_planes(whole);

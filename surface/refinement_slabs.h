@@ -28,8 +28,9 @@ struct RefinementPart {
 
 class RefinementSlabs {
  public:
-  // Cuts a mesh whose balls are known; a small one stays whole, with no parts.
-  explicit RefinementSlabs(const RefinementMesh& whole);
+  // Cuts a mesh whose balls are known into at most 8 parts of `slab_triangles` or more, about; a small one stays whole,
+  // with no parts.
+  RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles);
 
   [[nodiscard]] std::vector<RefinementPart>& parts() { return parts_; }
 

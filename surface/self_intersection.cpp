@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/base/parallel.h"
 #include "delaunay/predicates.h"
 #include "surface/box_tree.h"
 
@@ -221,53 +223,97 @@ TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const st
   }
 }
 
-SelfIntersections self_intersections(std::span<const Vec3> points,
-                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep) {
-  SelfIntersections found;
+namespace {
 
-  // Broad phase: boxes of the triangles that have an area.
+// The triangles that have an area, with their boxes.
+struct BoxedTriangles {
+  std::vector<std::uint32_t> triangles;
   std::vector<Box3> boxes;
-  std::vector<std::uint32_t> triangle_of_box;
-  boxes.reserve(triangles.size());
-  triangle_of_box.reserve(triangles.size());
+};
+
+BoxedTriangles boxed_triangles(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
+  BoxedTriangles boxed;
+  boxed.boxes.reserve(triangles.size());
+  boxed.triangles.reserve(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const Corners corners = {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
-    if (collinear(corners[0], corners[1], corners[2])) {
-      ++found.zero_area_triangles;
-      continue;
-    }
-    Box3 box;
-    for (const Vec3& p : corners) box.extend(p);
-    boxes.push_back(box);
-    triangle_of_box.push_back(t);
+    const auto& [a, b, c] = triangles[t];
+    if (!has_area(points[a], points[b], points[c])) continue;
+    boxed.triangles.push_back(t);
+    boxed.boxes.emplace_back();
+    for (const std::uint32_t v : triangles[t]) boxed.boxes.back().extend(points[v]);
+  }
+  return boxed;
+}
+
+// Counts a pair, and keeps it when it is among the first ones by number: pairs come in the order of the tree.
+class PairCollector {
+ public:
+  explicit PairCollector(std::size_t keep) : keep_(keep) {}
+
+  void add(const TrianglePair& pair) {
+    const bool is_crossing = pair.contact == TriangleContact::kCrossing;
+    ++(is_crossing ? found_.crossing_pairs : found_.touching_pairs);
+    insert(is_crossing ? found_.crossing : found_.touching, pair);
+  }
+  void add(const PairCollector& other) {
+    found_.crossing_pairs += other.found_.crossing_pairs;
+    found_.touching_pairs += other.found_.touching_pairs;
+    for (const TrianglePair& pair : other.found_.crossing) insert(found_.crossing, pair);
+    for (const TrianglePair& pair : other.found_.touching) insert(found_.touching, pair);
+  }
+  SelfIntersections sorted() && {
+    std::sort_heap(found_.crossing.begin(), found_.crossing.end(), earlier);
+    std::sort_heap(found_.touching.begin(), found_.touching.end(), earlier);
+    return std::move(found_);
   }
 
-  // Narrow phase. Pairs come in the order of the tree; a heap keeps the first ones by number.
-  const auto earlier = [](const TrianglePair& a, const TrianglePair& b) {
+ private:
+  static bool earlier(const TrianglePair& a, const TrianglePair& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
-  };
-  const auto insert = [&](std::vector<TrianglePair>& kept, const TrianglePair& pair) {
+  }
+  void insert(std::vector<TrianglePair>& kept, const TrianglePair& pair) const {
     kept.push_back(pair);
     std::push_heap(kept.begin(), kept.end(), earlier);
-    if (kept.size() <= keep) return;
+    if (kept.size() <= keep_) return;
     std::pop_heap(kept.begin(), kept.end(), earlier);
     kept.pop_back();
-  };
-  BoxTree(boxes).for_each_touching_pair([&](std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t s = triangle_of_box[i], t = triangle_of_box[j];
-    const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
-    if (contact == TriangleContact::kNone) return;
-    const Box3 both{{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
-                     std::max(boxes[i].low.z, boxes[j].low.z)},
-                    {std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
-                     std::min(boxes[i].high.z, boxes[j].high.z)}};
-    const bool is_crossing = contact == TriangleContact::kCrossing;
-    ++(is_crossing ? found.crossing_pairs : found.touching_pairs);
-    insert(is_crossing ? found.crossing : found.touching, {s, t, contact, 0.5 * both.low + 0.5 * both.high});
+  }
+
+  std::size_t keep_;
+  SelfIntersections found_;
+};
+
+Vec3 middle_of_common(const Box3& a, const Box3& b) {
+  Vec3 middle;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    middle[axis] = 0.5 * std::max(a.low[axis], b.low[axis]) + 0.5 * std::min(a.high[axis], b.high[axis]);
+  }
+  return middle;
+}
+
+}  // namespace
+
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
+                                     int threads) {
+  // Broad phase: pairs of boxes that touch; narrow phase: exact tests.
+  const BoxedTriangles boxed = boxed_triangles(points, triangles);
+  const BoxTree tree(boxed.boxes, threads);
+  const std::vector<BoxTree::PairTask> tasks = tree.pair_tasks();
+  std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
+  run_tasks(tasks.size(), threads, [&](std::size_t task) {
+    tree.for_each_touching_pair(tasks[task], [&](std::uint32_t i, std::uint32_t j) {
+      const std::uint32_t s = boxed.triangles[i], t = boxed.triangles[j];
+      const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
+      if (contact == TriangleContact::kNone) return;
+      found[task].add({s, t, contact, middle_of_common(boxed.boxes[i], boxed.boxes[j])});
+    });
   });
-  std::sort_heap(found.crossing.begin(), found.crossing.end(), earlier);
-  std::sort_heap(found.touching.begin(), found.touching.end(), earlier);
-  return found;
+  PairCollector all(keep);
+  for (const PairCollector& part : found) all.add(part);
+  SelfIntersections result = std::move(all).sorted();
+  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - boxed.triangles.size());
+  return result;
 }
 
 }  // namespace deliso

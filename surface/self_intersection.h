@@ -48,10 +48,11 @@ inline TriangleContact triangle_contact(std::span<const Vec3> points, const std:
 // Whether three points are not in line, exactly.
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// All pairs; at most `keep` of each kind are kept. Precondition: indices in range, coordinates as orient3d
-// wants them (delaunay/predicates.h).
+// All pairs; at most `keep` of each kind are kept, the same for any number of threads. Precondition: indices in range,
+// coordinates as orient3d wants them (delaunay/predicates.h).
 SelfIntersections self_intersections(std::span<const Vec3> points,
-                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10);
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
+                                     int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {
   return self_intersections(mesh.points, mesh.triangles, keep);
 }

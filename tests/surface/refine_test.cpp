@@ -38,6 +38,7 @@ SurfaceMesh stage1_mesh(const Scene& scene) {
 RefineOptions fine_options() {
   RefineOptions options;
   options.r_min = 0.25;
+  options.slab_triangles = 100;
   return options;
 }
 
@@ -257,6 +258,26 @@ TEST(Refine, StoppedAtAnyMomentTheMeshIsWhole) {
     EXPECT_EQ(stats.insertions, more);
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "");
     EXPECT_EQ(test::mesh_facts(mesh.triangles).components, facts);
+  }
+}
+
+TEST(Refine, IsTheSameForAnyNumberOfThreads) {
+  const auto scene = field_scene("gyroid", 32);
+  const SurfaceMesh start = stage1_mesh(*scene);
+  ASSERT_GT(start.triangles.size(), 4u * 100);
+  RefineOptions options = fine_options();
+  options.threads = 1;
+  SurfaceMesh one = start;
+  const RefineStats of_one = run(one, *scene, options);
+  EXPECT_EQ(testing::surface_mesh_defect(one), "");
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    SurfaceMesh many = start;
+    const RefineStats of_many = run(many, *scene, options);
+    EXPECT_EQ(many.points, one.points);
+    EXPECT_EQ(many.triangles, one.triangles);
+    EXPECT_EQ(of_many.insertions, of_one.insertions);
+    EXPECT_EQ(of_many.search.solves, of_one.search.solves);
   }
 }
 
