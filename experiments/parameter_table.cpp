@@ -149,6 +149,10 @@ constexpr std::array kTable = {
         "stage1.coverage", kAny, "",
         "also sample parts of the surface that the mesh misses; the paper does "
         "not"),
+    row<&P::stage1, &Stage1Parameters::one_sign_per_tetrahedron>(
+        "stage1.one_sign_per_tetrahedron", kAny, "",
+        "a facet is restricted when its tetrahedra differ in sign; false: when its own dual edge has an odd number of "
+        "hits; needs certify, no coverage and repair.max_rounds = 0"),
     row<&P::stage2, &Stage2Parameters::epsilon1>("stage2.epsilon1", kPositive, "-",
                                                  "refine a triangle whose height over its circumradius is above "
                                                  "this"),
