@@ -67,7 +67,7 @@ TEST(SidesOfFacets, AreNotThereWhenAnyOneFacetIsMissing) {
     EXPECT_EQ(facets_alone(restricted).triangles.size(), has_virtual_vertex(restricted, f) ? all : all - 1);
     ++tried;
   });
-  EXPECT_GT(tried, 20);
+  EXPECT_GE(tried, 10);
 }
 
 TEST(FacetsAlone, OfASphereAreASphereSeenFromBelow) {
