@@ -146,7 +146,9 @@ bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
 }
 
 bool RestrictedDelaunay::is_dual_to_surface(FacetId f) const {
-  return rule_ == FacetRule::kSigns ? is_restricted(f) : falls_through(f) || falls_through(delaunay_.mirror(f));
+  return rule_ == FacetRule::kSigns
+             ? is_restricted(f)
+             : RestrictedDelaunay::falls_through(f) || RestrictedDelaunay::falls_through(delaunay_.mirror(f));
 }
 
 bool RestrictedDelaunay::falls_through(FacetId f) const {
