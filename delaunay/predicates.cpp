@@ -53,6 +53,11 @@ double exact_insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 
 // Whether the projections of three points along one axis are collinear, exactly.
 bool collinear_in_plane(double ax, double ay, double bx, double by, double cx, double cy) {
+  // Shewchuk's bound of the rounded determinant (1997); the summand covers products that underflow.
+  constexpr double kRelative = 3.3306690738754716e-16, kUnderflow = 1e-300;
+  const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax);
+  if (std::abs(left - right) > kRelative * (std::abs(left) + std::abs(right)) + kUnderflow) return false;
+
   using Number = Expansion<2>;
   const Number ux(two_difference(bx, ax));
   const Number uy(two_difference(by, ay));

@@ -46,7 +46,7 @@ class BoxTree {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
  private:
-  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr std::uint32_t kLeafSize = 8;
   static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
 
   struct Node {
@@ -61,7 +61,11 @@ class BoxTree {
   }
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
-  void build(std::span<const Box3> boxes, std::uint32_t first, std::uint32_t last);
+  struct Centre {
+    Vec3 point;
+    std::uint32_t thing = 0;
+  };
+  std::uint32_t build(std::span<const Box3> boxes, std::span<Centre> centres);
 
   template <class Visit>
   void pairs_within(std::uint32_t node, Visit&& visit) const;

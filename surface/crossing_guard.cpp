@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "surface/self_intersection.h"
 
@@ -17,10 +19,9 @@ constexpr double kSuspectReach = 3;
 constexpr double kTightness = 1.5;
 // Other sheets matter when the clearance is below so many times what the mesh moves.
 constexpr double kReach = 20;
-// Cells are numbered up to this far from the origin; beyond it they run together.
-constexpr double kFarthest = 1e9;
-constexpr double kFarthestPlace = 1e18;  // the same for the cells of doubled vertices
-constexpr double kManyCells = 4096;
+constexpr double kFarthestPlace = 1e18;  // cells of doubled vertices are numbered up to this far from the origin
+// A star can fold over its neighbours when it moves by so much of the rim's distance from p.
+constexpr double kFoldingMove = 0.1;
 
 struct CellHash {
   std::size_t operator()(const std::array<std::int64_t, 3>& c) const {
@@ -32,7 +33,8 @@ struct CellHash {
 };
 
 // Vertices with another one on top of them, found in a grid of cells just as large.
-std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
+std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
+  const auto& vertices = mesh.vertices;
   const auto cell_of = [](const Vec3& p, int dx, int dy, int dz) {
     const auto place = [](double x) {
       return static_cast<std::int64_t>(std::clamp(std::floor(x / kOnTop), -kFarthestPlace, kFarthestPlace));
@@ -40,16 +42,16 @@ std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
     return std::array<std::int64_t, 3>{place(p.x) + dx, place(p.y) + dy, place(p.z) + dz};
   };
   std::unordered_map<std::array<std::int64_t, 3>, std::vector<std::uint32_t>, CellHash> cells;
-  cells.reserve(points.size());
-  for (std::uint32_t v = 0; v < points.size(); ++v) cells[cell_of(points[v], 0, 0, 0)].push_back(v);
+  cells.reserve(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) cells[cell_of(vertices[v].point, 0, 0, 0)].push_back(v);
   std::vector<std::uint32_t> doubled;
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
     bool found = false;
     for (int i = 0; i < 27 && !found; ++i) {
-      const auto at = cells.find(cell_of(points[v], i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      const auto at = cells.find(cell_of(vertices[v].point, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
       if (at == cells.end()) continue;
       found = std::any_of(at->second.begin(), at->second.end(), [&](std::uint32_t w) {
-        return w != v && squared_distance(points[v], points[w]) < kOnTop * kOnTop;
+        return w != v && squared_distance(vertices[v].point, vertices[w].point) < kOnTop * kOnTop;
       });
     }
     if (found) doubled.push_back(v);
@@ -57,173 +59,161 @@ std::vector<std::uint32_t> doubled_vertices(const std::vector<Vec3>& points) {
   return doubled;
 }
 
+bool is_tight(const std::array<Vec3, 3>& points, float clearance) {
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, squared_distance(points[i], points[(i + 1) % 3]));
+  return clearance * clearance < kTightness * kTightness * longest;
+}
+
+Box3 box_of(const std::array<Vec3, 3>& points) {
+  Box3 box;
+  for (const Vec3& p : points) box.extend(p);
+  return box;
+}
+
+bool do_meet(const Box3& a, const Box3& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(points[0], points[1], points[2]); }
+
 }  // namespace
 
-CrossingGuard::CrossingGuard(SurfaceMesh& mesh, std::span<const Vec3> suspects) : mesh_(mesh) {
-  clearance_.assign(mesh.pole_heights.begin(), mesh.pole_heights.end());
-  std::vector<std::uint32_t> reached = doubled_vertices(mesh.points);
+CrossingGuard::CrossingGuard(RefinementMesh& mesh, std::span<const Vec3> suspects) : mesh_(mesh) {
+  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = static_cast<float>(v.pole_height);
+  std::vector<std::uint32_t> reached = doubled_vertices(mesh);
   for (std::uint32_t t = 0; t < mesh.triangles.size() && !suspects.empty(); ++t) {
-    const Box3 box = box_of(mesh.triangles[t]);
+    const Box3 box = box_of(mesh.corner_points(mesh.triangles[t].corners));
     if (std::any_of(suspects.begin(), suspects.end(),
                     [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
-      reached.insert(reached.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+      reached.insert(reached.end(), mesh.triangles[t].corners.begin(), mesh.triangles[t].corners.end());
     }
   }
-  for (const std::uint32_t v : reached) clearance_[v] = 0;
-  // The bound falls off by distance along edges.
-  std::vector<std::vector<std::uint32_t>> around;
-  if (!reached.empty()) {
-    around.resize(mesh.points.size());
-    for (const auto& t : mesh.triangles) {
-      for (unsigned i = 0; i < 3; ++i) around[t[i]].push_back(t[(i + 1) % 3]);
-    }
+  if (!reached.empty()) bound_by(std::move(reached));
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) learn(t);
+}
+
+// No clearance at the reached vertices; from there on the bound falls off by distance along edges.
+void CrossingGuard::bound_by(std::vector<std::uint32_t> reached) {
+  auto& vertices = mesh_.vertices;
+  for (const std::uint32_t v : reached) vertices[v].clearance = 0;
+  std::vector<std::vector<std::uint32_t>> around(vertices.size());
+  for (const RefinementMesh::Triangle& t : mesh_.triangles) {
+    for (unsigned i = 0; i < 3; ++i) around[t.corners[i]].push_back(t.corners[(i + 1) % 3]);
   }
   for (std::size_t at = 0; at < reached.size(); ++at) {
     const std::uint32_t v = reached[at];
     for (const std::uint32_t w : around[v]) {
-      const float bound = clearance_[v] + static_cast<float>(distance(mesh.points[v], mesh.points[w]));
-      if (bound >= clearance_[w]) continue;
-      clearance_[w] = bound;
+      const float bound = vertices[v].clearance + static_cast<float>(distance(vertices[v].point, vertices[w].point));
+      if (bound >= vertices[w].clearance) continue;
+      vertices[w].clearance = bound;
       reached.push_back(w);
-    }
-  }
-  is_kept_.assign(mesh.triangles.size(), false);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) learn(t);
-}
-
-bool CrossingGuard::is_tight(const Corners& v) const {
-  double longest = 0;
-  float clearance = clearance_[v[0]];
-  for (unsigned i = 0; i < 3; ++i) {
-    longest = std::max(longest, squared_distance(mesh_.points[v[i]], mesh_.points[v[(i + 1) % 3]]));
-    clearance = std::min(clearance, clearance_[v[i]]);
-  }
-  return clearance * clearance < kTightness * kTightness * longest;
-}
-
-Box3 CrossingGuard::box_of(const Corners& v) const {
-  Box3 box;
-  for (const std::uint32_t q : v) box.extend(mesh_.points[q]);
-  return box;
-}
-
-int CrossingGuard::level_of(const Box3& box) {
-  const Vec3 size = box.size();
-  return std::ilogb(std::max({size.x, size.y, size.z, 0.5})) + 1;
-}
-
-std::uint64_t CrossingGuard::key(const Cell& cell) {
-  std::uint64_t key = static_cast<std::uint64_t>(cell.level);
-  for (const std::int32_t x : cell.at) key = key << 19 | (static_cast<std::uint64_t>(x) & 0x7FFFFu);
-  return key;
-}
-
-// The cells of a level that a box meets; when they are very many, those that hold something instead.
-template <class Visit>
-void CrossingGuard::for_each_cell(const Box3& box, int level, Visit&& visit) const {
-  double count = 1;
-  Cell low{level, {}};
-  Cell high{level, {}};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto place = [&](double x) {
-      return static_cast<std::int32_t>(std::clamp(std::floor(std::ldexp(x, -level)), -kFarthest, kFarthest));
-    };
-    low.at[axis] = place(box.low[axis]);
-    high.at[axis] = place(box.high[axis]);
-    count *= high.at[axis] - low.at[axis] + 1.0;
-  }
-  if (count > kManyCells) {
-    for (const auto& [at, ignored] : cells_) {
-      if (at >> 57 == static_cast<std::uint64_t>(level)) visit(at);
-    }
-    return;
-  }
-  Cell cell{level, {}};
-  for (cell.at[2] = low.at[2]; cell.at[2] <= high.at[2]; ++cell.at[2]) {
-    for (cell.at[1] = low.at[1]; cell.at[1] <= high.at[1]; ++cell.at[1]) {
-      for (cell.at[0] = low.at[0]; cell.at[0] <= high.at[0]; ++cell.at[0]) visit(key(cell));
     }
   }
 }
 
 void CrossingGuard::learn(std::uint32_t triangle) {
-  if (is_kept_.size() <= triangle) is_kept_.resize(triangle + 1, false);
-  const Corners& v = mesh_.triangles[triangle];
-  if (!is_tight(v)) return;
-  const Box3 box = box_of(v);
-  const int level = level_of(box);
-  if (level >= kLevels) return;  // on a volume stretched that far the check after stage 2 must do
-  is_kept_[triangle] = true;
-  ++kept_at_[static_cast<std::size_t>(level)];
-  for_each_cell(box, level, [&](std::uint64_t at) { cells_[at].push_back(triangle); });
+  if (is_tight(triangle)) tight_.add(triangle, box_of(mesh_.corner_points(mesh_.triangles[triangle].corners)));
 }
 
 void CrossingGuard::forget(std::uint32_t triangle) {
-  if (!is_kept_[triangle]) return;
-  const Box3 box = box_of(mesh_.triangles[triangle]);
-  const int level = level_of(box);
-  is_kept_[triangle] = false;
-  --kept_at_[static_cast<std::size_t>(level)];
-  for_each_cell(box, level, [&](std::uint64_t at) {
-    auto& here = cells_[at];
-    *std::find(here.begin(), here.end(), triangle) = here.back();
-    here.pop_back();
-  });
+  if (!tight_.holds(triangle)) return;
+  tight_.remove(triangle, box_of(mesh_.corner_points(mesh_.triangles[triangle].corners)));
 }
 
-bool CrossingGuard::meets(const Corners& v, const Box3& box, const Corners& w) const {
-  const Vec3 &a = mesh_.points[w[0]], &b = mesh_.points[w[1]], &c = mesh_.points[w[2]];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::min({a[axis], b[axis], c[axis]}) > box.high[axis]) return false;
-    if (std::max({a[axis], b[axis], c[axis]}) < box.low[axis]) return false;
-  }
-  return has_area(a, b, c) && triangle_contact(mesh_.points, v, w) != TriangleContact::kNone;
+bool CrossingGuard::is_tight(std::uint32_t triangle) const {
+  const auto& [a, b, c] = mesh_.triangles[triangle].corners;
+  const auto& vertices = mesh_.vertices;
+  return deliso::is_tight(mesh_.corner_points({a, b, c}),
+                          std::min({vertices[a].clearance, vertices[b].clearance, vertices[c].clearance}));
 }
 
-bool CrossingGuard::crosses(const Vec3& p, double moved, std::span<const Edge> rim, std::span<const std::uint32_t> disk,
-                            std::uint32_t attempt) {
-  new_clearance_ = static_cast<float>(distance(p, mesh_.points[rim.front()[0]])) + clearance_[rim.front()[0]];
+CrossingGuard::StarTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
+  const std::array<Vec3, 3> points = {p, mesh_.vertices[edge.from].point, mesh_.vertices[edge.to].point};
+  return {{static_cast<std::uint32_t>(mesh_.vertices.size()), edge.from, edge.to}, points, box_of(points)};
+}
+
+bool CrossingGuard::meets(const StarTriangle& s, const StarTriangle& t) {
+  return do_meet(s.box, t.box) && has_area(t.points) &&
+         triangle_contact(s.corners, s.points, t.corners, t.points) != TriangleContact::kNone;
+}
+
+bool CrossingGuard::meets(const StarTriangle& s, std::uint32_t triangle) const {
+  const auto& corners = mesh_.triangles[triangle].corners;
+  const std::array<Vec3, 3> points = mesh_.corner_points(corners);
+  return meets(s, {corners, points, box_of(points)});
+}
+
+// The clearance of p by those of the rim's vertices; returns the least of all.
+float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
+  const auto bound = [&](std::uint32_t v) {
+    return static_cast<float>(distance(p, mesh_.vertices[v].point)) + mesh_.vertices[v].clearance;
+  };
+  new_clearance_ = bound(rim.front().from);
   float mean = 0;
   float least = new_clearance_;
-  for (const auto& [from, to] : rim) {
-    least = std::min(least, clearance_[from]);
-    mean += clearance_[from] / static_cast<float>(rim.size());
-    new_clearance_ = std::min(new_clearance_, clearance_[from] + static_cast<float>(distance(p, mesh_.points[from])));
+  for (const RimEdge& edge : rim) {
+    const float clearance = mesh_.vertices[edge.from].clearance;
+    least = std::min(least, clearance);
+    mean += clearance / static_cast<float>(rim.size());
+    new_clearance_ = std::min(new_clearance_, bound(edge.from));
   }
   new_clearance_ = std::min(new_clearance_, mean);
+  return least;
+}
+
+// Where the mesh turns by more than a right angle at an edge of the rim, the whole star is tested against the triangle
+// beyond that edge.
+bool CrossingGuard::folds(const Vec3& p, std::span<const RimEdge> rim) {
+  for (const RimEdge& edge : rim) {
+    if (edge.outer == kNoSide) continue;
+    const std::uint32_t beyond = edge.outer >> 2;
+    const Vec3 &from = mesh_.vertices[edge.from].point, &to = mesh_.vertices[edge.to].point;
+    const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[beyond].corners);
+    if (dot(cross(from - p, to - p), cross(b - a, c - a)) >= 0) continue;
+    for (const RimEdge& other : rim) {
+      const StarTriangle s = star_triangle(p, other);
+      if (has_area(s.points) && meets(s, beyond)) return true;
+    }
+  }
+  return false;
+}
+
+bool CrossingGuard::crosses(const Vec3& p, double moved, const RefinementDisk& disk) {
+  const std::span<const RimEdge> rim = disk.rim();
+  const float least = clearance_at(p, rim);
+  if (moved > kFoldingMove * distance(p, mesh_.vertices[rim.front().from].point) && folds(p, rim)) return true;
   if (least > kReach * moved) return false;
 
-  // The new vertex joins the mesh for as long as the tests last.
-  const auto newest = static_cast<std::uint32_t>(mesh_.points.size());
-  mesh_.points.push_back(p);
-  clearance_.push_back(new_clearance_);
-  const auto star_triangle = [&](const Edge& edge) { return Corners{newest, edge[0], edge[1]}; };
-  const auto is_clear = [&](std::size_t i) {
-    const Corners v = star_triangle(rim[i]);
-    if (!is_tight(v)) return true;
-    if (!has_area(p, mesh_.points[v[1]], mesh_.points[v[2]])) return false;
-    const Box3 box = box_of(v);
-    for (std::size_t j = 0; j < rim.size(); ++j) {
-      if (j != i && meets(v, box, star_triangle(rim[j]))) return false;
+  // The tight triangles of the star, which must not meet the others,
+  star_.clear();
+  tight_in_star_.clear();
+  Box3 box;
+  for (const RimEdge& edge : rim) {
+    const float clearance =
+        std::min({new_clearance_, mesh_.vertices[edge.from].clearance, mesh_.vertices[edge.to].clearance});
+    star_.push_back(star_triangle(p, edge));
+    const StarTriangle& s = star_.back();
+    if (!deliso::is_tight(s.points, clearance)) continue;
+    if (!has_area(s.points)) return true;
+    tight_in_star_.push_back(star_.size() - 1);
+    box.extend(s.box.low);
+    box.extend(s.box.high);
+  }
+  if (tight_in_star_.empty()) return false;
+  for (const std::size_t i : tight_in_star_) {
+    for (std::size_t j = 0; j < star_.size(); ++j) {
+      if (j != i && meets(star_[i], star_[j])) return true;
     }
-    bool clear = true;
-    for (int level = 0; level < kLevels && clear; ++level) {
-      if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
-      for_each_cell(box, level, [&](std::uint64_t at) {
-        const auto here = cells_.find(at);
-        if (here == cells_.end()) return;
-        for (const std::uint32_t t : here->second) {
-          if (clear && disk[t] != attempt && meets(v, box, mesh_.triangles[t])) clear = false;
-        }
-      });
-    }
-    return clear;
-  };
-  bool clear = true;
-  for (std::size_t i = 0; i < rim.size() && clear; ++i) clear = is_clear(i);
-  mesh_.points.pop_back();
-  clearance_.pop_back();
-  return !clear;
+  }
+  // nor tight ones that stay.
+  near_.clear();
+  tight_.append_near(box, near_);
+  return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t t) {
+    if (mesh_.triangles[t].attempt == disk.attempt()) return false;
+    return std::any_of(tight_in_star_.begin(), tight_in_star_.end(), [&](std::size_t i) { return meets(star_[i], t); });
+  });
 }
 
 }  // namespace deliso

@@ -1,6 +1,7 @@
 #include "surface/refine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -10,9 +11,10 @@
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
+#include "surface/ranked_queue.h"
 #include "surface/refinement_candidates.h"
+#include "surface/refinement_disk.h"
 #include "surface/self_intersection.h"
-#include "surface/triangle_queue.h"
 
 namespace deliso {
 
@@ -28,76 +30,50 @@ constexpr std::size_t kMostSuspects = 1000;
 
 class Refinement {
  public:
-  Refinement(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
+  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options,
              std::span<const Vec3> suspects, RefineStats& stats)
-      : mesh_(mesh),
-        isosurface_(isosurface),
-        options_(options),
-        stats_(stats),
-        queue_(options.order),
-        guard_(mesh, suspects) {}
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh, suspects) {}
 
   void run(Controls& controls);
 
  private:
   using Candidate = RefinementCandidate;
-  struct RimEdge {
-    std::uint32_t from, to;
-    TriangleSide outer;
-  };
   // A triangle to be, with its ball and what the criteria say.
   struct NewTriangle {
     SurfaceDelaunayBall ball;
-    double badness;
-    double radius;
+    double badness = 0;
+    double radius = 0;
   };
 
   void queue_everything();
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
-
-  void grow_disk(const Candidate& candidate);
-  [[nodiscard]] bool order_rim(const Candidate& candidate, Refusal& refusal);
-  [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const Candidate& candidate) const;
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
-  [[nodiscard]] double distance_to_disk(const Vec3& p) const;
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
   bool retry_crossed();
   void requeue(std::uint32_t triangle);
+  void queue_if_bad(std::uint32_t triangle, const NewTriangle& measured);
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
-  [[nodiscard]] double badness_of(std::uint32_t triangle, double& radius);
+  [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
+  [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
   [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
   // B_sigma as it is kept; or found anew, the same to the last bit.
   [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
-    if (options_.store_hits) return mesh_.balls[triangle];
-    return measure(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), 1).ball;
-  }
-  [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
-    return mesh_.points[mesh_.triangles[triangle][i % 3]];
+    if (options_.store_hits) return mesh_.triangles[triangle].ball;
+    return measure(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2), 1).ball;
   }
 
-  SurfaceMesh& mesh_;
+  RefinementMesh& mesh_;
   const Isosurface& isosurface_;
   const RefineOptions& options_;
   RefineStats& stats_;
-  TriangleQueue queue_;
+  RankedQueue queue_;
+  RefinementDisk disk_;  // E
   CrossingGuard guard_;
-
-  std::vector<std::uint32_t> generation_;     // of each triangle: grows when its slot is taken anew
-  std::vector<bool> refused_;                 // of each triangle: waits for a change around it
-  std::vector<std::uint32_t> in_disk_;        // of each triangle: the attempt that took it into E
-  std::vector<std::uint32_t> on_rim_;         // of each vertex: the attempt whose rim passes it
-  std::vector<std::uint32_t> rim_edge_from_;  // of each vertex: index of the rim edge that leaves it
-  std::uint32_t attempt_ = 0;
-
-  std::vector<std::uint32_t> disk_;  // E
-  std::vector<RimEdge> rim_;         // boundary of E, in order after order_rim
-  std::vector<RimEdge> ordered_;
-  std::vector<CrossingGuard::Edge> rim_edges_;
-  std::vector<NewTriangle> star_;       // D, one for each rim edge
+  std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   double star_pole_height_ = 0;
   std::int64_t insertions_at_retry_ = 0;
@@ -105,35 +81,34 @@ class Refinement {
 
 void Refinement::run(Controls& controls) {
   queue_everything();
-  while (!controls.must_stop("refine", mesh_.points.size(), queue_.size())) {
-    const auto entry = queue_.pop();
-    if (!entry && !retry_crossed()) break;
-    if (!entry) continue;
-    if (generation_[entry->triangle] != entry->generation || refused_[entry->triangle]) continue;
-    if (treat(entry->triangle)) wake_neighbours();
+  while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
+    const auto queued = queue_.pop();
+    if (!queued && !retry_crossed()) break;
+    if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
+    if (treat(queued->element)) wake_neighbours();
   }
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    double radius = 0;
-    if (badness_of(t, radius) > 1 && radius <= options_.r_min) ++stats_.stopped_at_r_min;
+    const NewTriangle now = measured(t);
+    if (now.badness > 1 && now.radius <= options_.r_min) ++stats_.stopped_at_r_min;
   }
 }
 
 void Refinement::queue_everything() {
-  const std::size_t count = mesh_.triangles.size();
-  generation_.assign(count, 0);
-  refused_.assign(count, false);
-  in_disk_.assign(count, 0);
-  on_rim_.assign(mesh_.points.size(), 0);
-  rim_edge_from_.assign(mesh_.points.size(), 0);
-  mesh_.balls.resize(count);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    double mean_pole = 0;
-    for (const std::uint32_t v : mesh_.triangles[t]) mean_pole += mesh_.pole_heights[v] / 3;
-    const NewTriangle measured = measure(corner(t, 0), corner(t, 1), corner(t, 2), mean_pole);
-    mesh_.balls[t] = measured.ball;
-    if (measured.badness > 1 && measured.radius > options_.r_min) {
-      queue_.push({t, 0}, measured.badness, measured.radius);
-    }
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const NewTriangle now = measure(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), mean_pole_height(t));
+    mesh_.triangles[t].ball = now.ball;
+    queue_if_bad(t, now);
+  }
+}
+
+void Refinement::queue_if_bad(std::uint32_t triangle, const NewTriangle& measured) {
+  if (!(measured.badness > 1 && measured.radius > options_.r_min)) return;
+  const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
+  if (options_.order == QueueOrder::kFirstInFirstOut) {
+    queue_.push_by_age(queued);
+  } else {
+    const double key = options_.order == QueueOrder::kWorstFirst ? measured.badness : measured.radius;
+    queue_.push(block_rank(key, measured.ball.center), queued);
   }
 }
 
@@ -159,7 +134,7 @@ bool Refinement::treat(std::uint32_t triangle) {
   }
   if (refusal) {
     ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    refused_[triangle] = true;
+    mesh_.triangles[triangle].state |= 1u;
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
@@ -170,98 +145,20 @@ bool Refinement::treat(std::uint32_t triangle) {
 // Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
 // reported and nothing is inserted.
 std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
-  ++attempt_;
-  grow_disk(candidate);
+  disk_.grow(candidate, [this](std::uint32_t t) { return ball_of(t); });
   if (encroached_edge != nullptr) {
-    if (const auto side = encroached_boundary_edge(candidate)) {
+    if (const auto side = disk_.encroached_boundary_edge(candidate, isosurface_.box())) {
       *encroached_edge = *side;
       return std::nullopt;
     }
     if (!isosurface_.box().contains(candidate.point)) return Refusal::kNoHit;
   }
-  Refusal refusal = Refusal::kNotADisk;
-  if (!order_rim(candidate, refusal)) return refusal;
+  const RefinementDisk::Shape shape = disk_.order_rim(candidate);
+  if (shape == RefinementDisk::Shape::kNotADisk) return Refusal::kNotADisk;
+  if (shape == RefinementDisk::Shape::kRepeatedVertex) return Refusal::kRepeatedVertex;
   if (const auto failed = plan_star(candidate)) return failed;
   replace_disk(candidate);
   return std::nullopt;
-}
-
-// E: the triangles reached from the seed whose balls hold the point; and the edges around them.
-void Refinement::grow_disk(const Candidate& candidate) {
-  disk_.assign(1, candidate.seed);
-  in_disk_[candidate.seed] = attempt_;
-  const bool may_grow = candidate.halved == kNoSide;
-  if (!may_grow) {
-    disk_.push_back(mesh_.neighbours[candidate.halved >> 2][candidate.halved & 3u] >> 2);
-    in_disk_[disk_.back()] = attempt_;
-  }
-  for (std::size_t i = 0; i < disk_.size() && may_grow; ++i) {
-    for (const TriangleSide side : mesh_.neighbours[disk_[i]]) {
-      if (side == kNoSide) continue;
-      const std::uint32_t t = side >> 2;
-      if (in_disk_[t] == attempt_) continue;
-      const SurfaceDelaunayBall ball = ball_of(t);
-      if (squared_distance(candidate.point, ball.center) >= ball.squared_radius) continue;
-      in_disk_[t] = attempt_;
-      disk_.push_back(t);
-    }
-  }
-  rim_.clear();
-  for (const std::uint32_t t : disk_) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const TriangleSide outer = mesh_.neighbours[t][i];
-      if (outer != kNoSide && in_disk_[outer >> 2] == attempt_) continue;
-      if (4 * t + i == candidate.split) continue;
-      rim_.push_back({mesh_.triangles[t][(i + 1) % 3], mesh_.triangles[t][(i + 2) % 3], outer});
-    }
-  }
-}
-
-// A boundary edge of E whose diametral ball holds the point; or any boundary edge of E when the point lies beyond the
-// box.
-std::optional<TriangleSide> Refinement::encroached_boundary_edge(const Candidate& candidate) const {
-  const bool outside = !isosurface_.box().contains(candidate.point);
-  for (const std::uint32_t t : disk_) {
-    for (unsigned i = 0; i < 3; ++i) {
-      if (mesh_.neighbours[t][i] != kNoSide) continue;
-      const Vec3& a = corner(t, i + 1);
-      const Vec3& b = corner(t, i + 2);
-      if (outside || dot(a - candidate.point, b - candidate.point) < 0) return 4 * t + i;
-    }
-  }
-  return std::nullopt;
-}
-
-// Brings the rim into order and checks that E is a disk none of whose vertices gets lost: one cycle (for a boundary
-// split, one path) that passes every vertex once and has as many edges as a disk without inner vertices.
-bool Refinement::order_rim(const Candidate& candidate, Refusal& refusal) {
-  const bool closed = candidate.split == kNoSide;
-  if (rim_.size() != disk_.size() + (closed ? 2 : 1)) return false;
-  on_rim_.resize(mesh_.points.size(), 0);
-  rim_edge_from_.resize(mesh_.points.size(), 0);
-  for (std::uint32_t i = 0; i < rim_.size(); ++i) {
-    if (on_rim_[rim_[i].from] == attempt_) {
-      refusal = Refusal::kRepeatedVertex;
-      return false;
-    }
-    on_rim_[rim_[i].from] = attempt_;
-    rim_edge_from_[rim_[i].from] = i;
-  }
-  std::uint32_t at = rim_.front().from;
-  if (!closed) at = mesh_.triangles[candidate.split >> 2][((candidate.split & 3u) + 2) % 3];
-  ordered_.clear();
-  while (ordered_.size() < rim_.size() && on_rim_[at] == attempt_) {
-    ordered_.push_back(rim_[rim_edge_from_[at]]);
-    at = ordered_.back().to;
-    if (closed && at == rim_.front().from) break;
-  }
-  if (ordered_.size() != rim_.size()) return false;
-  if (!closed && on_rim_[at] == attempt_) {
-    refusal = Refusal::kRepeatedVertex;
-    return false;
-  }
-  std::swap(rim_, ordered_);
-  return true;
 }
 
 // Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
@@ -270,52 +167,40 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
   const double nearest = kNearestVertex * candidate.ball_radius;
   const Vec3 gradient = isosurface_.gradient(p);
-  for (const RimEdge& edge : rim_) {
-    const Vec3& a = mesh_.points[edge.from];
-    const Vec3& b = mesh_.points[edge.to];
+  for (const RimEdge& edge : disk_.rim()) {
+    const Vec3& a = mesh_.vertices[edge.from].point;
+    const Vec3& b = mesh_.vertices[edge.to].point;
     if (squared_distance(p, a) < nearest * nearest || squared_distance(p, b) < nearest * nearest) {
       return Refusal::kTooClose;
     }
     if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
   }
-  rim_edges_.clear();
-  for (const RimEdge& edge : rim_) rim_edges_.push_back({edge.from, edge.to});
-  const double moved = distance_to_disk(p);
-  if (candidate.split == kNoSide && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
-  if (guard_.crosses(p, moved, rim_edges_, in_disk_, attempt_)) return Refusal::kCrossingTriangle;
-  star_pole_height_ = inherited_pole_height(p, candidate.split == kNoSide);
+  const bool closed = candidate.split == kNoSide;
+  const double moved = disk_.distance_to(p);
+  if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
+  if (guard_.crosses(p, moved, disk_)) return Refusal::kCrossingTriangle;
+  star_pole_height_ = inherited_pole_height(p, closed);
   star_.clear();
-  for (const RimEdge& edge : rim_) {
-    const double mean_pole = (star_pole_height_ + mesh_.pole_heights[edge.from] + mesh_.pole_heights[edge.to]) / 3;
-    star_.push_back(measure(p, mesh_.points[edge.from], mesh_.points[edge.to], mean_pole));
+  for (const RimEdge& edge : disk_.rim()) {
+    const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
+    star_.push_back(measure(p, a.point, b.point, (star_pole_height_ + a.pole_height + b.pole_height) / 3));
   }
   return std::nullopt;
 }
 
-// How far p lies off the planes of E's triangles at most.
-double Refinement::distance_to_disk(const Vec3& p) const {
-  double farthest = 0;
-  for (const std::uint32_t t : disk_) {
-    const Vec3& a = corner(t, 0);
-    const Vec3 normal = cross(corner(t, 1) - a, corner(t, 2) - a);
-    farthest = std::max(farthest, std::abs(dot(normal, p - a)) / std::max(norm(normal), 1e-300));
-  }
-  return farthest;
-}
-
 // The pole height of a new vertex, from its neighbours: the corners of the rim.
 double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
-  std::uint32_t nearest = rim_.front().from;
+  std::uint32_t nearest = disk_.rim().front().from;
   double sum = 0;
   double count = 0;
   const auto visit = [&](std::uint32_t v) {
-    sum += mesh_.pole_heights[v];
+    sum += mesh_.vertices[v].pole_height;
     count += 1;
-    if (squared_distance(p, mesh_.points[v]) < squared_distance(p, mesh_.points[nearest])) nearest = v;
+    if (squared_distance(p, mesh_.vertices[v].point) < squared_distance(p, mesh_.vertices[nearest].point)) nearest = v;
   };
-  for (const RimEdge& edge : rim_) visit(edge.from);
-  if (!closed) visit(rim_.back().to);
-  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.pole_heights[nearest];
+  for (const RimEdge& edge : disk_.rim()) visit(edge.from);
+  if (!closed) visit(disk_.rim().back().to);
+  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
 }
 
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
@@ -339,52 +224,48 @@ double Refinement::badness(double h, double r, double l, double mean_pole) const
                    h / options_.max_distance});
 }
 
-double Refinement::badness_of(std::uint32_t triangle, double& radius) {
-  const Vec3& a = corner(triangle, 0);
-  const Vec3& b = corner(triangle, 1);
-  const Vec3& c = corner(triangle, 2);
+double Refinement::mean_pole_height(std::uint32_t triangle) const {
+  double mean = 0;
+  for (const std::uint32_t v : mesh_.triangles[triangle].corners) mean += mesh_.vertices[v].pole_height / 3;
+  return mean;
+}
+
+// The same of a triangle of the mesh, by the ball it has.
+Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
+  const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
   const Circumcircle circle = circumcircle(a, b, c);
-  radius = circle.radius;
+  const SurfaceDelaunayBall ball = ball_of(triangle);
   const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-  double mean_pole = 0;
-  for (const std::uint32_t v : mesh_.triangles[triangle]) mean_pole += mesh_.pole_heights[v] / 3;
-  return badness(distance(ball_of(triangle).center, circle.center), radius, shortest, mean_pole);
+  const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
+  return {ball, bad, circle.radius};
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
 void Refinement::replace_disk(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
-  const auto p = static_cast<std::uint32_t>(mesh_.points.size());
-  for (const std::uint32_t t : disk_) guard_.forget(t);
-  mesh_.points.push_back(candidate.point);
-  mesh_.pole_heights.push_back(star_pole_height_);
-  guard_.add_vertex();
-  while (disk_.size() < rim_.size()) {
-    disk_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
-    mesh_.triangles.emplace_back();
-    mesh_.neighbours.emplace_back();
-    mesh_.balls.emplace_back();
-    generation_.push_back(0);
-    refused_.push_back(false);
-    in_disk_.push_back(0);
-  }
-  const std::size_t count = rim_.size();
+  const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const std::span<const std::uint32_t> old = disk_.triangles();
+  const std::span<const RimEdge> rim = disk_.rim();
+  for (const std::uint32_t t : old) guard_.forget(t);
+  mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_.new_clearance()});
+  const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());
+  mesh_.triangles.resize(first_new + rim.size());
+  const auto slot = [&](std::size_t i) { return i < old.size() ? old[i] : first_new + static_cast<std::uint32_t>(i); };
+  const std::size_t count = rim.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t t = disk_[i];
-    const RimEdge& edge = rim_[i];
+    const std::uint32_t t = slot(i);
+    const RimEdge& edge = rim[i];
     const bool first = !closed && i == 0;
     const bool last = !closed && i + 1 == count;
-    mesh_.triangles[t] = {p, edge.from, edge.to};
-    mesh_.neighbours[t] = {edge.outer, last ? kNoSide : 4 * disk_[(i + 1) % count] + 2,
-                           first ? kNoSide : 4 * disk_[(i + count - 1) % count] + 1};
-    if (edge.outer != kNoSide) mesh_.neighbours[edge.outer >> 2][edge.outer & 3u] = 4 * t;
-    mesh_.balls[t] = star_[i].ball;
+    RefinementMesh::Triangle& triangle = mesh_.triangles[t];
+    triangle.corners = {p, edge.from, edge.to};
+    triangle.neighbours = {edge.outer, last ? kNoSide : 4 * slot((i + 1) % count) + 2,
+                           first ? kNoSide : 4 * slot((i + count - 1) % count) + 1};
+    if (edge.outer != kNoSide) mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
+    triangle.ball = star_[i].ball;
+    triangle.state = (triangle.state | 1u) + 1;
     guard_.learn(t);
-    ++generation_[t];
-    refused_[t] = false;
-    if (star_[i].badness > 1 && star_[i].radius > options_.r_min) {
-      queue_.push({t, generation_[t]}, star_[i].badness, star_[i].radius);
-    }
+    queue_if_bad(t, star_[i]);
   }
 }
 
@@ -394,7 +275,7 @@ bool Refinement::retry_crossed() {
   insertions_at_retry_ = stats_.insertions;
   bool any = false;
   for (const std::uint32_t t : std::exchange(crossed_, {})) {
-    if (!refused_[t]) continue;
+    if (!mesh_.triangles[t].is_refused()) continue;
     any = true;
     requeue(t);
   }
@@ -402,28 +283,36 @@ bool Refinement::retry_crossed() {
 }
 
 void Refinement::requeue(std::uint32_t triangle) {
-  refused_[triangle] = false;
-  double radius = 0;
-  const double bad = badness_of(triangle, radius);
-  queue_.push({triangle, generation_[triangle]}, bad, radius);
+  mesh_.triangles[triangle].state &= ~1u;
+  queue_if_bad(triangle, measured(triangle));
 }
 
 // Triangles around the new star that were refused before get another chance.
 void Refinement::wake_neighbours() {
-  for (const RimEdge& edge : rim_) {
-    if (edge.outer != kNoSide && refused_[edge.outer >> 2]) requeue(edge.outer >> 2);
+  for (const RimEdge& edge : disk_.rim()) {
+    if (edge.outer != kNoSide && mesh_.triangles[edge.outer >> 2].is_refused()) requeue(edge.outer >> 2);
   }
+}
+
+// Adds the places where triangles of the mesh cross or touch; false when there are none.
+bool add_crossings(const RefinementMesh& mesh, std::vector<Vec3>& suspects) {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  points.reserve(mesh.vertices.size());
+  triangles.reserve(mesh.triangles.size());
+  for (const RefinementMesh::Vertex& v : mesh.vertices) points.push_back(v.point);
+  for (const RefinementMesh::Triangle& t : mesh.triangles) triangles.push_back(t.corners);
+  const SelfIntersections found = self_intersections(points, triangles, kMostSuspects);
+  for (const auto* pairs : {&found.crossing, &found.touching}) {
+    for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+  }
+  return !found.crossing.empty() || !found.touching.empty();
 }
 
 }  // namespace
 
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-            RefineStats& stats) {
-  if (!options.restart_at_crossings) {
-    Refinement(mesh, isosurface, options, {}, stats).run(controls);
-    return;
-  }
-  const SurfaceMesh start = mesh;
+            RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
   const RefineStats before = stats;
   std::vector<Vec3> suspects;
   for (std::int64_t restarts = 0;; ++restarts) {
@@ -431,14 +320,16 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     stats = before;
     stats.search = searches;
     stats.restarts = restarts;
-    Refinement(mesh, isosurface, options, suspects, stats).run(controls);
-    if (restarts == kMostRestarts || controls.stopped()) return;
-    const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects);
-    if (found.crossing.empty() && found.touching.empty()) return;
-    for (const auto* pairs : {&found.crossing, &found.touching}) {
-      for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+    RefinementMesh refined(mesh);
+    Refinement(refined, isosurface, options, suspects, stats).run(controls);
+    const bool is_last = !options.restart_at_crossings || restarts == kMostRestarts || controls.stopped();
+    if (is_last || !add_crossings(refined, suspects)) {
+      if (balls != nullptr) {
+        for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
+      }
+      refined.move_to(mesh);
+      return;
     }
-    mesh = start;
   }
 }
 

@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "surface/controls.h"
 #include "surface/recover.h"
+#include "surface/refinement_mesh.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
@@ -54,8 +56,9 @@ struct RefineStats : StageStats {
   SearchCounters search;
 };
 
-// Counters are those of the last start, but for the searches and the seconds.
+// Counters are those of the last start, but for the searches and the seconds. When `balls` is given, B_sigma of each
+// triangle is appended to it.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-            RefineStats& stats);
+            RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
 
 }  // namespace deliso

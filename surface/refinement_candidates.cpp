@@ -11,17 +11,13 @@ constexpr double kNearestEnd = 0.2;
 // Triangles with an edge of at least this length (mesh-space units) are coarse.
 constexpr double kCoarseEdge = 1.5;
 
-const Vec3& corner(const SurfaceMesh& mesh, std::uint32_t triangle, unsigned i) {
-  return mesh.points[mesh.triangles[triangle][i % 3]];
-}
-
 }  // namespace
 
-std::optional<RefinementCandidate> boundary_candidate(const SurfaceMesh& mesh, const Isosurface& isosurface,
+std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                       TriangleSide side, double r_min, SearchCounters& counters) {
   const std::uint32_t t = side >> 2;
-  const Vec3& a = corner(mesh, t, (side & 3u) + 1);
-  const Vec3& b = corner(mesh, t, (side & 3u) + 2);
+  const Vec3& a = mesh.corner(t, (side & 3u) + 1);
+  const Vec3& b = mesh.corner(t, (side & 3u) + 2);
   const Box3& box = isosurface.box();
   Vec3 outward;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -39,22 +35,20 @@ std::optional<RefinementCandidate> boundary_candidate(const SurfaceMesh& mesh, c
   return RefinementCandidate{line.at(*hit), 2 * kNearestEnd * length, t, side};
 }
 
-std::optional<RefinementCandidate> halving_candidate(const SurfaceMesh& mesh, const Isosurface& isosurface,
+std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                      std::uint32_t triangle, double r_min, SearchCounters& counters) {
-  const auto length = [&](unsigned i) {
-    return distance(corner(mesh, triangle, i + 1), corner(mesh, triangle, i + 2));
-  };
+  const auto length = [&](unsigned i) { return distance(mesh.corner(triangle, i + 1), mesh.corner(triangle, i + 2)); };
   unsigned longest = 0;
   for (unsigned i = 1; i < 3; ++i) {
     if (length(i) > length(longest)) longest = i;
   }
   const double edge = length(longest);
-  const TriangleSide across = mesh.neighbours[triangle][longest];
+  const TriangleSide across = mesh.triangles[triangle].neighbours[longest];
   if (edge < std::max(kCoarseEdge, 2 * r_min) || across == kNoSide) return std::nullopt;
-  const Vec3& a = corner(mesh, triangle, longest + 1);
-  const Vec3& b = corner(mesh, triangle, longest + 2);
+  const Vec3& a = mesh.corner(triangle, longest + 1);
+  const Vec3& b = mesh.corner(triangle, longest + 2);
   const auto normal = [&](std::uint32_t t) {
-    const Vec3 n = cross(corner(mesh, t, 1) - corner(mesh, t, 0), corner(mesh, t, 2) - corner(mesh, t, 0));
+    const Vec3 n = cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0));
     return n / std::max(norm(n), 1e-300);
   };
   const Vec3 sum = normal(triangle) + normal(across >> 2);

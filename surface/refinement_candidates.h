@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "raycast/isosurface.h"
-#include "surface/surface_mesh.h"
+#include "surface/refinement_mesh.h"
 
 namespace deliso {
 
@@ -20,12 +20,12 @@ struct RefinementCandidate {
 
 // A point of the boundary curve between the ends of a boundary edge of the box's face, if the edge is longer than
 // `r_min`: the hit nearest to its midpoint on the bisector within the face.
-std::optional<RefinementCandidate> boundary_candidate(const SurfaceMesh& mesh, const Isosurface& isosurface,
+std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                       TriangleSide side, double r_min, SearchCounters& counters);
 
 // For a coarse triangle, one with an edge of at least 1.5 mesh-space units and 2 `r_min`: a point of the surface near
 // the middle of its longest edge, along the common normal of the two triangles there, which then make up E.
-std::optional<RefinementCandidate> halving_candidate(const SurfaceMesh& mesh, const Isosurface& isosurface,
+std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                      std::uint32_t triangle, double r_min, SearchCounters& counters);
 
 }  // namespace deliso

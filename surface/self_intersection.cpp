@@ -1,6 +1,7 @@
 #include "surface/self_intersection.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "delaunay/base/box3.h"
@@ -135,10 +136,28 @@ TriangleContact contact_of_disjoint(const Corners& s, const Corners& t) {
   return overlap && is_proper(s_sides) && is_proper(t_sides) ? TriangleContact::kCrossing : TriangleContact::kTouching;
 }
 
+// Certain only when true: a plane through the corner that s and t share has the rest of each on its own side. Any
+// normal will do; this one halves the angle between the middles of the two angles there, which succeeds for nearly all
+// pairs of an umbrella.
+bool clearly_apart_at_vertex(const Corners& s, const Corners& t) {
+  const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
+  const Vec3 in_s = s1 + s2, in_t = t1 + t2;
+  const Vec3 normal = norm(in_t) * in_s - norm(in_s) * in_t;
+  // Far more than the rounding of a difference and of the sum of three products.
+  constexpr double kRelative = 4e-15, kUnderflow = 1e-300;
+  const auto side = [&](const Vec3& d) {
+    const double x = normal.x * d.x, y = normal.y * d.y, z = normal.z * d.z;
+    const double sum = x + y + z;
+    return std::abs(sum) > kRelative * (std::abs(x) + std::abs(y) + std::abs(z)) + kUnderflow ? sign(sum) : 0;
+  };
+  return side(s1) > 0 && side(s2) > 0 && side(t1) < 0 && side(t2) < 0;
+}
+
 // s and t share their corner 0. Each meets the common line D in a ray from it, if at all; with a, b the other corners
 // of s, n(s) x n(t) = da (b - s) - db (a - s) with their distances da, db from t's plane, which gives the ray's
 // direction along D.
 TriangleContact contact_at_vertex(const Corners& s, const Corners& t) {
+  if (clearly_apart_at_vertex(s, t)) return TriangleContact::kNone;
   const auto side = [](const Corners& plane, const Vec3& p) { return sign(orient3d(plane[0], plane[1], plane[2], p)); };
   const int c = side(s, t[1]), d = side(s, t[2]);
   if (c == d && c != 0) return TriangleContact::kNone;
@@ -169,37 +188,34 @@ TriangleContact contact_at_edge(const Corners& s, const Vec3& apex_of_t) {
   return same_side ? TriangleContact::kCrossing : TriangleContact::kNone;
 }
 
-// The corners of triangle t from corner `first` on.
-Corners corners_from(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& t, std::size_t first) {
-  return {points[t[first]], points[t[(first + 1) % 3]], points[t[(first + 2) % 3]]};
+// The corners from corner `first` on.
+Corners turned(const Corners& corners, std::size_t first) {
+  return {corners[first], corners[(first + 1) % 3], corners[(first + 2) % 3]};
 }
 
 }  // namespace
 
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) { return !collinear(a, b, c); }
 
-TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
-                                 const std::array<std::uint32_t, 3>& t) {
-  // The places of shared and of unshared corners.
-  std::array<std::size_t, 3> place_in_t{};
-  std::size_t shared = 0, last_shared = 0, unshared_in_s = 0, unshared_in_t = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    place_in_t[i] = static_cast<std::size_t>(std::find(t.begin(), t.end(), s[i]) - t.begin());
-    if (place_in_t[i] < 3) {
-      ++shared;
-      last_shared = i;
-      unshared_in_t -= place_in_t[i];
-    } else {
-      unshared_in_s = i;
+TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
+                                 const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points) {
+  // Bit i or j of a mask: corner i of s, corner j of t is shared. Without branches, for nothing here can be foretold.
+  unsigned in_s = 0, in_t = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned j = 0; j < 3; ++j) {
+      const unsigned same = s[i] == t[j] ? 1 : 0;
+      in_s |= same << i;
+      in_t |= same << j;
     }
   }
-  switch (shared) {
+  constexpr std::array<std::size_t, 8> kOnlyBit = {0, 0, 1, 0, 2, 0, 0, 0};
+  switch (std::popcount(in_s)) {
     case 0:
-      return contact_of_disjoint(corners_from(points, s, 0), corners_from(points, t, 0));
+      return contact_of_disjoint(s_points, t_points);
     case 1:
-      return contact_at_vertex(corners_from(points, s, last_shared), corners_from(points, t, place_in_t[last_shared]));
+      return contact_at_vertex(turned(s_points, kOnlyBit[in_s]), turned(t_points, kOnlyBit[in_t]));
     case 2:
-      return contact_at_edge(corners_from(points, s, (unshared_in_s + 1) % 3), points[t[unshared_in_t]]);
+      return contact_at_edge(turned(s_points, (kOnlyBit[7 - in_s] + 1) % 3), t_points[kOnlyBit[7 - in_t]]);
     default:
       return TriangleContact::kCrossing;  // the same triangle twice
   }
@@ -215,7 +231,7 @@ SelfIntersections self_intersections(std::span<const Vec3> points,
   boxes.reserve(triangles.size());
   triangle_of_box.reserve(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const Corners corners = corners_from(points, triangles[t], 0);
+    const Corners corners = {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
     if (collinear(corners[0], corners[1], corners[2])) {
       ++found.zero_area_triangles;
       continue;

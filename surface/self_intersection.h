@@ -36,10 +36,14 @@ struct SelfIntersections {
   std::vector<TrianglePair> touching;    // the same
 };
 
-// How two triangles, given by the indices of their corners, meet beyond what they share. Precondition: neither has zero
-// area.
-TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
-                                 const std::array<std::uint32_t, 3>& t);
+// How two triangles, given by the indices and the places of their corners, meet beyond what they share. Precondition:
+// neither has zero area.
+TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
+                                 const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points);
+inline TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
+                                        const std::array<std::uint32_t, 3>& t) {
+  return triangle_contact(s, {points[s[0]], points[s[1]], points[s[2]]}, t, {points[t[0]], points[t[1]], points[t[2]]});
+}
 
 // Whether three points are not in line, exactly.
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -1,4 +1,4 @@
-// The mesh of stage 2: triangles that know their neighbours and their surface Delaunay balls. No tetrahedra any more.
+// The mesh between the stages and after them: triangles that know their neighbours. No tetrahedra any more.
 #pragma once
 
 #include <array>
@@ -11,12 +11,6 @@
 
 namespace deliso {
 
-// B_sigma: centred at x_sigma on the isosurface, through the triangle's three vertices.
-struct SurfaceDelaunayBall {
-  Vec3 center;
-  double squared_radius = 0;
-};
-
 // The side of a triangle across from one of its corners, encoded as 4 * triangle + corner. kNoSide: a boundary edge.
 using TriangleSide = std::uint32_t;
 inline constexpr TriangleSide kNoSide = 0xFFFFFFFFu;
@@ -28,10 +22,9 @@ struct SurfaceMesh {
   std::vector<double> pole_heights;  // of each vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<TriangleSide, 3>> neighbours;
-  std::vector<SurfaceDelaunayBall> balls;  // of each triangle, kept by stage 2
 };
 
-// Appends the wanted pieces of a mesh (without their balls) to another; `piece_of`: of each vertex of `from`.
+// Appends the wanted pieces of a mesh to another; `piece_of`: of each vertex of `from`.
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 

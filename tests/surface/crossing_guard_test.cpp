@@ -29,17 +29,32 @@ SurfaceMesh two_sheets(std::uint32_t n, double gap, Rng& rng) {
       }
     }
   }
+  mesh.neighbours.assign(mesh.triangles.size(), {kNoSide, kNoSide, kNoSide});
   return mesh;
 }
 
-bool crosses_by_brute_force(SurfaceMesh mesh, const Vec3& p, const std::vector<CrossingGuard::Edge>& rim,
-                            std::uint32_t seed) {
+Vec3 centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
+}
+
+// What the guard says of splitting one triangle at p.
+bool guard_crosses(RefinementDisk& disk, CrossingGuard& guard, const Vec3& p, double moved, std::uint32_t seed) {
+  const RefinementCandidate candidate{p, 1, seed, kNoSide, kNoSide};
+  disk.grow(candidate, [](std::uint32_t) { return SurfaceDelaunayBall{}; });
+  EXPECT_EQ(disk.order_rim(candidate), RefinementDisk::Shape::kDisk);
+  return guard.crosses(p, moved, disk);
+}
+
+bool crosses_by_brute_force(SurfaceMesh mesh, const Vec3& p, std::uint32_t seed) {
   const auto newest = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.push_back(p);
   std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
   triangles.erase(triangles.begin() + seed);
   const std::size_t old = triangles.size();
-  for (const auto& [from, to] : rim) triangles.push_back({newest, from, to});
+  for (unsigned i = 0; i < 3; ++i) {
+    triangles.push_back({newest, mesh.triangles[seed][i], mesh.triangles[seed][(i + 1) % 3]});
+  }
   for (std::size_t s = old; s < triangles.size(); ++s) {
     for (std::size_t t = 0; t < s; ++t) {
       if (triangle_contact(mesh.points, triangles[s], triangles[t]) != TriangleContact::kNone) return true;
@@ -52,19 +67,16 @@ TEST(CrossingGuard, SaysTheSameAsTestsOfAllTriangles) {
   int crossings = 0;
   for (std::uint64_t trial = 0; trial < 200; ++trial) {
     Rng rng(trial);
-    SurfaceMesh mesh = two_sheets(6, 0.2, rng);
+    const SurfaceMesh sheets = two_sheets(6, 0.2, rng);
+    RefinementMesh mesh(sheets);
+    RefinementDisk disk(mesh);
     CrossingGuard guard(mesh, {});
     // One triangle of the lower sheet is split at a point up to twice the gap above it.
     const auto seed = static_cast<std::uint32_t>(rng.below(72));
-    const auto& v = mesh.triangles[seed];
-    const Vec3 centroid = (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]) / 3;
     const double height = 0.4 * rng.uniform();
-    const Vec3 p = centroid + Vec3{0, 0, height};
-    const std::vector<CrossingGuard::Edge> rim = {{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
-    std::vector<std::uint32_t> disk(mesh.triangles.size(), 0);
-    disk[seed] = 1;
-    const bool expected = crosses_by_brute_force(mesh, p, rim, seed);
-    ASSERT_EQ(guard.crosses(p, height, rim, disk, 1), expected) << "trial " << trial;
+    const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, height};
+    const bool expected = crosses_by_brute_force(sheets, p, seed);
+    ASSERT_EQ(guard_crosses(disk, guard, p, height, seed), expected) << "trial " << trial;
     crossings += expected ? 1 : 0;
   }
   EXPECT_GT(crossings, 20);
@@ -73,51 +85,78 @@ TEST(CrossingGuard, SaysTheSameAsTestsOfAllTriangles) {
 
 TEST(CrossingGuard, ForgetsTrianglesThatAreGone) {
   Rng rng(1);
-  SurfaceMesh mesh = two_sheets(4, 0.2, rng);
+  const SurfaceMesh sheets = two_sheets(4, 0.2, rng);
+  RefinementMesh mesh(sheets);
+  RefinementDisk disk(mesh);
   CrossingGuard guard(mesh, {});
   const std::uint32_t seed = 12;
-  const auto v = mesh.triangles[seed];
-  const Vec3 p = (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]) / 3 + Vec3{0, 0, 0.5};
-  const std::vector<CrossingGuard::Edge> rim = {{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
-  const std::vector<std::uint32_t> disk(mesh.triangles.size(), 0);
-  ASSERT_TRUE(guard.crosses(p, 0.5, rim, disk, 1));
+  const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, 0.5};
+  ASSERT_TRUE(guard_crosses(disk, guard, p, 0.5, seed));
   for (std::uint32_t t = 32; t < mesh.triangles.size(); ++t) guard.forget(t);  // the upper sheet
-  EXPECT_FALSE(guard.crosses(p, 0.5, rim, disk, 0));
+  guard.forget(seed);
+  EXPECT_FALSE(guard_crosses(disk, guard, p, 0.5, seed));
 }
 
 // Spacings of very different sizes stretch triangles over many powers of ten; the guard must keep and drop them alike.
 TEST(CrossingGuard, KeepsTrianglesOfAnySize) {
   for (const double stretch : {1e3, 1e9, 1e12, 1e18, 1e24}) {
     Rng rng(3);
-    SurfaceMesh mesh = two_sheets(4, 0.2, rng);
-    for (Vec3& p : mesh.points) p = {stretch * p.x, stretch * p.y, p.z};
+    SurfaceMesh sheets = two_sheets(4, 0.2, rng);
+    for (Vec3& p : sheets.points) p = {stretch * p.x, stretch * p.y, p.z};
+    RefinementMesh mesh(sheets);
+    RefinementDisk disk(mesh);
     CrossingGuard guard(mesh, {});
-    const std::vector<std::uint32_t> disk(mesh.triangles.size(), 0);
-    const auto& v = mesh.triangles[12];
-    const Vec3 p = (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]) / 3 + Vec3{0, 0, 0.5};
-    const std::vector<CrossingGuard::Edge> rim = {{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
-    const bool before = guard.crosses(p, 0.5, rim, disk, 1);
+    const Vec3 p = centroid_of(sheets, 12) + Vec3{0, 0, 0.5};
+    const bool before = guard_crosses(disk, guard, p, 0.5, 12);
     if (stretch < 1e18) {
       EXPECT_TRUE(before) << stretch;
     }
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) guard.forget(t);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) guard.learn(t);
-    EXPECT_EQ(guard.crosses(p, 0.5, rim, disk, 1), before) << stretch;
+    EXPECT_EQ(guard_crosses(disk, guard, p, 0.5, 12), before) << stretch;
   }
 }
 
 TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
   Rng rng(2);
-  SurfaceMesh mesh = two_sheets(4, 0.2, rng);
-  for (double& height : mesh.pole_heights) height = 100;  // wrong
+  SurfaceMesh sheets = two_sheets(4, 0.2, rng);
+  for (double& height : sheets.pole_heights) height = 100;  // wrong
   const std::uint32_t seed = 12;
-  const auto v = mesh.triangles[seed];
-  const Vec3 p = (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]) / 3 + Vec3{0, 0, 0.5};
-  const std::vector<CrossingGuard::Edge> rim = {{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
-  std::vector<std::uint32_t> disk(mesh.triangles.size(), 0);
-  disk[seed] = 1;
-  EXPECT_FALSE(CrossingGuard(mesh, {}).crosses(p, 0.5, rim, disk, 1));
-  EXPECT_TRUE(CrossingGuard(mesh, std::vector<Vec3>{p}).crosses(p, 0.5, rim, disk, 1));
+  const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, 0.5};
+  RefinementMesh mesh(sheets);
+  RefinementDisk disk(mesh);
+  CrossingGuard trusting(mesh, {});
+  EXPECT_FALSE(guard_crosses(disk, trusting, p, 0.5, seed));
+  CrossingGuard suspicious(mesh, std::vector<Vec3>{p});
+  EXPECT_TRUE(guard_crosses(disk, suspicious, p, 0.5, seed));
+}
+
+// A floor and a wall at its edge: a point behind the wall pulls the floor's star through it. No other sheet is near.
+TEST(CrossingGuard, SeesFoldsOverNeighbours) {
+  int folds = 0;
+  for (std::uint64_t trial = 0; trial < 500; ++trial) {
+    Rng rng(trial);
+    SurfaceMesh scene;
+    scene.points = {{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}, {0.5, rng.uniform(-0.2, 0.4), 1}};
+    scene.pole_heights.assign(4, 100);
+    scene.triangles = {{0, 2, 1}, {0, 1, 3}};
+    scene.neighbours = {{kNoSide, 4 + 2, kNoSide}, {kNoSide, kNoSide, 0 + 1}};
+    RefinementMesh mesh(scene);
+    RefinementDisk disk(mesh);
+    CrossingGuard guard(mesh, {});
+    const Vec3 p{rng.uniform(0.2, 0.8), rng.uniform(-0.5, 0.5), rng.uniform(-0.3, 0.6)};
+    const bool crosses = crosses_by_brute_force(scene, p, 0);
+    const bool found = guard_crosses(disk, guard, p, 1, 0);
+    EXPECT_TRUE(crosses || !found) << "trial " << trial;
+    // Seen from the floor's inside the wall must turn to the point by more than a right angle.
+    const Vec3 wall = cross(scene.points[1] - scene.points[0], scene.points[3] - scene.points[0]);
+    const Vec3 star = cross(scene.points[0] - p, scene.points[1] - p);
+    if (dot(wall, -1.0 * star) < 0) {
+      EXPECT_EQ(found, crosses) << "trial " << trial;
+    }
+    folds += found ? 1 : 0;
+  }
+  EXPECT_GT(folds, 20);
 }
 
 }  // namespace

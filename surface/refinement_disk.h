@@ -1,0 +1,85 @@
+// E of stage 2 (Dey and Levine, section 3.2): the triangles that an insertion replaces, and the rim around them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "surface/refinement_candidates.h"
+#include "surface/refinement_mesh.h"
+
+namespace deliso {
+
+// An edge around E, directed as E's triangle has it, and the side of the triangle beyond.
+struct RimEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  TriangleSide outer = kNoSide;
+};
+
+// Grown anew for every attempt; marks the triangles and vertices of the mesh with the attempt's number.
+class RefinementDisk {
+ public:
+  enum class Shape { kDisk, kNotADisk, kRepeatedVertex };
+
+  explicit RefinementDisk(RefinementMesh& mesh) : mesh_(mesh) {}
+
+  // E: the triangles reached from the candidate's seed whose balls hold its point, or the two at a halved edge; and the
+  // edges around them. ball_of(t) gives B_sigma.
+  template <class BallOf>
+  void grow(const RefinementCandidate& candidate, BallOf&& ball_of);
+
+  // Brings the rim into order. E is a disk none of whose vertices gets lost when the rim is one cycle (for a boundary
+  // split, one path) that passes every vertex once and has as many edges as a disk without inner vertices.
+  [[nodiscard]] Shape order_rim(const RefinementCandidate& candidate);
+
+  // A boundary edge of E whose diametral ball holds the point; or any boundary edge of E when the point lies beyond the
+  // box.
+  [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const RefinementCandidate& candidate,
+                                                                     const Box3& box) const;
+  // How far p lies off the planes of E's triangles at most.
+  [[nodiscard]] double distance_to(const Vec3& p) const;
+
+  [[nodiscard]] std::uint32_t attempt() const { return attempt_; }
+  [[nodiscard]] std::span<const std::uint32_t> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const RimEdge> rim() const { return rim_; }
+
+ private:
+  void take(std::uint32_t triangle) {
+    mesh_.triangles[triangle].attempt = attempt_;
+    triangles_.push_back(triangle);
+  }
+  [[nodiscard]] bool holds(std::uint32_t triangle) const { return mesh_.triangles[triangle].attempt == attempt_; }
+  void find_rim(const RefinementCandidate& candidate);
+
+  RefinementMesh& mesh_;
+  std::uint32_t attempt_ = 0;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<RimEdge> rim_;
+  std::vector<RimEdge> ordered_;
+};
+
+template <class BallOf>
+void RefinementDisk::grow(const RefinementCandidate& candidate, BallOf&& ball_of) {
+  ++attempt_;
+  triangles_.clear();
+  take(candidate.seed);
+  if (candidate.halved != kNoSide) {
+    take(mesh_.triangles[candidate.halved >> 2].neighbours[candidate.halved & 3u] >> 2);
+  } else {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      for (const TriangleSide side : mesh_.triangles[triangles_[i]].neighbours) {
+        if (side == kNoSide || holds(side >> 2)) continue;
+        const SurfaceDelaunayBall ball = ball_of(side >> 2);
+        if (squared_distance(candidate.point, ball.center) < ball.squared_radius) take(side >> 2);
+      }
+    }
+  }
+  find_rim(candidate);
+}
+
+}  // namespace deliso

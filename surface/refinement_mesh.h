@@ -1,0 +1,57 @@
+// The mesh that stage 2 works on: what an insertion needs of a triangle lies in one cache line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/huge_pages.h"
+#include "delaunay/base/vec3.h"
+#include "surface/surface_mesh.h"
+
+namespace deliso {
+
+// B_sigma: centred at x_sigma on the isosurface, through the triangle's three vertices.
+struct SurfaceDelaunayBall {
+  Vec3 center;
+  double squared_radius = 0;
+};
+
+struct RefinementMesh {
+  struct Vertex {
+    Vec3 point;
+    double pole_height = 0;
+    float clearance = 0;          // a bound of the distance to other sheets (crossing_guard.h)
+    std::uint32_t attempt = 0;    // whose rim passes here,
+    std::uint32_t rim_place = 0;  // and the place in it of the edge that leaves here
+  };
+  // Side i of a triangle runs from corner i + 1 to corner i + 2; a neighbour is that same edge as the triangle across
+  // knows it.
+  struct alignas(64) Triangle {
+    std::array<std::uint32_t, 3> corners{};
+    std::array<TriangleSide, 3> neighbours{};
+    SurfaceDelaunayBall ball;
+    std::uint32_t state = 0;    // twice the generation of the slot, which grows when it is taken anew; odd: refused
+    std::uint32_t attempt = 0;  // that took the triangle into its disk E
+
+    [[nodiscard]] bool is_refused() const { return (state & 1u) != 0; }
+  };
+  static_assert(sizeof(Triangle) == 64);
+
+  LargeArray<Vertex> vertices;
+  LargeArray<Triangle> triangles;
+
+  explicit RefinementMesh(const SurfaceMesh& mesh);
+
+  [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
+    return vertices[triangles[triangle].corners[i % 3]].point;
+  }
+  [[nodiscard]] std::array<Vec3, 3> corner_points(const std::array<std::uint32_t, 3>& corners) const {
+    return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
+  }
+
+  // Writes points, pole heights, triangles and neighbours to `mesh`; this mesh is empty afterwards.
+  void move_to(SurfaceMesh& mesh);
+};
+
+}  // namespace deliso

@@ -1,0 +1,56 @@
+// Triangles by place: which of them may meet a box. For sets that change all the time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+
+namespace deliso {
+
+// Cells of 2^level mesh-space units; a triangle is kept at the level of its size, at which it meets few cells.
+class TightTriangles {
+ public:
+  [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < seen_.size() && seen_[triangle] != 0; }
+  // Precondition: not there yet; there, with the same box. Triangles of boxes that no level is large enough for are
+  // left out.
+  void add(std::uint32_t triangle, const Box3& box);
+  void remove(std::uint32_t triangle, const Box3& box);
+
+  // Appends all whose boxes, rounded outward to floats, meet `box`.
+  void append_near(const Box3& box, std::vector<std::uint32_t>& found);
+
+ private:
+  struct FloatBox {
+    std::array<float, 3> low{}, high{};
+  };
+  struct Entry {
+    FloatBox box;
+    std::uint32_t triangle = 0;
+  };
+  struct Cell {
+    std::uint64_t key = kNoKey;
+    std::vector<Entry> entries;
+  };
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+  static constexpr int kLevels = 64;
+
+  static int level_of(const Box3& box);
+  static FloatBox rounded_outward(const Box3& box);
+  static bool meet(const FloatBox& a, const FloatBox& b);
+  template <class Visit>
+  void for_each_key(const Box3& box, int level, Visit&& visit) const;
+  [[nodiscard]] std::size_t place_of(std::uint64_t key) const;
+  Cell& cell_at(std::uint64_t key);
+  void grow();
+
+  // A hash table with open addressing; cells stay when they get empty.
+  std::vector<Cell> cells_ = std::vector<Cell>(64);
+  std::size_t used_ = 0;
+  std::array<std::size_t, kLevels> kept_at_{};  // triangles at each level
+  std::vector<std::uint32_t> seen_;             // of each triangle: 0 when not held, else the last search that met it
+  std::uint32_t search_ = 1;
+};
+
+}  // namespace deliso
