@@ -20,6 +20,7 @@ struct GenerateCommandOptions {
   std::string output;
   std::string size;
   std::string seed = "1";
+  std::string encoding = "gzip";
   bool list = false;
 };
 
@@ -47,13 +48,19 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
                         : static_cast<std::int32_t>(parse_count(options.size, "--size", 2, kLargestFieldSize));
   const std::uint64_t seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   check_writable(options.output, "-o");
-  const ScalarGrid grid = generate_field(field.name, size, seed);
-  write_volume(grid, options.output);
+  const bool is_raw = options.encoding == "raw";
+  if (!is_raw && options.encoding != "gzip") {
+    throw InputError("--encoding is \"" + options.encoding + "\", expected \"gzip\" or \"raw\"");
+  }
+  FieldSlices slices(field, size, seed);
+  write_volume(
+      {{size, size, size}, slices.type()}, [&slices] { return slices.next(); }, options.output,
+      is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
   const std::string side = std::to_string(size);
   TextTable()
       .row({"volume", options.output})
       .row({"dims", side + " " + side + " " + side})
-      .row({"type", grid.type_name()})
+      .row({"type", field.type_name})
       .row({"suggested isovalue", number_text(field.isovalue)})
       .print(std::cout);
   return ExitCode::kDone;
@@ -69,6 +76,9 @@ void add_generate_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--size", options->size, "Samples along each axis (default: the field's own)")->type_name("N");
   command->add_option("--seed", options->seed, "Seed of the fields that are random")
       ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
+      ->type_name("gzip|raw")
       ->capture_default_str();
   command->add_flag("--list", options->list, "List the built-in volumes");
   command->callback([options, &exit_code] { exit_code = run_generate(*options); });

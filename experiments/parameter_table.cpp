@@ -126,6 +126,10 @@ constexpr ParameterRange kNotNegative{0, false};
 constexpr ParameterRange kAtLeastOne{1, false};
 constexpr ParameterRange kAtLeastFour{4, false};
 
+// What both stages do.
+constexpr std::string_view kTooHigh = "refine a triangle whose height over its circumradius is above this";
+constexpr std::string_view kTooThin = "refine a triangle whose circumradius over its shortest edge is above this";
+
 using P = Parameters;
 constexpr std::array kTable = {
     row<&P::algorithm>("algorithm", kAny, "",
@@ -136,11 +140,8 @@ constexpr std::array kTable = {
     row<&P::initial, &InitialParameters::seeding>("initial.seeding", kAny, "",
                                                   "components: start with points on every component of the "
                                                   "isosurface; random: the random points alone"),
-    row<&P::stage1, &Stage1Parameters::epsilon>("stage1.epsilon", kPositive, "-",
-                                                "refine a triangle whose height over its circumradius is above this"),
-    row<&P::stage1, &Stage1Parameters::rho>("stage1.rho", kAtLeastOne, "-",
-                                            "refine a triangle whose circumradius over its shortest edge is above "
-                                            "this"),
+    row<&P::stage1, &Stage1Parameters::epsilon>("stage1.epsilon", kPositive, "-", kTooHigh),
+    row<&P::stage1, &Stage1Parameters::rho>("stage1.rho", kAtLeastOne, "-", kTooThin),
     row<&P::stage1, &Stage1Parameters::r_min>("stage1.r_min", kNotNegative, "smallest side of the box",
                                               "no refinement for shape at or below this circumradius"),
     row<&P::stage1, &Stage1Parameters::size_bound_voxels>("stage1.size_bound_voxels", kNotNegative, "voxels",
@@ -149,15 +150,15 @@ constexpr std::array kTable = {
         "stage1.coverage", kAny, "",
         "also sample parts of the surface that the mesh misses; the paper does "
         "not"),
-    row<&P::stage2, &Stage2Parameters::epsilon1>("stage2.epsilon1", kPositive, "-",
-                                                 "refine a triangle whose height over its circumradius is above "
-                                                 "this"),
+    row<&P::stage1, &Stage1Parameters::one_sign_per_tetrahedron>(
+        "stage1.one_sign_per_tetrahedron", kAny, "",
+        "a facet is restricted when its tetrahedra differ in sign; false: when its own dual edge has an odd number of "
+        "hits; needs certify, no coverage and repair.max_rounds = 0"),
+    row<&P::stage2, &Stage2Parameters::epsilon1>("stage2.epsilon1", kPositive, "-", kTooHigh),
     row<&P::stage2, &Stage2Parameters::epsilon2>("stage2.epsilon2", kPositive, "-",
                                                  "refine a triangle whose circumradius over its mean pole height is "
                                                  "above this"),
-    row<&P::stage2, &Stage2Parameters::rho>("stage2.rho", kAtLeastOne, "-",
-                                            "refine a triangle whose circumradius over its shortest edge is above "
-                                            "this"),
+    row<&P::stage2, &Stage2Parameters::rho>("stage2.rho", kAtLeastOne, "-", kTooThin),
     row<&P::stage2, &Stage2Parameters::r_min>("stage2.r_min", kNotNegative, "smallest side of the box",
                                               "no refinement at or below this circumradius"),
     row<&P::stage2, &Stage2Parameters::max_distance>("stage2.max_distance", kPositive, "voxels",

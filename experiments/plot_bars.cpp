@@ -5,6 +5,7 @@
 
 #include "experiments/plot_axis.h"
 #include "experiments/plot_legend.h"
+#include "experiments/plot_style.h"
 #include "experiments/table.h"
 
 namespace deliso {
@@ -16,7 +17,6 @@ constexpr double kBarHeight = 18;
 constexpr double kPitch = 26;
 constexpr double kTop = 44;
 constexpr double kRight = 80;
-constexpr double kFontSize = 12;
 
 double whole(const Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
 
@@ -28,26 +28,26 @@ std::string draw_bars(const BarPlot& plot) {
   double left = 60;
   for (const Bar& bar : plot.bars) {
     ends.push_back(plot.share ? 100 : whole(bar));
-    left = std::max(left, 24 + text_width(bar.name, kFontSize));
+    left = std::max(left, 24 + text_width(bar.name, kNameSize));
   }
   const Axis axis = linear_axis(ends, true);
   std::vector<LegendEntry> legend;
   for (const std::string& name : plot.legend) legend.push_back({name, LegendKey::kBox});
   const double bottom = kTop + kPitch * static_cast<double>(plot.bars.size());
   SvgDrawing drawing(left + kBarsWidth + kRight, bottom + 40 + legend_height(legend, kBarsWidth) + 10);
-  drawing.text({left, 24}, plot.title, {15, "start", true});
+  drawing.text({left, 24}, plot.title, {kTitleSize, "start", true});
 
   for (const double tick : axis.ticks()) {
     const double x = left + kBarsWidth * axis.place(tick);
-    drawing.line({x, kTop}, {x, bottom}, {"#e4e4e4"});
-    drawing.text({x, bottom + 16}, tick_text(tick) + (plot.share ? " %" : ""), {11, "middle"});
+    drawing.line({x, kTop}, {x, bottom}, {kGridColor});
+    drawing.text({x, bottom + 16}, tick_text(tick) + (plot.share ? " %" : ""), {kTickSize, "middle"});
   }
   for (std::size_t i = 0; i < plot.bars.size(); ++i) {
     const Bar& bar = plot.bars[i];
     const double y = kTop + kPitch * static_cast<double>(i) + (kPitch - kBarHeight) / 2;
     const double total = whole(bar);
     const double unit = plot.share && total > 0 ? 100 / total : 1;
-    drawing.text({left - 8, y + kBarHeight - 5}, bar.name, {kFontSize, "end"});
+    drawing.text({left - 8, y + kBarHeight - 5}, bar.name, {kNameSize, "end"});
     double done = 0;
     for (std::size_t part = 0; part < bar.parts.size(); ++part) {
       const double from = left + kBarsWidth * axis.place(done * unit);
@@ -56,7 +56,7 @@ std::string draw_bars(const BarPlot& plot) {
       drawing.rectangle({from, y}, to - from, kBarHeight, legend_color(part));
     }
     drawing.text({left + kBarsWidth * axis.place(done * unit) + 6, y + kBarHeight - 5}, figure_text(total),
-                 {kFontSize});
+                 {kNameSize});
   }
   draw_legend(legend, {left, bottom + 30}, kBarsWidth, drawing);
   return drawing.document();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/plot_legend.h"
+#include "experiments/plot_style.h"
 
 namespace deliso {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kLeft = 78;
 constexpr double kRight = 22;
 constexpr double kTop = 62;
 constexpr double kBottom = 46;
-constexpr double kTitleSize = 15;
-constexpr std::string_view kGridColor = "#e4e4e4";
 constexpr std::string_view kFrameColor = "#888888";
 
 bool is_shown(const PanelGrid& grid, const PlotPoint& p) {
@@ -105,7 +104,7 @@ class PanelDrawer {
       draw_line(path, line);
     }
     if (panel(row, column).empty()) {
-      drawing_.text({corner.x + kPanelWidth / 2, corner.y + kPanelHeight / 2}, "no figures", {12, "middle"});
+      drawing_.text({corner.x + kPanelWidth / 2, corner.y + kPanelHeight / 2}, "no figures", {kNameSize, "middle"});
     }
   }
 
@@ -115,20 +114,20 @@ class PanelDrawer {
     for (const double tick : x.ticks()) {
       const double at = corner.x + kPanelWidth * x.place(tick);
       drawing_.line({at, corner.y}, {at, bottom}, {kGridColor});
-      if (row + 1 == grid_.y_labels.size()) drawing_.text({at, bottom + 16}, tick_text(tick), {11, "middle"});
+      if (row + 1 == grid_.y_labels.size()) drawing_.text({at, bottom + 16}, tick_text(tick), {kTickSize, "middle"});
     }
     for (const double tick : y.ticks()) {
       const double at = corner.y + kPanelHeight * (1 - y.place(tick));
       drawing_.line({corner.x, at}, {right, at}, {kGridColor});
-      if (column == 0) drawing_.text({corner.x - 6, at + 4}, tick_text(tick), {11, "end"});
+      if (column == 0) drawing_.text({corner.x - 6, at + 4}, tick_text(tick), {kTickSize, "end"});
     }
     drawing_.line({corner.x, corner.y}, {corner.x, bottom}, {kFrameColor});
     drawing_.line({corner.x, bottom}, {right, bottom}, {kFrameColor});
     const double middle = corner.x + kPanelWidth / 2;
     if (row == 0) drawing_.text({middle, corner.y - 10}, grid_.columns[column], {13, "middle", true});
-    if (row + 1 == grid_.y_labels.size()) drawing_.text({middle, bottom + 34}, grid_.x_label, {12, "middle"});
+    if (row + 1 == grid_.y_labels.size()) drawing_.text({middle, bottom + 34}, grid_.x_label, {kNameSize, "middle"});
     if (column == 0) {
-      drawing_.text({22, corner.y + kPanelHeight / 2}, grid_.y_labels[row], {12, "middle", false, true});
+      drawing_.text({22, corner.y + kPanelHeight / 2}, grid_.y_labels[row], {kNameSize, "middle", false, true});
     }
   }
 

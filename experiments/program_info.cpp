@@ -4,6 +4,10 @@
 
 #include <fstream>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "deliso_commit.h"  // written by the build: kCommit
 
 namespace deliso {
@@ -26,6 +30,14 @@ std::int64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+void reset_peak_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  constexpr int kPeakOfResidentSet = 5;  // see proc(5)
+  std::ofstream("/proc/self/clear_refs") << kPeakOfResidentSet;
 }
 
 }  // namespace deliso

@@ -19,4 +19,8 @@ ProgramInfo program_info();
 // The most memory this process has held so far, in bytes.
 std::int64_t peak_memory_bytes();
 
+// Lets the peak begin anew from what is in use now, freed memory given back first. Does nothing where the system
+// cannot.
+void reset_peak_memory();
+
 }  // namespace deliso

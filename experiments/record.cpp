@@ -35,6 +35,7 @@ Json recover_json(const RecoverStats& recover) {
   json["approximate_geometry"] = recover.approximate_geometry;
   json["uncovered"] = recover.uncovered;
   json["refused_by_size_bound"] = recover.refused_by_size_bound;
+  json["hits_against_signs"] = recover.hits_against_signs;
   json["share_restricted"] = recover.seconds > 0 ? Json(recover.restricted_seconds / recover.seconds) : Json(nullptr);
   return json;
 }
@@ -69,6 +70,10 @@ Json certify_json(const MeshingResult& result) {
               {"exact_topology_seconds", result.topology.seconds}};
 }
 
+Json build_json(const BuildStats& build) {
+  return Json{{"seconds", build.seconds}, {"bounds_a_solid", build.bounds_a_solid}};
+}
+
 Json initial_json(const MeshingResult& result) {
   return Json{{"seconds", result.initial.seconds},
               {"searches", result.initial_search.searches},
@@ -79,7 +84,7 @@ Json initial_json(const MeshingResult& result) {
 Json stages_json(const MeshingResult& result) {
   return Json{{"index", stage_json(result.index)},       {"initial", initial_json(result)},
               {"recover", recover_json(result.recover)}, {"repair", repair_json(result.repair)},
-              {"poles", stage_json(result.poles)},       {"build", stage_json(result.build)},
+              {"poles", stage_json(result.poles)},       {"build", build_json(result.build)},
               {"refine", refine_json(result.refine)},    {"certify", certify_json(result)}};
 }
 

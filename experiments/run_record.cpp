@@ -129,6 +129,7 @@ std::string run_key(const Experiment& experiment, const PlannedRun& run) {
 
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {
   Json record = run_header(experiment, run, kStatusDone);
+  reset_peak_memory();  // of the run, not of those before it
   const double isovalue = experiment.datasets[run.dataset].isovalue;
   if (experiment.task == Task::kTopology) {
     append_report(topology_report(input, isovalue), record);

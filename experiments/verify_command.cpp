@@ -20,6 +20,7 @@ struct VerifyCommandOptions {
   std::string isovalue;
   std::string report;
   bool closed = false;
+  bool ignore_spacing = false;
 };
 
 Json distance_json(const DistanceFigure& figure) {
@@ -83,6 +84,7 @@ Json verify_report(const VerifyCommandOptions& options, const ScalarGrid& grid, 
               {"mesh", options.mesh},
               {"volume", volume_json(options.volume.path, grid)},
               {"closed", options.closed},
+              {"spacing", options.ignore_spacing ? "ignore" : "use"},
               {"isovalue", v.isovalue},
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
@@ -118,14 +120,23 @@ void print_checks(const Json& report) {
   table.print(std::cout, true);
 }
 
+// The mesh and its volume with sample (i, j, k) at (i, j, k).
+void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
+  const Vec3& s = grid.spacing();
+  for (Vec3& p : mesh.points) p = scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z});
+  grid = ScalarGrid(grid.dims(), grid.samples());
+}
+
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   if (!options.report.empty()) check_writable(options.report, "--report");
-  const TriangleMesh mesh = read_mesh(options.mesh);
+  TriangleMesh mesh = read_mesh(options.mesh);
   const ScalarGrid grid = load_volume(options.volume);
   check_isovalue(grid, isovalue);
-  const Verification verification =
-      verify_mesh(mesh, options.closed ? padded(grid, grid.range().first) : grid, isovalue);
+  ScalarGrid judged = grid;
+  if (options.ignore_spacing) forget_spacing(mesh, judged);
+  if (options.closed) judged = padded(judged, judged.range().first);
+  const Verification verification = verify_mesh(mesh, judged, isovalue);
 
   const Json report = verify_report(options, grid, verification);
   if (!options.report.empty()) write_text(json_text(report), options.report);
@@ -145,6 +156,8 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
   command->add_option("--report", options->report, "Write every figure as JSON")->type_name("FILE");
   command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command->add_flag("--ignore-spacing", options->ignore_spacing,
+                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
   command->callback([options, &exit_code] { exit_code = run_verify(*options); });
 }
 

@@ -24,7 +24,7 @@ struct SampleSigns {
     rows_per_slice = static_cast<std::size_t>(grid.dims()[1]);
     const std::size_t rows = rows_per_slice * static_cast<std::size_t>(grid.dims()[2]);
     words.resize(rows * words_per_row);
-    visit_samples(grid.samples(), [&]<class Sample>(const std::vector<Sample>& samples) {
+    visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& samples) {
       const SideTest<Sample> sides(isovalue);
       for (std::size_t row = 0; row < rows; ++row) sides.pack(samples.data() + row * n, n, &words[row * words_per_row]);
     });

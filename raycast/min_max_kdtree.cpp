@@ -47,7 +47,7 @@ namespace {
 template <class Sample, class Better>
 class RangeBuilder {
  public:
-  RangeBuilder(const std::vector<Sample>& samples, const Dims& dims, Better better)
+  RangeBuilder(const SampleArray<Sample>& samples, const Dims& dims, Better better)
       : samples_(samples), dims_(dims), better_(better) {}
 
   // The lowest kept level, straight from the samples.
@@ -107,7 +107,7 @@ class RangeBuilder {
     if (count % 2 != 0) out[count / 2] = in[count - 1];
   }
 
-  const std::vector<Sample>& samples_;
+  const SampleArray<Sample>& samples_;
   const Dims& dims_;
   Better better_;
 };
@@ -121,7 +121,7 @@ MinMaxKdTree::MinMaxKdTree(const ScalarGrid& grid, std::int32_t leaf_cells) : di
   const auto lowest = index_of(std::max(leaf_level_, 1));
   const bool has_nodes = lowest < levels_.size();
   const std::size_t nodes = has_nodes ? levels_.back().first + 1 : 0;
-  visit_samples(grid.samples(), [&]<class Sample>(const std::vector<Sample>& samples) {
+  visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& samples) {
     const auto build = [&](auto better) {
       std::vector<Sample> best(nodes);
       RangeBuilder builder(samples, dims_, better);

@@ -79,8 +79,8 @@ inline int MinMaxKdTree::common_level(const Cell& a, const Cell& b) const {
 
 inline std::pair<double, double> MinMaxKdTree::range(int level, const Cell& cell) const {
   const std::size_t i = node(levels_[static_cast<std::size_t>(level)], cell);
-  return visit_samples(low_, [&]<class Sample>(const std::vector<Sample>& low) {
-    const auto& high = *std::get_if<std::vector<Sample>>(&high_);
+  return visit_samples(low_, [&]<class Sample>(const SampleArray<Sample>& low) {
+    const auto& high = *std::get_if<SampleArray<Sample>>(&high_);
     return std::pair(static_cast<double>(low[i]), static_cast<double>(high[i]));
   });
 }

@@ -17,6 +17,7 @@
 #include "surface/poles.h"
 #include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
+#include "surface/sides_of_facets.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
@@ -116,11 +117,10 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
     const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology);
     points.insert(points.end(), seeds.begin(), seeds.end());
   }
-  if (points.empty()) {
-    throw InputError("no point of the isosurface to start from: initial.random_points is " +
-                     std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
-  }
-  return points;
+  if (!points.empty()) return points;
+  if (initial.seeding == Seeding::kComponents) throw InputError("the isosurface has no point to start from");
+  throw InputError("no point of the isosurface to start from: initial.random_points is " +
+                   std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
 }
 
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
@@ -140,6 +140,27 @@ void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const I
   }
 }
 
+// Combinations of parameters that contradict each other.
+void check_parameters(const Parameters& parameters) {
+  const bool repairs = parameters.certify && parameters.repair.max_rounds > 0;
+  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs) {
+    throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
+  }
+  if (!parameters.stage1.one_sign_per_tetrahedron && (repairs || parameters.stage1.coverage || !parameters.certify)) {
+    throw InputError(
+        "stage1.one_sign_per_tetrahedron: false gives facets that only the certificate can judge; it needs certify = "
+        "true, stage1.coverage = false and repair.max_rounds = 0");
+  }
+}
+
+// Without one sign per tetrahedron: gives the tetrahedra the signs that the restricted facets ask for, if there are
+// any.
+bool take_sides_of_facets(RestrictedDelaunay& restricted) {
+  const std::optional<std::vector<bool>> above = sides_of_facets(restricted);
+  if (above) restricted.set_signs(*above);
+  return above.has_value();
+}
+
 // The surface mesh that stage 2 starts from, with pole heights.
 SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const ScalarGrid& grid,
                          const IsosurfaceTopology& topology, const Parameters& parameters, Controls& controls,
@@ -148,6 +169,10 @@ SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const S
     return timed(result.repair, [&] {
       return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
     });
+  }
+  if (!parameters.stage1.one_sign_per_tetrahedron) {
+    result.build.bounds_a_solid = timed(result.build, [&] { return take_sides_of_facets(*restricted); });
+    if (!result.build.bounds_a_solid) return timed(result.build, [&] { return facets_alone(*restricted); });
   }
   const std::vector<double> heights =
       timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
@@ -159,12 +184,18 @@ SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const S
   });
 }
 
+// Facets that bound nothing are no isosurface, whatever their counts.
+void refute_facets(Certificate& certificate) {
+  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
+  certificate.differences.insert(
+      certificate.differences.begin(),
+      "The restricted facets bound no set of tetrahedra: they are given as they are, without stage 2.");
+}
+
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
-  if (parameters.stage2.pole_height != PoleHeight::kNearer && parameters.certify && parameters.repair.max_rounds > 0) {
-    throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
-  }
+  check_parameters(parameters);
   Controls controls(parameters.budget, options.stop, options.progress);
 
   // The exact topology first: it says what a regular isovalue is.
@@ -185,7 +216,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.report("initial", 0, 0);
   auto restricted = timed(result.initial, [&] {
     const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
-    return std::make_unique<RestrictedDelaunay>(*isosurface, points);
+    const FacetRule rule = parameters.stage1.one_sign_per_tetrahedron ? FacetRule::kSigns : FacetRule::kHits;
+    return std::make_unique<RestrictedDelaunay>(*isosurface, points, rule);
   });
 
   timed(result.recover, [&] {
@@ -199,11 +231,12 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   }
   result.recover.search += restricted->counters();
   result.recover.restricted_seconds = restricted->restricted_seconds();
+  result.recover.hits_against_signs = restricted->hits_against_signs();
 
   // The tetrahedra go as soon as the surface mesh stands.
   SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, parameters, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
-  if (parameters.algorithm == Algorithm::kTwoStage) {
+  if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
       refine(surface, *isosurface, stage2_options(parameters, lengths, options.threads), controls, result.refine);
     });
@@ -214,6 +247,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   timed(result.certify_stage, [&] {
     result.mesh = to_world(surface, grid, isosurface->step());
     if (parameters.certify) result.certificate = certify(result.mesh, topology);
+    if (!result.build.bounds_a_solid) refute_facets(result.certificate);
   });
 }
 

@@ -26,15 +26,22 @@ struct MeshingOptions {
   bool keep_stage1_mesh = false;
 };
 
+struct BuildStats : StageStats {
+  // False only without one sign per tetrahedron: the restricted facets bound no set of tetrahedra, so they are the mesh
+  // as they are, and stage 2 is left out.
+  bool bounds_a_solid = true;
+};
+
 struct MeshingResult {
   TriangleMesh mesh;
   std::optional<TriangleMesh> stage1_mesh;  // after Recover, when asked for
   double isovalue_used = 0;
   double r_min_voxels = 0;  // r_min of stage 2 in smallest spacings
   bool stopped_early = false;
-  StageStats index, topology, initial, poles, build, certify_stage;  // topology: the exact one, found from the grid
-  SearchCounters initial_search;                                     // of the random rays
+  StageStats index, topology, initial, poles, certify_stage;  // topology: the exact one, found from the grid
+  SearchCounters initial_search;                              // of the random rays
   RecoverStats recover;
+  BuildStats build;
   RepairStats repair;
   RefineStats refine;
   Certificate certificate;

@@ -19,7 +19,7 @@ constexpr double kEndTolerance = 1e-7;
 }  // namespace
 
 double surface_hit(const DualEdge& edge) {
-  // Hits alternate, and the first one crosses in the direction of the signs.
+  // Hits alternate, and the first one crosses in the direction of the facet.
   double nearest = edge.hits.front().t;
   for (std::size_t i = 2; i < edge.hits.size(); i += 2) {
     if (std::abs(edge.hits[i].t) < std::abs(nearest)) nearest = edge.hits[i].t;
@@ -78,6 +78,7 @@ void RestrictedDelaunay::search_facet(FacetId f) {
   const FacetId mirror = delaunay_.mirror(f);
   edge_of_[mirror.tet().index()][mirror.face()] = e;
   touched_edges_.push_back(e);
+  if (rule_ == FacetRule::kHits && is_dual_to_surface(f)) add_restricted(f);
 }
 
 // The parameter of the Voronoi vertex of t on the dual line of one of its facets; `side` is -1 when the line leaves t
@@ -94,12 +95,17 @@ double RestrictedDelaunay::dual_end(const DualEdge& edge, TetId t, int side) con
   return side * (squared_norm(d) - edge.radius * edge.radius) / (2 * height);
 }
 
-// The signs of the two tetrahedra win over the search: where the first or last hit contradicts them, a hit within
-// rounding of that end is dropped, or else one is put there.
-void RestrictedDelaunay::settle_hits(DualEdge& edge) const {
+// The signs of the two tetrahedra win over the search (unless the rule leaves it to the hits): where the first or last
+// hit contradicts them, a hit within rounding of that end is dropped, or else one is put there.
+void RestrictedDelaunay::settle_hits(DualEdge& edge) {
   const bool begin_above = is_above(edge.facet.tet());
   const bool end_above = is_above(delaunay_.mirror(edge.facet).tet());
   auto& hits = edge.hits;
+  const bool agree =
+      hits.empty() ? begin_above == end_above : hits.front().falling == begin_above && hits.back().falling != end_above;
+  if (agree) return;
+  ++hits_against_signs_;
+  if (rule_ == FacetRule::kHits) return;
   const auto clamped_end = [&](double t) {
     const double reach = edge.radius + isosurface_.box().diagonal();
     return std::isfinite(edge.radius) ? std::clamp(t, -reach, reach) : 0;

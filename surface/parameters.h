@@ -29,6 +29,7 @@ struct Stage1Parameters {
   double r_min = 0.001;            // no geometric refinement at or below this radius, as a fraction of b; >= 0
   bool coverage = true;            // also sample parts of the surface that the mesh misses; needs the exact topology
   double size_bound_voxels = 0.3;  // no insertion nearer than this to a vertex, in smallest spacings; >= 0
+  bool one_sign_per_tetrahedron = true;  // facets are restricted by two signs; else each by the hits of its dual edge
 };
 
 struct Stage2Parameters {

@@ -206,7 +206,7 @@ std::optional<RefinementPoint> Recovery::approximate_geometry(DualEdgeId e) cons
 // The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
 double Recovery::geometric_badness(const DualEdge& edge) const {
   const GeometryCriterion& limit = options_.geometry;
-  if (!restricted_.is_restricted(edge.facet) || edge.radius <= limit.r_min) return 0;
+  if (!restricted_.is_dual_to_surface(edge.facet) || edge.radius <= limit.r_min) return 0;
   const double h = std::abs(surface_hit(edge));
   if (std::hypot(h, edge.radius) < options_.size_bound) return 0;
   const Vec3& a = delaunay_.point(edge.vertices[0]);

@@ -7,8 +7,8 @@
 
 namespace deliso {
 
-RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points)
-    : SignedDelaunay(isosurface, points) {
+RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule)
+    : SignedDelaunay(isosurface, points), rule_(rule) {
   const Stopwatch watch;
   search_everything();
   restricted_seconds_ += watch.seconds();
@@ -30,7 +30,7 @@ void RestrictedDelaunay::search_everything() {
       const FacetId f(TetId(i), face);
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
-      if (is_restricted(f)) add_restricted(f);
+      if (is_dual_to_surface(f)) add_restricted(f);
       search_facet_between(f, dual_ends[i], dual_ends[mirror.tet().index()]);
     }
   }
@@ -60,7 +60,7 @@ void RestrictedDelaunay::forget_region() {
   for (const FacetId f : delaunay_.rim()) {
     const DualEdgeId e = dual_edge_of(f);
     const bool inside_is_begin = !e.is_none() && dual_edges_[e.index()].facet != f;
-    rim_edges_.push_back({e, inside_is_begin, is_restricted(f)});
+    rim_edges_.push_back({e, inside_is_begin, is_dual_to_surface(f)});
   }
   const std::span<const TetId> region = delaunay_.conflict_region();
   for (std::size_t i = 0; i < region.size(); ++i) position_[region[i].index()] = static_cast<std::uint32_t>(i);
@@ -71,7 +71,7 @@ void RestrictedDelaunay::forget_region() {
       const std::uint32_t position = position_[mirror.tet().index()];
       const bool inside = position < region.size() && region[position] == mirror.tet();
       if (!inside || mirror < f) continue;
-      if (is_restricted(f)) remove_restricted(f);
+      if (is_dual_to_surface(f)) remove_restricted(f);
       if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
     }
   }
@@ -104,41 +104,59 @@ void RestrictedDelaunay::renew_star() {
       const FacetId f(created[i], face);
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
-      if (is_restricted(f)) add_restricted(f);
+      if (is_dual_to_surface(f)) add_restricted(f);
       search_facet_between(f, dual_ends_[i], dual_ends_[position_[mirror.tet().index()]]);
     }
   }
   touch(last_vertex());
 }
 
-// The dual edge of a facet on the rim is a part of what it was: its hits are filtered, not searched again.
 void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   const FacetId f(created, 0);
-  const bool restricted = is_restricted(f);
+  const bool has_other_hits = !rim.edge.is_none() && cut_back(rim, f);
+  const bool restricted = is_dual_to_surface(f);
   if (restricted && !rim.was_restricted) add_restricted(f);
   if (!restricted && rim.was_restricted) remove_restricted(f);
-  DualEdgeId e = rim.edge;
+  const DualEdgeId e = dual_edge_of(f);
   if (e.is_none()) {
     if (restricted) search_facet(f);  // the signs disagree with the search that found nothing: they win
-    return;
+  } else if (has_other_hits || restricted != rim.was_restricted) {
+    dual_edges_[e.index()].generation += 2;
+    touched_edges_.push_back(e);
   }
-  DualEdge& edge = dual_edges_[e.index()];
-  edge_of_[created.index()][0] = e;
+}
+
+// The dual edge of a facet on the rim is a part of what it was: its hits are filtered, not searched again. Tells
+// whether their number changed; an edge without hits is released.
+bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
+  DualEdge& edge = dual_edges_[rim.edge.index()];
+  edge_of_[f.tet().index()][f.face()] = rim.edge;
   if (rim.inside_is_begin) {
     edge.facet = f;
-    edge.t_begin = std::min(dual_end(edge, created, -1), edge.t_end);
+    edge.t_begin = std::min(dual_end(edge, f.tet(), -1), edge.t_end);
   } else {
-    edge.t_end = std::max(dual_end(edge, created, +1), edge.t_begin);
+    edge.t_end = std::max(dual_end(edge, f.tet(), +1), edge.t_begin);
   }
   const std::size_t before = edge.hits.size();
   std::erase_if(edge.hits, [&](const Hit& hit) { return hit.t < edge.t_begin || hit.t > edge.t_end; });
   settle_hits(edge);
-  if (edge.hits.empty()) {
-    release_edge(e);
-  } else if (edge.hits.size() != before || restricted != rim.was_restricted) {
-    edge.generation += 2;
-    touched_edges_.push_back(e);
-  }
+  const bool changed = edge.hits.size() != before;
+  if (edge.hits.empty()) release_edge(rim.edge);
+  return changed;
+}
+
+bool RestrictedDelaunay::is_dual_to_surface(FacetId f) const {
+  return rule_ == FacetRule::kSigns
+             ? is_restricted(f)
+             : RestrictedDelaunay::falls_through(f) || RestrictedDelaunay::falls_through(delaunay_.mirror(f));
+}
+
+bool RestrictedDelaunay::falls_through(FacetId f) const {
+  if (rule_ == FacetRule::kSigns || has_virtual_vertex(f)) return SignedDelaunay::falls_through(f);
+  const DualEdgeId e = dual_edge_of(f);
+  if (e.is_none()) return false;
+  const DualEdge& edge = dual_edges_[e.index()];
+  return edge.hits.size() % 2 == 1 && edge.hits.front().falling == (edge.facet == f);
 }
 
 bool RestrictedDelaunay::has_virtual_vertex(FacetId f) const {
@@ -166,6 +184,7 @@ void RestrictedDelaunay::remove_restricted(FacetId f) {
 }
 
 UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) const {
+  if (rule_ == FacetRule::kHits) return UmbrellaShape::kBroken;  // the walk goes by signs
   const auto& [size, facet] = umbrellas_[q.index()];
   if (size == 0) return UmbrellaShape::kEmpty;
   // The facet known may be gone, and another one stand in its place.

@@ -16,6 +16,10 @@
 
 namespace deliso {
 
+// Which facets are restricted: those whose two tetrahedra differ in sign; or, for comparison, as the paper has it,
+// those whose own dual edge was found to have an odd number of hits, whatever the signs at its ends.
+enum class FacetRule { kSigns, kHits };
+
 using DualEdgeId = StrongId<struct DualEdgeTag>;
 
 // The dual edge of a finite facet that is restricted or has hits. x(t) = dual.at(t), t in mesh-space units.
@@ -26,17 +30,17 @@ struct DualEdge {
   double radius = 0;                 // circumradius r of the facet
   double t_begin = 0;                // where the dual edge begins and ends: infinite towards a ghost
   double t_end = 0;
-  std::vector<Hit> hits;  // V_sigma and Sigma: ascending, alternating, consistent with the signs of the two tetrahedra
+  std::vector<Hit> hits;         // V_sigma and Sigma: ascending, alternating; by kSigns consistent with the two signs
   std::uint32_t generation = 0;  // odd while alive; grows with every change, so that a queue can tell stale entries
 };
 
-// x_sigma of a restricted facet: the hit nearest to its plane among those that cross in the direction of its signs.
+// x_sigma of a restricted facet: the hit nearest to its plane among those that cross in the direction of the facet.
 double surface_hit(const DualEdge& edge);
 
 class RestrictedDelaunay : public SignedDelaunay {
  public:
   // See SignedDelaunay.
-  RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+  RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule = FacetRule::kSigns);
 
   enum class Outcome { kInserted, kDuplicate, kTooClose };
   // Inserts the point unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with
@@ -56,11 +60,17 @@ class RestrictedDelaunay : public SignedDelaunay {
   // The dual edge of a facet, or none when it has no hit.
   [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return edge_of_[f.tet().index()][f.face()]; }
 
+  // Restricted by the rule. Facets with a virtual vertex have no dual edge: their signs tell.
+  [[nodiscard]] bool is_dual_to_surface(FacetId f) const;
+  [[nodiscard]] bool falls_through(FacetId f) const override;
+
   // The umbrella of a vertex, as far as a quick walk can tell (see shape_by_walk). Only while nobody but insert() has
   // changed signs.
   [[nodiscard]] UmbrellaShape quick_umbrella_shape(VertexId q) const;
 
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
+  // How often the hits of a dual edge contradicted the signs at its ends.
+  [[nodiscard]] std::int64_t hits_against_signs() const { return hits_against_signs_; }
   // Wall-clock time spent deciding which facets are restricted.
   [[nodiscard]] double restricted_seconds() const { return restricted_seconds_; }
 
@@ -76,7 +86,8 @@ class RestrictedDelaunay : public SignedDelaunay {
   void renew_star();
   void renew_rim_facet(TetId created, const RimEdge& rim);
   void search_facet(FacetId f);
-  void settle_hits(DualEdge& edge) const;
+  bool cut_back(const RimEdge& rim, FacetId f);
+  void settle_hits(DualEdge& edge);
   [[nodiscard]] double dual_end(const DualEdge& edge, TetId t, int side) const;
   // Where the dual edges of a tetrahedron end.
   struct DualEnd {
@@ -92,6 +103,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
+  FacetRule rule_;
   LargeArray<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
   std::vector<std::uint32_t> touched_stamp_;       // of each vertex: the insertion that touched it last
   std::uint32_t stamp_ = 0;
@@ -113,6 +125,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   std::vector<RimEdge> rim_edges_;
   DualEdge scratch_;
   SearchCounters counters_;
+  std::int64_t hits_against_signs_ = 0;
   double restricted_seconds_ = 0;
 };
 

@@ -32,6 +32,8 @@ class SignedDelaunay {
   [[nodiscard]] bool is_restricted(FacetId f) const {
     return sign_[f.tet().index()] != sign_[delaunay_.neighbour(f.tet(), f.face()).index()];
   }
+  // Whether the surface passes through a facet, falling from its tetrahedron, above the isovalue, to the one behind it.
+  [[nodiscard]] virtual bool falls_through(FacetId f) const { return is_above(f.tet()) && is_restricted(f); }
   // The infinite vertex or a guard: no point of the surface.
   [[nodiscard]] bool is_virtual(VertexId v) const {
     return v == kInfiniteVertex || (v.value >= first_guard_ && v.value < first_guard_ + guards_);

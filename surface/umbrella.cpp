@@ -96,7 +96,7 @@ void UmbrellaInspector::collect(VertexId q) {
     for (unsigned face = 0; face < 4; ++face) {
       if (v[face] == q) continue;
       const TetId neighbour = delaunay.neighbour(t, face);
-      if (restricted_.is_above(t) && !restricted_.is_above(neighbour)) {
+      if (restricted_.falls_through(FacetId(t, face))) {
         // The facet is counterclockwise seen from the neighbour, which lies below.
         const auto& slots = kFacetSlots[face];
         const unsigned at = v[slots[0]] == q ? 0 : v[slots[1]] == q ? 1 : 2;

@@ -9,6 +9,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
 #include "delaunay/base/rng.h"
+#include "volume/io/sample_type.h"
 
 namespace deliso {
 
@@ -30,19 +31,6 @@ Sample converted(double value) {
   }
 }
 
-// Samples f(p), p in [-1, 1]^3, at size^3 points. The type of the samples is the first argument.
-template <class Sample, class Field>
-ScalarGrid sampled(std::int32_t size, const Field& f) {
-  const Dims dims{size, size, size};
-  std::vector<Sample> samples;
-  samples.reserve(checked_sample_count(dims));
-  const auto at = [size](std::int32_t n) { return (2.0 * n - (size - 1)) / (size - 1); };  // symmetric to the last bit
-  for (std::int32_t k = 0; k < size; ++k)
-    for (std::int32_t j = 0; j < size; ++j)
-      for (std::int32_t i = 0; i < size; ++i) samples.push_back(converted<Sample>(f(Vec3{at(i), at(j), at(k)})));
-  return {dims, std::move(samples)};
-}
-
 double bell(double distance, double width) { return std::exp(-(distance / width) * (distance / width)); }
 
 double ring_distance(const Vec3& p, double radius) { return std::hypot(std::hypot(p.x, p.y) - radius, p.z); }
@@ -62,42 +50,42 @@ double smooth_min(double a, double b, double width) {
 
 // ---- Smooth fields with known answers ----
 
-ScalarGrid shells(std::int32_t size, std::uint64_t) {
-  return sampled<std::uint8_t>(size, [](const Vec3& p) {
+FieldValues shells(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) {
     const double shell = bell(ellipsoid_distance(p, {0.82, 0.82, 0.72}), 0.1);
     return 230 * (shell + bell(ring_distance(p, 0.44), 0.13) + bell(norm(p), 0.19));
-  });
+  };
 }
 
-ScalarGrid sphere(std::int32_t size, std::uint64_t) {
-  return sampled<float>(size, [](const Vec3& p) { return 1 - norm(p); });
+FieldValues sphere(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return 1 - norm(p); };
 }
 
-ScalarGrid torus(std::int32_t size, std::uint64_t) {
-  return sampled<float>(size, [](const Vec3& p) { return 1 - ring_distance(p, 0.6); });
+FieldValues torus(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return 1 - ring_distance(p, 0.6); };
 }
 
-ScalarGrid double_torus(std::int32_t size, std::uint64_t) {
-  return sampled<std::int16_t>(size, [](const Vec3& p) {
+FieldValues double_torus(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) {
     // The figure eight y^2 = x^2 (1 - x^2), thickened; scaled like the Hounsfield units of a scan.
     const double x = p.x / 0.8;
     const double y = p.y / 0.8;
     const double z = p.z / 0.8;
     const double eight = x * x * (x * x - 1) + y * y;
     return 1000 - 10000 * (eight * eight + 0.25 * z * z);
-  });
+  };
 }
 
-ScalarGrid linked_tori(std::int32_t size, std::uint64_t) {
-  return sampled<float>(size, [](const Vec3& p) {
+FieldValues linked_tori(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) {
     constexpr double kShift = 0.24;
     const double a = ring_distance({p.x + kShift, p.y, p.z}, 0.48);
     const double b = ring_distance({p.x - kShift, p.z, p.y}, 0.48);
     return 1 - std::min(a, b);
-  });
+  };
 }
 
-ScalarGrid knot(std::int32_t size, std::uint64_t) {
+FieldValues knot(std::int32_t /*size*/, std::uint64_t /*seed*/) {
   // The trefoil knot as a closed polygon.
   constexpr std::size_t kPoints = 192;
   std::array<Vec3, kPoints + 1> curve;
@@ -105,7 +93,7 @@ ScalarGrid knot(std::int32_t size, std::uint64_t) {
     const double t = 2 * kPi * static_cast<double>(n % kPoints) / kPoints;
     curve[n] = Vec3{std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)} / 3.8;
   }
-  return sampled<float>(size, [&curve](const Vec3& p) {
+  return [curve](const Vec3& p) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < kPoints; ++n) {
       const Vec3 along = curve[n + 1] - curve[n];
@@ -113,7 +101,7 @@ ScalarGrid knot(std::int32_t size, std::uint64_t) {
       nearest = std::min(nearest, squared_distance(p, curve[n] + t * along));
     }
     return 1 - std::sqrt(nearest);
-  });
+  };
 }
 
 double gyroid_value(const Vec3& p, double periods) {
@@ -121,42 +109,46 @@ double gyroid_value(const Vec3& p, double periods) {
   return std::sin(q.x) * std::cos(q.y) + std::sin(q.y) * std::cos(q.z) + std::sin(q.z) * std::cos(q.x);
 }
 
-ScalarGrid gyroid(std::int32_t size, std::uint64_t) {
-  return sampled<float>(size, [](const Vec3& p) { return gyroid_value(p, 2); });
+FieldValues gyroid(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return gyroid_value(p, 2); };
 }
 
-ScalarGrid gyroid_ball(std::int32_t size, std::uint64_t) {
-  return sampled<float>(size, [](const Vec3& p) { return smooth_min(gyroid_value(p, 2), 8 * (0.88 - norm(p)), 1.0); });
+FieldValues gyroid_scan(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return 127.5 + 80 * gyroid_value(p, 2); };
 }
 
-ScalarGrid marschner_lobb(std::int32_t size, std::uint64_t) {
+FieldValues gyroid_ball(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return smooth_min(gyroid_value(p, 2), 8 * (0.88 - norm(p)), 1.0); };
+}
+
+FieldValues marschner_lobb(std::int32_t /*size*/, std::uint64_t /*seed*/) {
   // Marschner and Lobb, An evaluation of reconstruction filters for volume rendering, Visualization 1994.
-  return sampled<std::uint8_t>(size, [](const Vec3& p) {
+  return [](const Vec3& p) {
     constexpr double kFrequency = 6;
     constexpr double kAlpha = 0.25;
     const double rings = std::cos(2 * kPi * kFrequency * std::cos(kPi * std::hypot(p.x, p.y) / 2));
     return 255 * (1 - std::sin(kPi * p.z / 2) + kAlpha * (1 + rings)) / (2 * (1 + kAlpha));
-  });
+  };
 }
 
-ScalarGrid plane(std::int32_t size, std::uint64_t) {
-  return sampled<double>(size, [](const Vec3& p) { return dot(p, Vec3{0.2, 0.3, 0.9}); });
+FieldValues plane(std::int32_t /*size*/, std::uint64_t /*seed*/) {
+  return [](const Vec3& p) { return dot(p, Vec3{0.2, 0.3, 0.9}); };
 }
 
 // ---- Hard cases ----
 
-ScalarGrid sheets(std::int32_t size, std::uint64_t) {
+FieldValues sheets(std::int32_t size, std::uint64_t /*seed*/) {
   const double voxels = (size - 1) / 2.0;
-  return sampled<float>(size, [voxels](const Vec3& p) {
+  return [voxels](const Vec3& p) {
     const Vec3 normal = Vec3{0.15, 0.23, 1} / norm(Vec3{0.15, 0.23, 1});
     return voxels * std::abs(dot(normal, p) - 0.01);
-  });
+  };
 }
 
 // A lattice of small balls, jittered: every ball keeps to its own box of at least 12 voxels.
 std::int32_t balls_per_side(std::int32_t size) { return std::max(1, (size - 1) / 12); }
 
-ScalarGrid bubbles(std::int32_t size, std::uint64_t seed) {
+FieldValues bubbles(std::int32_t size, std::uint64_t seed) {
   struct Ball {
     Vec3 center;
     double radius = 0;
@@ -177,7 +169,7 @@ ScalarGrid bubbles(std::int32_t size, std::uint64_t seed) {
       }
   // Samples are in voxels, so that the isovalue is a length in voxels too.
   const double voxels = (size - 1) / 2.0;
-  return sampled<float>(size, [&](const Vec3& p) {
+  return [=, balls = std::move(balls)](const Vec3& p) {
     double value = -std::numeric_limits<double>::infinity();
     const auto own = [&](double x) { return std::clamp(static_cast<std::int32_t>((x + 1) / box), 0, side - 1); };
     const auto first = [&](double x) { return std::max(own(x) - 1, 0); };
@@ -190,10 +182,10 @@ ScalarGrid bubbles(std::int32_t size, std::uint64_t seed) {
           value = std::max(value, ball.radius - distance(p, ball.center));
         }
     return value * voxels;
-  });
+  };
 }
 
-ScalarGrid blobs(std::int32_t size, std::uint64_t seed) {
+FieldValues blobs(std::int32_t /*size*/, std::uint64_t seed) {
   struct Blob {
     Vec3 center;
     double width = 0;
@@ -205,16 +197,15 @@ ScalarGrid blobs(std::int32_t size, std::uint64_t seed) {
     for (std::size_t axis = 0; axis < 3; ++axis) blob.center[axis] = rng.uniform(-0.6, 0.6);
     blob.width = rng.uniform(0.1, 0.17);
   }
-  return sampled<float>(size, [&all](const Vec3& p) {
+  return [all = std::move(all)](const Vec3& p) {
     double sum = 0;
     for (const Blob& blob : all) sum += bell(distance(p, blob.center), blob.width);
     return sum;
-  });
+  };
 }
 
-ScalarGrid noise(std::int32_t size, std::uint64_t seed) {
-  Rng rng(seed);
-  return sampled<std::uint8_t>(size, [&rng](const Vec3&) { return static_cast<double>(rng.next() >> 56); });
+FieldValues noise(std::int32_t /*size*/, std::uint64_t seed) {
+  return [rng = Rng(seed)](const Vec3&) mutable { return static_cast<double>(rng.next() >> 56); };
 }
 
 Topology one_sphere(std::int32_t) { return {{{2, 0, 1}}}; }
@@ -251,6 +242,8 @@ std::vector<AnalyticField> all_fields() {
        genus_two, double_torus},
       {"linked_tori", "two linked rings", 64, 0.9, "f32", kClosed, !kSeeded, 32, two_tori, linked_tori},
       {"gyroid", "two periods of the gyroid, cut by the box", 64, 0.1, "f32", kOpen, !kSeeded, 0, nullptr, gyroid},
+      {"gyroid_scan", "the gyroid in bytes, as a scanner would give it", 64, 135.5, "u8", kOpen, !kSeeded, 0, nullptr,
+       gyroid_scan},
       {"marschner_lobb", "the test signal of Marschner and Lobb: rings close to the sampling limit", 41, 127.5, "u8",
        kOpen, !kSeeded, 0, nullptr, marschner_lobb},
       {"plane", "a linear ramp: one oblique plane, exact in the interpolant", 32, 0.123457, "f64", kOpen, !kSeeded, 4,
@@ -280,12 +273,37 @@ const AnalyticField& find_analytic_field(std::string_view name) {
   throw InputError("there is no built-in field \"" + std::string(name) + "\"" + nearest_name_hint(name, known));
 }
 
-ScalarGrid generate_field(std::string_view name, std::int32_t size, std::uint64_t seed) {
-  const AnalyticField& field = find_analytic_field(name);
+FieldSlices::FieldSlices(const AnalyticField& field, std::int32_t size, std::uint64_t seed)
+    : size_(size), type_(parse_sample_type(field.type_name).value()) {
   if (size < 2 || size > kLargestFieldSize)
     throw InputError("the size of a built-in field is " + std::to_string(size) + ", expected 2 to " +
                      std::to_string(kLargestFieldSize));
-  return field.generate(size, seed);
+  values_ = field.values(size, seed);
+}
+
+template <class Sample>
+void FieldSlices::append_next(std::vector<Sample>& samples) {
+  const auto at = [this](std::int32_t n) {
+    return (2.0 * n - (size_ - 1)) / (size_ - 1);
+  };  // symmetric to the last bit
+  for (std::int32_t j = 0; j < size_; ++j)
+    for (std::int32_t i = 0; i < size_; ++i) samples.push_back(converted<Sample>(values_({at(i), at(j), at(next_)})));
+  ++next_;
+}
+
+Samples FieldSlices::next(std::int32_t slices) {
+  const auto per_slice = static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_);
+  return visit_samples(empty_samples(type_), [&]<class Sample>(const SampleArray<Sample>& /*empty*/) -> Samples {
+    std::vector<Sample> samples;
+    samples.reserve(per_slice * static_cast<std::size_t>(slices));
+    for (std::int32_t n = 0; n < slices; ++n) append_next(samples);
+    return samples;
+  });
+}
+
+ScalarGrid generate_field(std::string_view name, std::int32_t size, std::uint64_t seed) {
+  FieldSlices slices(find_analytic_field(name), size, seed);
+  return {{size, size, size}, slices.next(size)};
 }
 
 }  // namespace deliso

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "volume/io/sample_type.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -21,6 +23,10 @@ struct KnownComponents {
   std::int64_t count = 0;
   friend bool operator==(const KnownComponents&, const KnownComponents&) = default;
 };
+
+// The value at a point of [-1, 1]^3. To be called for every sample in order, x fastest: noise counts on it. The samples
+// take the nearest value of their type.
+using FieldValues = std::function<double(const Vec3&)>;
 
 struct AnalyticField {
   std::string name;
@@ -34,7 +40,7 @@ struct AnalyticField {
   // it is not known beforehand or the size too small to resolve it.
   std::int32_t smallest_known_size = 0;
   std::optional<std::vector<KnownComponents>> (*topology)(std::int32_t size) = nullptr;
-  ScalarGrid (*generate)(std::int32_t size, std::uint64_t seed) = nullptr;
+  FieldValues (*values)(std::int32_t size, std::uint64_t seed) = nullptr;
 
   [[nodiscard]] std::optional<std::vector<KnownComponents>> known_topology(std::int32_t size) const {
     return topology == nullptr || size < smallest_known_size ? std::nullopt : topology(size);
@@ -53,5 +59,25 @@ const AnalyticField& find_analytic_field(std::string_view name);
 // The field's volume of size^3 samples. Equal arguments give equal samples. Throws InputError when the name is unknown
 // or the size is not between 2 and kLargestFieldSize.
 ScalarGrid generate_field(std::string_view name, std::int32_t size, std::uint64_t seed = 1);
+
+// The same volume a few slices (z = 0 first) at a time, for those that need not fit into memory.
+class FieldSlices {
+ public:
+  // Throws InputError as generate_field does.
+  FieldSlices(const AnalyticField& field, std::int32_t size, std::uint64_t seed = 1);
+
+  [[nodiscard]] SampleType type() const { return type_; }
+  // The samples of the next so many slices. Precondition: there are so many left.
+  Samples next(std::int32_t slices = 1);
+
+ private:
+  template <class Sample>
+  void append_next(std::vector<Sample>& samples);
+
+  std::int32_t size_;
+  SampleType type_;
+  std::int32_t next_ = 0;
+  FieldValues values_;
+};
 
 }  // namespace deliso

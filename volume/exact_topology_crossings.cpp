@@ -40,7 +40,7 @@ CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
   // Mark the samples above the isovalue, a row at a time.
   bool regular = true;
   std::visit(
-      [&]<class Sample>(const std::vector<Sample>& samples) {
+      [&]<class Sample>(const SampleArray<Sample>& samples) {
         const SideTest<Sample> sides(isovalue);
         const auto length = static_cast<std::size_t>(dims_[0]);
         const auto words = static_cast<std::size_t>(words_per_row_);

@@ -27,7 +27,7 @@ std::string text(const Vec3& v) {
 }
 
 template <class Sample>
-[[noreturn]] void fail_not_finite(const std::vector<Sample>& samples, const Dims& dims) {
+[[noreturn]] void fail_not_finite(const SampleArray<Sample>& samples, const Dims& dims) {
   const auto first = std::find_if(samples.begin(), samples.end(), [](Sample s) { return !std::isfinite(s); });
   const auto n = static_cast<std::size_t>(first - samples.begin());
   const auto nx = static_cast<std::size_t>(dims[0]);
@@ -41,7 +41,7 @@ template <class Sample>
 }
 
 template <class Sample>
-std::pair<double, double> finite_range(const std::vector<Sample>& samples, const Dims& dims) {
+std::pair<double, double> finite_range(const SampleArray<Sample>& samples, const Dims& dims) {
   Sample low = samples.front();
   Sample high = samples.front();
   bool finite = true;
@@ -71,7 +71,7 @@ Sample rounded_down(double value) {
 }
 
 template <class Sample>
-std::vector<Sample> padded_samples(const std::vector<Sample>& samples, const ScalarGrid& grid, const Dims& dims,
+std::vector<Sample> padded_samples(const SampleArray<Sample>& samples, const ScalarGrid& grid, const Dims& dims,
                                    Sample value) {
   std::vector<Sample> out(checked_sample_count(dims), value);
   const auto row = static_cast<std::size_t>(dims[0]);
@@ -151,14 +151,14 @@ ScalarGrid padded(const ScalarGrid& grid, double value) {
       throw InputError("the volume's dimensions are " + text(grid.dims()) + ": too large to pad");
     n += 2;
   }
-  Samples samples = visit_samples(grid.samples(), [&]<class Sample>(const std::vector<Sample>& s) {
+  Samples samples = visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& s) {
     return Samples(padded_samples(s, grid, dims, rounded_down<Sample>(value)));
   });
   return {dims, std::move(samples), grid.spacing(), grid.origin() - grid.spacing()};
 }
 
 double regular_isovalue(const ScalarGrid& grid, double isovalue) {
-  const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const std::vector<Sample>&) {
+  const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const SampleArray<Sample>&) {
     return SideTest<Sample>(isovalue).never_equal();
   });
   if (never_equal) return isovalue;

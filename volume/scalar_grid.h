@@ -11,12 +11,13 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/base/vec3.h"
+#include "volume/sample_array.h"
 
 namespace deliso {
 
 using Samples =
-    std::variant<std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::uint16_t>,
-                 std::vector<std::int16_t>, std::vector<std::int32_t>, std::vector<float>, std::vector<double>>;
+    std::variant<SampleArray<std::uint8_t>, SampleArray<std::int8_t>, SampleArray<std::uint16_t>,
+                 SampleArray<std::int16_t>, SampleArray<std::int32_t>, SampleArray<float>, SampleArray<double>>;
 
 // Number of samples along x, y, z; each at least 2 in a valid grid.
 using Dims = std::array<std::int32_t, 3>;
@@ -24,7 +25,7 @@ using Dims = std::array<std::int32_t, 3>;
 // The eight samples of a voxel cell; corner i + 2j + 4k is the sample at offset (i, j, k).
 using CellCorners = std::array<double, 8>;
 
-// Calls `f` with the vector of samples in its own type; for loops over whole volumes.
+// Calls `f` with the array of samples in its own type; for loops over whole volumes.
 template <class Function>
 decltype(auto) visit_samples(const Samples& samples, Function&& f);
 
@@ -57,7 +58,7 @@ class ScalarGrid {
 
  private:
   template <class Sample>
-  [[nodiscard]] CellCorners gather(const std::vector<Sample>& samples, std::size_t first) const;
+  [[nodiscard]] CellCorners gather(const SampleArray<Sample>& samples, std::size_t first) const;
 
   Dims dims_;
   Vec3 spacing_;
@@ -76,7 +77,8 @@ ScalarGrid padded(const ScalarGrid& grid, double value);
 // next lower double). Never equal to a sample: when a gap is too narrow to hold a double, the next gap below is taken.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
-// A value lower by 1 % of the gap to the next lower sample value: between the same samples, so the same ones lie above it.
+// A value lower by 1 % of the gap to the next lower sample value: between the same samples, so the same ones lie above
+// it.
 double lowered_isovalue(const ScalarGrid& grid, double isovalue);
 
 // The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,
@@ -106,7 +108,7 @@ decltype(auto) visit_samples(const Samples& samples, Function&& f) {
 }
 
 template <class Sample>
-CellCorners ScalarGrid::gather(const std::vector<Sample>& samples, std::size_t first) const {
+CellCorners ScalarGrid::gather(const SampleArray<Sample>& samples, std::size_t first) const {
   const auto row = static_cast<std::size_t>(dims_[0]);
   const Sample* a = samples.data() + first;
   const Sample* b = a + row * static_cast<std::size_t>(dims_[1]);

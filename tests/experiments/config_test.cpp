@@ -41,7 +41,8 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 constexpr const char* kDocumentedDefaults = R"({
   "algorithm": "two_stage",
   "initial": {"random_points": 0, "seeding": "components"},
-  "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3, "coverage": true},
+  "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3, "coverage": true,
+             "one_sign_per_tetrahedron": true},
   "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
              "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
   "queue_order": "worst_first",
@@ -198,6 +199,7 @@ TEST(Config, PaperPresetHoldsThePapersChoices) {
   EXPECT_EQ(p.stage1.rho, 2);
   EXPECT_EQ(p.stage2.rho, 2);
   EXPECT_EQ(p.stage1.r_min, 0.001);
+  EXPECT_EQ(p.stage1.size_bound_voxels, 0);  // no bound but r_min
   EXPECT_EQ(p.stage2.r_min, 0.001);
   EXPECT_EQ(p.search.solver, CubicSolver::kSchwarze);
   EXPECT_EQ(p.search.leaf_cells, 1);

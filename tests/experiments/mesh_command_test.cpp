@@ -10,6 +10,8 @@
 #include "experiments/json.h"
 #include "surface/certificate.h"
 #include "surface/mesh_io.h"
+#include "volume/analytic_fields.h"
+#include "volume/io/nrrd.h"
 #include "tests/support/program_runner.h"
 
 namespace deliso::testing {
@@ -235,6 +237,27 @@ TEST_F(MeshCommand, OwnMeshesVerify) {
       {"verify", folder_ / "m.ply", folder_ / "v.nrrd", "--isovalue", "0.7", "--report", folder_ / "c.json"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_TRUE(read_json(folder_ / "c.json")["proven"].get<bool>());
+}
+
+// A stretched volume meshed and verified without its spacing is judged as the same samples with spacing 1.
+TEST_F(MeshCommand, VerifyCanIgnoreTheSpacingAsMeshCan) {
+  const ScalarGrid cubic = generate_field("torus", 20);
+  const ScalarGrid stretched(cubic.dims(), cubic.samples(), {1, 2, 4}, {8, -16, 32});
+  const auto quality = [&](const ScalarGrid& grid, const std::vector<std::string>& options) {
+    write_nrrd(grid, folder_ / "v.nrrd");
+    EXPECT_EQ(mesh("0.7", {"--set", "spacing=ignore"}).exit_code, 0);
+    std::vector<std::string> arguments = {"verify", folder_ / "m.ply", folder_ / "v.nrrd", "--isovalue",
+                                          "0.7",    "--report",        folder_ / "c.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_deliso(arguments).exit_code, 0);
+    const Json json = read_json(folder_ / "c.json");
+    EXPECT_EQ(json["spacing"], options.empty() ? "use" : "ignore");
+    EXPECT_TRUE(json["proven"].get<bool>());
+    return json["quality"]["mean_min_angle_degrees"].get<double>();
+  };
+  const double of_cubic = quality(cubic, {});
+  EXPECT_NEAR(quality(stretched, {"--ignore-spacing"}), of_cubic, 1e-9);
+  EXPECT_GT(std::abs(quality(stretched, {}) - of_cubic), 1);
 }
 
 TEST_F(MeshCommand, VerifyTellsAWrongMesh) {

@@ -10,6 +10,7 @@
 #include "experiments/sample_histogram.h"
 #include "tests/support/program_runner.h"
 #include "volume/analytic_fields.h"
+#include "volume/io/volume_file.h"
 
 namespace deliso::testing {
 namespace {
@@ -46,6 +47,22 @@ TEST(Usage, GenerateListsAndWritesEveryField) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
   }
   EXPECT_EQ(folder.names().size(), analytic_fields().size());
+}
+
+TEST(Usage, GenerateWritesRawAndCompressedVolumesOfTheSameSamples) {
+  const TemporaryFolder folder;
+  const auto generate = [&](const std::string& file, const std::string& encoding) {
+    return run_deliso({"generate", "blobs", "-o", folder / file, "--size", "9", "--encoding", encoding});
+  };
+  EXPECT_EQ(generate("a.nrrd", "raw").exit_code, 0);
+  EXPECT_EQ(generate("b.nrrd", "gzip").exit_code, 0);
+  EXPECT_NE(read_file(folder / "a.nrrd"), read_file(folder / "b.nrrd"));
+  EXPECT_EQ(read_volume(folder / "a.nrrd").samples(), generate_field("blobs", 9).samples());
+  EXPECT_EQ(read_volume(folder / "b.nrrd").samples(), generate_field("blobs", 9).samples());
+  const ProgramResult refused = generate("c.nrrd", "zip");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "\"zip\""));
+  EXPECT_EQ(folder.names().size(), 2u);
 }
 
 TEST(Usage, GenerateIsReproducibleAndSeeded) {

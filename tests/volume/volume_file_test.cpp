@@ -30,10 +30,10 @@ TYPED_TEST(RawOfType, FilesNamedAsInOpenSciVisReadBack) {
 TYPED_TEST(RawOfType, OptionsGoBeforeTheName) {
   // Written little endian, read with swapped byte order: swapping twice must give the samples back.
   const TemporaryDirectory directory;
-  const Samples samples = random_samples<TypeParam>(60, 2);
-  Samples swapped = samples;
-  swap_bytes(swapped);
-  const auto bytes = sample_bytes(swapped);
+  const std::vector<TypeParam> samples = random_samples<TypeParam>(60, 2);
+  std::vector<TypeParam> swapped = samples;
+  swap_bytes(std::span(swapped));
+  const auto bytes = std::as_bytes(std::span(swapped));
   write_text(directory / "v_9x9x9_uint8.RAW",
              "head" + std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   RawOptions options;
@@ -44,7 +44,7 @@ TYPED_TEST(RawOfType, OptionsGoBeforeTheName) {
   options.origin = {-1, -2, -3};
   options.header_bytes = 4;
   const ScalarGrid grid = read_volume(directory / "v_9x9x9_uint8.RAW", options);
-  EXPECT_EQ(grid.samples(), samples);
+  EXPECT_EQ(grid.samples(), Samples(samples));
   EXPECT_EQ(grid.dims(), (Dims{3, 4, 5}));
   EXPECT_EQ(grid.spacing(), (Vec3{1, 2, 3}));
   EXPECT_EQ(grid.origin(), (Vec3{-1, -2, -3}));

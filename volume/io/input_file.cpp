@@ -8,6 +8,7 @@
 
 #include "delaunay/base/check.h"
 #include "volume/io/gzip_stream.h"
+#include "volume/io/mapped_file.h"
 
 namespace deliso {
 
@@ -53,9 +54,24 @@ void skip_bytes(ByteReader& reader, const InputFile& file, std::uint64_t count) 
   }
 }
 
-// Fills the vector chunk by chunk, so that memory is touched only as data really arrive.
+// Reverses the order of the samples along an axis.
 template <class Sample>
-void read_all(ByteReader& reader, const InputFile& file, std::size_t count, std::vector<Sample>& samples) {
+void reverse_axis(std::span<Sample> samples, const Dims& dims, std::size_t axis) {
+  std::size_t stride = 1;  // between neighbours along the axis: so many samples move together
+  for (std::size_t n = 0; n < axis; ++n) stride *= static_cast<std::size_t>(dims[n]);
+  const auto length = static_cast<std::size_t>(dims[axis]);
+  for (std::size_t slab = 0; slab < samples.size(); slab += stride * length) {
+    for (std::size_t n = 0; n < length / 2; ++n) {
+      Sample* const from = samples.data() + slab + n * stride;
+      std::swap_ranges(from, from + stride, samples.data() + slab + (length - 1 - n) * stride);
+    }
+  }
+}
+
+// Reads chunk by chunk, so that memory is touched only as data really arrive.
+template <class Sample>
+std::vector<Sample> read_all(ByteReader& reader, const InputFile& file, const SampleLayout& layout, std::size_t count) {
+  std::vector<Sample> samples;
   samples.reserve(count);
   constexpr std::size_t kChunk = kChunkBytes / sizeof(Sample);
   while (samples.size() < count) {
@@ -66,6 +82,30 @@ void read_all(ByteReader& reader, const InputFile& file, std::size_t count, std:
     const std::size_t found = reader.read(bytes);
     if (found < bytes.size()) fail_truncated(file, before * sizeof(Sample) + found, count * sizeof(Sample));
   }
+  if (layout.endian != kHostEndian) swap_bytes(std::span(samples));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (layout.flipped[axis]) reverse_axis(std::span(samples), layout.dims, axis);
+  }
+  return samples;
+}
+
+[[noreturn]] void fail_too_long(const InputFile& file, std::uint64_t expected) {
+  file.fail("the data go on after the " + counted(expected, "bytes") + " that the dimensions and the type need");
+}
+
+// The rest of the file as samples in mapped memory; nothing when they cannot be used as they lie there.
+std::optional<Samples> map_samples(const InputFile& file, const SampleLayout& layout, std::size_t count) {
+  const std::uint64_t offset = file.size() - file.remaining();
+  const bool is_flipped = layout.flipped[0] || layout.flipped[1] || layout.flipped[2];
+  const std::size_t size = sample_size(layout.type);
+  if (layout.compression != Compression::kNone || is_flipped || offset % size != 0) return std::nullopt;
+  if (layout.endian != kHostEndian && size > 1) return std::nullopt;
+  const std::shared_ptr<const MappedFile> mapped = MappedFile::open(file.path(), file.size());
+  if (!mapped) return std::nullopt;
+  const std::span<const std::byte> bytes = mapped->bytes().subspan(static_cast<std::size_t>(offset), count * size);
+  return visit_samples(empty_samples(layout.type), [&]<class Sample>(const SampleArray<Sample>& /*empty*/) -> Samples {
+    return SampleArray<Sample>(mapped, std::span(reinterpret_cast<const Sample*>(bytes.data()), count));
+  });
 }
 
 }  // namespace
@@ -116,7 +156,7 @@ void InputFile::skip(std::uint64_t count) {
 
 void InputFile::fail(const std::string& sentence) const { throw InputError(path_.string() + ": " + sentence); }
 
-Samples read_samples(InputFile& file, const SampleLayout& layout) {
+Samples read_samples(InputFile& file, const SampleLayout& layout, std::uint64_t mapped_from) {
   ByteReader reader(file, layout.compression);
   skip_bytes(reader, file, layout.skipped_bytes);
   // Compare the size that the header claims with what the file can hold, before any allocation.
@@ -127,17 +167,21 @@ Samples read_samples(InputFile& file, const SampleLayout& layout) {
     file.fail("the dimensions and the type need " + counted(expected, "bytes") +
               ", but the compressed data can hold at most " + std::to_string(reader.bound()));
   }
+  if (layout.compression == Compression::kNone && expected < file.remaining()) fail_too_long(file, expected);
+  if (file.size() >= mapped_from) {
+    if (std::optional<Samples> mapped = map_samples(file, layout, count)) return std::move(*mapped);
+  }
   Samples samples = empty_samples(layout.type);
   try {
-    std::visit([&](auto& s) { read_all(reader, file, count, s); }, samples);
+    samples = visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& /*empty*/) -> Samples {
+      return read_all<Sample>(reader, file, layout, count);
+    });
   } catch (const std::bad_alloc&) {
     file.fail("the samples need " + counted(expected, "bytes") + " of memory, more than there is");
   }
   // Reading one byte further also lets a compressed stream check its own sum.
   std::byte extra{};
-  if (reader.read(std::span(&extra, 1)) != 0)
-    file.fail("the data go on after the " + counted(expected, "bytes") + " that the dimensions and the type need");
-  if (layout.endian != kHostEndian) swap_bytes(samples);
+  if (reader.read(std::span(&extra, 1)) != 0) fail_too_long(file, expected);
   return samples;
 }
 

@@ -50,12 +50,18 @@ struct SampleLayout {
   Endian endian = Endian::kLittle;
   Compression compression = Compression::kNone;
   std::uint64_t skipped_bytes = 0;  // to skip first, after decompression
+  std::array<bool, 3> flipped{};    // axes whose samples lie in reverse order
 };
 
-// Reads the samples that make up the rest of the file. Never allocates more than the file can hold: the size that the
-// layout claims is first compared with the file's (for gzip with the most that deflate can expand to, 1032 to 1).
-// Throws InputError when the data are too short, too long or corrupt, or memory does not suffice.
-Samples read_samples(InputFile& file, const SampleLayout& layout);
+// Files of this many bytes or more are mapped into memory rather than read, where their samples lie as we use them.
+inline constexpr std::uint64_t kMappedFileBytes = std::uint64_t{64} << 20;
+
+// Reads the samples that make up the rest of the file. They are mapped when the file has at least `mapped_from` bytes
+// and the samples are uncompressed, aligned, in the byte order of this machine and not to be reversed. Never allocates
+// more than the file can hold: the size that the layout claims is first compared with the file's (for gzip with the
+// most that deflate can expand to, 1032 to 1). Throws InputError when the data are too short, too long or corrupt, or
+// memory does not suffice.
+Samples read_samples(InputFile& file, const SampleLayout& layout, std::uint64_t mapped_from = kMappedFileBytes);
 
 // The same checks as checked_sample_count and the constructor of ScalarGrid, with errors that name the file.
 std::size_t sample_count_of(const InputFile& file, const Dims& dims);

@@ -25,22 +25,6 @@ void skip_to_data(InputFile& file, const NrrdHeader& header) {
   if (bytes <= file.remaining()) file.skip(file.remaining() - bytes);
 }
 
-// Reverses the order of the samples along an axis.
-void reverse_axis(Samples& samples, const Dims& dims, std::size_t axis) {
-  std::size_t stride = 1;  // between neighbours along the axis: so many samples move together
-  for (std::size_t n = 0; n < axis; ++n) stride *= static_cast<std::size_t>(dims[n]);
-  const auto length = static_cast<std::size_t>(dims[axis]);
-  std::visit(
-      [=](auto& s) {
-        for (std::size_t slab = 0; slab < s.size(); slab += stride * length)
-          for (std::size_t n = 0; n < length / 2; ++n) {
-            auto* from = s.data() + slab + n * stride;
-            std::swap_ranges(from, from + stride, s.data() + slab + (length - 1 - n) * stride);
-          }
-      },
-      samples);
-}
-
 // The shortest text that reads back as the same double.
 std::string text(double value) {
   std::array<char, 32> buffer{};
@@ -49,27 +33,33 @@ std::string text(double value) {
   return {buffer.data(), end};
 }
 
-std::string header_text(const ScalarGrid& grid, NrrdEncoding encoding) {
-  const Dims& n = grid.dims();
-  const Vec3& s = grid.spacing();
-  const Vec3& o = grid.origin();
+std::string header_text(const VolumeHeader& header, NrrdEncoding encoding) {
+  const Dims& n = header.dims;
+  const Vec3& s = header.spacing;
+  const Vec3& o = header.origin;
   std::string out = "NRRD0004\n";
-  out += "type: " + nrrd_type_name(sample_type(grid.samples())) + "\n";
+  out += "type: " + nrrd_type_name(header.type) + "\n";
   out += "dimension: 3\n";
   out += "sizes: " + std::to_string(n[0]) + " " + std::to_string(n[1]) + " " + std::to_string(n[2]) + "\n";
   out += "space dimension: 3\n";
   out += "space directions: (" + text(s.x) + ",0,0) (0," + text(s.y) + ",0) (0,0," + text(s.z) + ")\n";
   out += "space origin: (" + text(o.x) + "," + text(o.y) + "," + text(o.z) + ")\n";
   out += std::string("endian: ") + (kHostEndian == Endian::kLittle ? "little" : "big") + "\n";
-  out += std::string("encoding: ") + (encoding == NrrdEncoding::kRaw ? "raw" : "gzip") + "\n\n";
-  return out;
+  out += std::string("encoding: ") + (encoding == NrrdEncoding::kRaw ? "raw" : "gzip") + "\n";
+  // A comment that puts raw samples on a multiple of their size, so that they can be mapped.
+  if (encoding == NrrdEncoding::kRaw) {
+    constexpr std::size_t kAlignment = 8;
+    const std::size_t past = (out.size() + 3) % kAlignment;  // with "#", its line end and the blank line
+    out += "#" + std::string((kAlignment - past) % kAlignment, '-') + "\n";
+  }
+  return out + "\n";
 }
 
 }  // namespace
 
 ScalarGrid read_nrrd(const std::filesystem::path& path) {
   InputFile file(path);
-  NrrdHeader header = read_nrrd_header(file);
+  const NrrdHeader header = read_nrrd_header(file);
   std::optional<InputFile> detached;
   try {
     if (!header.data_file.empty()) detached.emplace(header.data_file);
@@ -79,20 +69,23 @@ ScalarGrid read_nrrd(const std::filesystem::path& path) {
   InputFile& data = detached ? *detached : file;
   skip_to_data(data, header);
   Samples samples = read_samples(data, header.layout);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (header.flipped[axis]) reverse_axis(samples, header.layout.dims, axis);
   return make_grid(file, header.layout.dims, std::move(samples), header.spacing, header.origin);
 }
 
 void write_nrrd(const ScalarGrid& grid, const std::filesystem::path& path, NrrdEncoding encoding) {
+  write_nrrd(
+      header_of(grid), [&grid] { return grid.samples(); }, path, encoding);
+}
+
+void write_nrrd(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path,
+                NrrdEncoding encoding) {
   AtomicFile file(path);
-  file.write(header_text(grid, encoding));
-  const std::span<const std::byte> bytes = sample_bytes(grid.samples());
+  file.write(header_text(header, encoding));
   if (encoding == NrrdEncoding::kRaw) {
-    file.write(bytes);
+    for_each_piece(header, next, [&file](const Samples& samples) { file.write(sample_bytes(samples)); });
   } else {
     GzipWriter gzip([&file](std::span<const std::byte> piece) { file.write(piece); });
-    gzip.write(bytes);
+    for_each_piece(header, next, [&gzip](const Samples& samples) { gzip.write(sample_bytes(samples)); });
     gzip.finish();
   }
   file.commit();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "volume/io/volume_file.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -13,10 +14,10 @@ namespace deliso {
 // that names the file, the line, the value found and what was expected.
 ScalarGrid read_nrrd(const std::filesystem::path& path);
 
-enum class NrrdEncoding { kRaw, kGzip };
-
 // Writes an attached file, whole or not at all. Reading it back gives the same samples, spacing and origin bit for bit.
 // Throws InputError when the file cannot be written.
 void write_nrrd(const ScalarGrid& grid, const std::filesystem::path& path, NrrdEncoding encoding = NrrdEncoding::kGzip);
+void write_nrrd(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path,
+                NrrdEncoding encoding);
 
 }  // namespace deliso

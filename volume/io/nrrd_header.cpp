@@ -130,8 +130,8 @@ void read_space_geometry(const NrrdFields& fields, const Axes& axes, NrrdHeader&
       fields.fail_value(
           *field, "directions along the axes x, y, z in this order (oblique and permuted volumes are not supported)");
     header.spacing[n] = std::abs(along);
-    header.flipped[n] = along < 0;
-    if (header.flipped[n]) header.origin[n] += along * (axes.dims[n] - 1);
+    header.layout.flipped[n] = along < 0;
+    if (header.layout.flipped[n]) header.origin[n] += along * (axes.dims[n] - 1);
   }
 }
 

@@ -11,10 +11,9 @@ namespace deliso {
 
 // What a header says about a volume, in our terms.
 struct NrrdHeader {
-  SampleLayout layout;  // skipped_bytes is `byte skip`, unless skip_from_end
+  SampleLayout layout;  // skipped_bytes is `byte skip`, unless skip_from_end; flipped: against the world's direction
   Vec3 spacing{1, 1, 1};
   Vec3 origin{0, 0, 0};             // of sample (0, 0, 0) after the flips
-  std::array<bool, 3> flipped{};    // axes stored against the direction of the world: samples must be reversed
   std::filesystem::path data_file;  // beside the header; empty when the data follow in the same file
   std::uint64_t skipped_lines = 0;  // `line skip`
   bool skip_from_end = false;       // `byte skip: -1`: the data are the last bytes of the file

@@ -75,23 +75,19 @@ ScalarGrid read_raw(const std::filesystem::path& path, const RawOptions& options
   return make_grid(file, layout.dims, std::move(samples), options.spacing, options.origin);
 }
 
-void write_raw(const ScalarGrid& grid, const std::filesystem::path& path) {
+void write_raw(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path) {
   // A raw file keeps no header: refuse what could not be read back.
-  const SampleType type = sample_type(grid.samples());
   const std::optional<NamedLayout> named = layout_in_name(path);
-  if (!named || named->dims != grid.dims() || parse_sample_type(named->type) != type)
-    throw InputError(path.string() + ": the name of a raw file must end in _" + text(grid.dims(), 'x') + "_" +
-                     nrrd_type_name(type) + ".raw, the only place that keeps its dimensions and type");
-  if (grid.spacing() != Vec3{1, 1, 1} || grid.origin() != Vec3{0, 0, 0})
+  if (!named || named->dims != header.dims || parse_sample_type(named->type) != header.type)
+    throw InputError(path.string() + ": the name of a raw file must end in _" + text(header.dims, 'x') + "_" +
+                     nrrd_type_name(header.type) + ".raw, the only place that keeps its dimensions and type");
+  if (header.spacing != Vec3{1, 1, 1} || header.origin != Vec3{0, 0, 0})
     throw InputError(path.string() + ": a raw file cannot keep a spacing or an origin, write .nrrd");
   AtomicFile file(path);
-  if (kHostEndian == Endian::kLittle) {
-    file.write(sample_bytes(grid.samples()));
-  } else {
-    Samples swapped = grid.samples();
-    swap_bytes(swapped);
-    file.write(sample_bytes(swapped));
-  }
+  for_each_piece(header, next, [&file](const Samples& samples) {
+    const Samples little = little_endian(samples);
+    file.write(sample_bytes(little));
+  });
   file.commit();
 }
 

@@ -9,6 +9,6 @@ namespace deliso {
 
 // See read_volume and write_volume.
 ScalarGrid read_raw(const std::filesystem::path& path, const RawOptions& options);
-void write_raw(const ScalarGrid& grid, const std::filesystem::path& path);
+void write_raw(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path);
 
 }  // namespace deliso

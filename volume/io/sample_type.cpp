@@ -65,38 +65,34 @@ std::string nrrd_type_name(SampleType type) { return std::string(spellings(type)
 Samples empty_samples(SampleType type) {
   switch (type) {
     case SampleType::kU8:
-      return std::vector<std::uint8_t>();
+      return SampleArray<std::uint8_t>();
     case SampleType::kI8:
-      return std::vector<std::int8_t>();
+      return SampleArray<std::int8_t>();
     case SampleType::kU16:
-      return std::vector<std::uint16_t>();
+      return SampleArray<std::uint16_t>();
     case SampleType::kI16:
-      return std::vector<std::int16_t>();
+      return SampleArray<std::int16_t>();
     case SampleType::kI32:
-      return std::vector<std::int32_t>();
+      return SampleArray<std::int32_t>();
     case SampleType::kF32:
-      return std::vector<float>();
+      return SampleArray<float>();
     case SampleType::kF64:
       break;
   }
-  return std::vector<double>();
+  return SampleArray<double>();
 }
 
 std::span<const std::byte> sample_bytes(const Samples& samples) {
   return visit_samples(samples, [](const auto& s) { return std::as_bytes(std::span(s)); });
 }
 
-void swap_bytes(Samples& samples) {
-  std::visit(
-      []<class Sample>(std::vector<Sample>& s) {
-        if constexpr (sizeof(Sample) > 1)
-          for (Sample& sample : s) {
-            auto bytes = std::bit_cast<std::array<std::byte, sizeof(Sample)>>(sample);
-            std::reverse(bytes.begin(), bytes.end());
-            sample = std::bit_cast<Sample>(bytes);
-          }
-      },
-      samples);
+Samples little_endian(const Samples& samples) {
+  if constexpr (kHostEndian == Endian::kLittle) return samples;
+  return visit_samples(samples, []<class Sample>(const SampleArray<Sample>& s) -> Samples {
+    std::vector<Sample> swapped(s.begin(), s.end());
+    swap_bytes(std::span(swapped));
+    return swapped;
+  });
 }
 
 }  // namespace deliso

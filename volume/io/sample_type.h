@@ -1,6 +1,8 @@
 // The sample types of volume files: their spellings, sizes and byte orders.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <optional>
@@ -37,13 +39,25 @@ std::string nrrd_type_name(SampleType type);
 // The type of the samples.
 inline SampleType sample_type(const Samples& samples) { return static_cast<SampleType>(samples.index()); }
 
-// An empty vector of the type.
+// No samples, of the type.
 Samples empty_samples(SampleType type);
 
 // The samples as they lie in memory.
 std::span<const std::byte> sample_bytes(const Samples& samples);
 
 // Reverses the bytes of every sample.
-void swap_bytes(Samples& samples);
+template <class Sample>
+void swap_bytes(std::span<Sample> samples) {
+  if constexpr (sizeof(Sample) > 1) {
+    for (Sample& sample : samples) {
+      auto bytes = std::bit_cast<std::array<std::byte, sizeof(Sample)>>(sample);
+      std::reverse(bytes.begin(), bytes.end());
+      sample = std::bit_cast<Sample>(bytes);
+    }
+  }
+}
+
+// The samples with the bytes of each in little-endian order.
+Samples little_endian(const Samples& samples);
 
 }  // namespace deliso

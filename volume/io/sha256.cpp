@@ -100,13 +100,8 @@ std::string Sha256::finish() {
 
 std::string sample_sha256(const ScalarGrid& grid) {
   Sha256 hash;
-  if constexpr (kHostEndian == Endian::kLittle) {
-    hash.update(sample_bytes(grid.samples()));
-  } else {
-    Samples swapped = grid.samples();
-    swap_bytes(swapped);
-    hash.update(sample_bytes(swapped));
-  }
+  const Samples samples = little_endian(grid.samples());
+  hash.update(sample_bytes(samples));
   return hash.finish();
 }
 

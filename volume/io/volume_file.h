@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -26,8 +27,31 @@ struct RawOptions {
 // the place, the value found and what was expected.
 ScalarGrid read_volume(const std::filesystem::path& path, const RawOptions& options = {});
 
-// Writes .nrrd (gzip) or .raw (little endian, dims and type must be in the name, spacing 1 and origin 0), whole or not
+// How the samples of an .nrrd file are stored. Raw ones can be mapped into memory when they are read.
+enum class NrrdEncoding { kRaw, kGzip };
+
+// What a file says about a volume besides its samples.
+struct VolumeHeader {
+  Dims dims{};
+  SampleType type = SampleType::kU8;
+  Vec3 spacing{1, 1, 1};
+  Vec3 origin{0, 0, 0};
+};
+VolumeHeader header_of(const ScalarGrid& grid);
+
+// Gives the next samples of a volume in their order, some more at every call, until all are there.
+using SampleSource = std::function<Samples()>;
+
+// Calls `f` with every piece. Throws InternalError when the pieces are of another type or do not add up to the header's
+// dimensions.
+void for_each_piece(const VolumeHeader& header, const SampleSource& next, const std::function<void(const Samples&)>& f);
+
+// Writes .nrrd or .raw (little endian, dims and type must be in the name, spacing 1 and origin 0), whole or not
 // at all. Throws InputError when the file cannot be written or could not be read back.
-void write_volume(const ScalarGrid& grid, const std::filesystem::path& path);
+void write_volume(const ScalarGrid& grid, const std::filesystem::path& path,
+                  NrrdEncoding encoding = NrrdEncoding::kGzip);
+// The same piece by piece: the volume need not fit into memory. Precondition: the source gives the header's type.
+void write_volume(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path,
+                  NrrdEncoding encoding = NrrdEncoding::kGzip);
 
 }  // namespace deliso

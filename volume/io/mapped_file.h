@@ -1,0 +1,30 @@
+// A file read through the system's page cache, without a copy.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace deliso {
+
+// A read-only view of a whole file. Whoever shortens the file while it is mapped ends this process: map what stays.
+class MappedFile {
+ public:
+  // Nothing when the system cannot map the file, or it has not `size` bytes (any more).
+  static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path, std::uint64_t size);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  // Begins at a multiple of the page size.
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace deliso

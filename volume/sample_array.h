@@ -1,0 +1,50 @@
+// The samples of a volume in one type: an array that never changes, in memory of our own or mapped from a file.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace deliso {
+
+// Copies share the memory.
+template <class Sample>
+class SampleArray {
+ public:
+  using value_type = Sample;
+  using const_iterator = const Sample*;
+  using iterator = const_iterator;
+
+  SampleArray() = default;
+  SampleArray(std::vector<Sample> samples) {  // NOLINT(google-explicit-constructor): a vector is the usual array
+    auto kept = std::make_shared<const std::vector<Sample>>(std::move(samples));
+    samples_ = *kept;
+    memory_ = std::move(kept);
+  }
+  // Samples in memory that lives as long as `mapping`.
+  SampleArray(std::shared_ptr<const void> mapping, std::span<const Sample> samples)
+      : samples_(samples), memory_(std::move(mapping)), is_mapped_(true) {}
+
+  [[nodiscard]] const Sample* data() const { return samples_.data(); }
+  [[nodiscard]] std::size_t size() const { return samples_.size(); }
+  [[nodiscard]] const Sample* begin() const { return samples_.data(); }
+  [[nodiscard]] const Sample* end() const { return samples_.data() + samples_.size(); }
+  [[nodiscard]] const Sample& front() const { return samples_.front(); }
+  const Sample& operator[](std::size_t n) const { return samples_[n]; }
+  // In a file's memory, which the system may drop and read again.
+  [[nodiscard]] bool is_mapped() const { return is_mapped_; }
+
+  friend bool operator==(const SampleArray& a, const SampleArray& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  std::span<const Sample> samples_;
+  std::shared_ptr<const void> memory_;
+  bool is_mapped_ = false;
+};
+
+}  // namespace deliso
