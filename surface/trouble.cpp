@@ -37,6 +37,7 @@ class TroubleFinder {
         component_of_vertex_(context.component_of_vertex),
         done_(context.done),
         places_(context.places),
+        evidence_(context.evidence),
         has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
@@ -79,7 +80,8 @@ class TroubleFinder {
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
-  std::vector<bool> has_sign_;         // of each exact component
+  std::span<const std::uint8_t> evidence_;
+  std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
 };
 
@@ -113,9 +115,8 @@ void TroubleFinder::flag_mesh() {
 // Tetrahedra that reach from one side of the isovalue to the other.
 void TroubleFinder::flag_conflicts() {
   const Tetrahedralization& delaunay = restricted_.delaunay();
-  const std::vector<std::uint8_t> evidence = evidence_in(restricted_, grid_, cells_);
-  for (std::size_t i = 0; i < evidence.size(); ++i) {
-    if (evidence[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
+  for (std::size_t i = 0; i < evidence_.size(); ++i) {
+    if (evidence_[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
     const auto& v = delaunay.vertices(TetId(i));
     for (unsigned a = 0; a < 4; ++a) {
       for (unsigned b = 0; b <= a; ++b) {
