@@ -81,8 +81,9 @@ void FacetPairing::pair_sides() {
 void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
   const VertexId a = facet.vertices[(side + 1) % 3];
   const VertexId b = facet.vertices[(side + 2) % 3];
-  const FacetId around_above = next_restricted_facet(facet.facet, a, b);
-  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(facet.facet), a, b));
+  const VertexId third = facet.vertices[side];
+  const FacetId around_above = next_restricted_facet(facet.facet, third);
+  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(facet.facet), third));
   FacetId partner = around_above;
   facet.contested[side] = around_above != around_below;
   if (facet.contested[side] && restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)))) {
@@ -103,18 +104,17 @@ void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
   there.known[i] = true;
 }
 
-// From a restricted facet, rotate about its edge ab through the tetrahedra of one sign, f's own, to the next restricted
-// facet; both are seen from inside that sector.
-FacetId FacetPairing::next_restricted_facet(FacetId f, VertexId a, VertexId b) const {
+// From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
+// next restricted facet; both are seen from inside that sector.
+FacetId FacetPairing::next_restricted_facet(FacetId f, VertexId third) const {
+  const bool is_above = restricted_.is_above(f.tet());
   for (;;) {
     const auto& v = delaunay_.vertices(f.tet());
-    unsigned other = f.face();  // the other facet at ab lies opposite the vertex of f that is neither a nor b
-    for (unsigned slot = 0; slot < 4; ++slot) {
-      if (slot != f.face() && v[slot] != a && v[slot] != b) other = slot;
-    }
-    const FacetId g(f.tet(), other);
-    if (restricted_.is_restricted(g)) return g;
-    f = delaunay_.mirror(g);
+    const FacetId g(f.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
+    const FacetId beyond = delaunay_.mirror(g);
+    if (restricted_.is_above(beyond.tet()) != is_above) return g;
+    third = v[f.face()];
+    f = beyond;
   }
 }
 

@@ -44,7 +44,7 @@ class FacetPairing {
   void renew_facets(std::span<const TetId> tets);
   void pair_sides();
   void pair_side(PairedFacet& facet, unsigned side);
-  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
+  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId third) const;
 
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 

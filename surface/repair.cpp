@@ -95,7 +95,7 @@ class Repair {
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   take_samples();
   round_->take_plain_signs();
-  mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
+  mesh_ = std::make_shared<MatchedMesh>(round_->assemble().value());
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
@@ -156,16 +156,16 @@ void Repair::triangulate() {
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
 bool Repair::try_rule(SignRule rule) {
-  const bool differs = round_->take_signs(rule);
-  if (mesh_ && !differs) return false;
-  mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
+  round_->take_signs(rule);
+  std::optional<MatchedMesh> mesh = round_->assemble();
+  if (!mesh) return false;
+  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
   keep();
   return is_done();
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules() {
-  mesh_.reset();
   std::shared_ptr<MatchedMesh> best;
   std::vector<bool> signs;
   for (const SignRule rule : kRules) {
@@ -227,15 +227,23 @@ void Repair::drop_outdone() {
   }
 }
 
-// Pole heights for the kept meshes of this round, before its triangulation goes.
+// Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
+// from them.
 void Repair::give_poles() {
   for (KeptMesh& kept : history_) {
     if (kept.signs.empty()) continue;
     round_->set_signs(kept.signs);
     kept.signs.clear();
-    const std::vector<double> heights = compute_poles(round_->restricted());
-    SurfaceMesh& mesh = kept.mesh->built.mesh;
-    for (const VertexId v : kept.mesh->built.vertex_of) mesh.pole_heights.push_back(heights[v.index()]);
+    BuiltMesh& built = kept.mesh->built;
+    std::vector<bool> wanted(round_->restricted().delaunay().vertex_count(), false);
+    for (std::size_t v = 0; v < built.vertex_of.size(); ++v) {
+      const std::uint32_t piece = kept.mesh->match.piece_of[v];
+      if (piece != kNoPiece && may_give(*kept.mesh, kept.mesh->match.pieces[piece].component)) {
+        wanted[built.vertex_of[v].index()] = true;
+      }
+    }
+    const std::vector<double> heights = compute_poles(round_->restricted(), wanted);
+    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   }
 }
 

@@ -32,12 +32,10 @@ void RepairRound::take_plain_signs() {
   overturn_unfounded();
 }
 
-bool RepairRound::take_signs(SignRule rule) {
-  const std::vector<bool> before = restricted_->signs();
+void RepairRound::take_signs(SignRule rule) {
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_);
   rules_->take_signs(rule, *restricted_);
   overturn_unfounded();
-  return restricted_->signs() != before;
 }
 
 void RepairRound::overturn_unfounded() {
@@ -47,11 +45,11 @@ void RepairRound::overturn_unfounded() {
   }
 }
 
-MatchedMesh RepairRound::assemble() {
-  if (pairing_) {
-    pairing_->update();
-  } else {
+std::optional<MatchedMesh> RepairRound::assemble() {
+  if (!pairing_) {
     pairing_.emplace(*restricted_);
+  } else if (!pairing_->update()) {
+    return std::nullopt;
   }
   MatchedMesh mesh{build_triangle_mesh(*pairing_), {}, {}};
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);

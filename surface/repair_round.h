@@ -29,12 +29,13 @@ class RepairRound {
   // Takes the signs of the circumcenters, less those without foundation.
   void take_plain_signs();
   // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less those without
-  // foundation. Returns whether they differ from the signs before.
-  bool take_signs(SignRule rule);
+  // foundation.
+  void take_signs(SignRule rule);
   void set_signs(const std::vector<bool>& signs) { restricted_->set_signs(signs); }
 
-  // The mesh for the signs as they stand and its match with the exact components.
-  MatchedMesh assemble();
+  // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
+  // as the last time.
+  std::optional<MatchedMesh> assemble();
 
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "surface/self_intersection.h"
 
@@ -23,6 +22,12 @@ constexpr int kSteps = 200;
 constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
 constexpr int kSweeps = 3;
+
+// Whether two closed boxes have a point in common.
+bool meet(const Box3& a, const Box3& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
 
 class Separation {
  public:
@@ -57,6 +62,16 @@ class Separation {
     return std::find(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v) != mesh_.triangles[t].end();
   }
 
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
+    Box3 box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
+    return box;
+  }
+  [[nodiscard]] bool has_area_at(std::uint32_t t) const {
+    const auto& v = mesh_.triangles[t];
+    return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+  }
+
   SurfaceMesh& mesh_;
   std::span<const CopyGroup> groups_;
   std::span<const VertexId> origin_of_;
@@ -68,21 +83,25 @@ class Separation {
 
 // The triangles at all vertices that stand beside a copy.
 void Separation::find_fans() {
-  std::unordered_set<std::uint32_t> copies;
+  if (groups_.empty()) return;
+  std::vector<bool> is_copy(mesh_.points.size(), false);
   for (const CopyGroup& group : groups_) {
     for (const Copy& copy : group) {
-      copies.insert(copy.vertex);
+      is_copy[copy.vertex] = true;
       home_[copy.vertex] = mesh_.points[copy.vertex];
     }
   }
   for (const auto& triangle : mesh_.triangles) {
-    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return copies.contains(v); })) continue;
+    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return is_copy[v]; })) continue;
     for (const std::uint32_t v : triangle) fans_[origin_of_[v].index()];
   }
+  std::vector<bool> has_fan(mesh_.points.size());
+  for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) has_fan[v] = fans_.contains(origin_of_[v].index());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh_.triangles[t]) {
-      const auto at = fans_.find(origin_of_[v].index());
-      if (at != fans_.end() && (at->second.empty() || at->second.back() != t)) at->second.push_back(t);
+      if (!has_fan[v]) continue;
+      std::vector<std::uint32_t>& fan = fans_[origin_of_[v].index()];
+      if (fan.empty() || fan.back() != t) fan.push_back(t);
     }
   }
 }
@@ -190,18 +209,15 @@ std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const
 // neighbouring vertex may still share their place, so touching counts less.
 int Separation::conflicts(std::uint32_t copy) const {
   int count = 0;
-  const auto has_area_at = [&](std::uint32_t t) {
-    const auto& v = mesh_.triangles[t];
-    return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
-  };
   for (const std::uint32_t s : fan(copy)) {
     if (!is_around(s, copy)) continue;
     if (!has_area_at(s)) {
       count += kCrossingWeight;
       continue;
     }
+    const Box3 box = box_of(s);
     for (const std::uint32_t t : surroundings_) {
-      if (s == t || !has_area_at(t)) continue;
+      if (s == t || !meet(box, box_of(t)) || !has_area_at(t)) continue;
       const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t]);
       if (contact == TriangleContact::kTouching) ++count;
       if (contact == TriangleContact::kCrossing) count += kCrossingWeight;
