@@ -96,23 +96,32 @@ void MeshBuilder::name_vertices() {
       corners.join(3 * t + (i + 2) % 3, 3 * s + (j + 1) % 3);
     }
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> classes;  // (vertex of the triangulation, representing corner)
+  // A vertex for each class, in order of (vertex of the triangulation, representing corner).
+  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // name of each vertex's first class, moved on
+  std::uint32_t count = 0;
   for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-    if (corners.find(c) == c) classes.emplace_back(mesh_.triangles[c / 3][c % 3], c);
+    if (corners.find(c) != c) continue;
+    ++first[mesh_.triangles[c / 3][c % 3] + 1];
+    ++count;
   }
-  std::sort(classes.begin(), classes.end());
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
   std::vector<std::uint32_t> name(3 * mesh_.triangles.size());
-  for (const auto& [vertex, corner] : classes) {
-    name[corner] = static_cast<std::uint32_t>(mesh_.points.size());
-    mesh_.points.push_back(delaunay_.point(VertexId(vertex)));
-    built_.vertex_of.emplace_back(vertex);
+  mesh_.points.resize(count);
+  built_.vertex_of.resize(count);
+  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
+    if (corners.find(c) == c) {
+      const VertexId vertex(mesh_.triangles[c / 3][c % 3]);
+      name[c] = first[vertex.index()]++;
+      mesh_.points[name[c]] = delaunay_.point(vertex);
+      built_.vertex_of[name[c]] = vertex;
+    }
+    mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];  // a class is named before its other corners
   }
   for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
     if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
     if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
     built_.copies.push_back(v);
   }
-  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];
 }
 
 // Contested edges whose two ends were not both split leave two pairs on the same two vertices.

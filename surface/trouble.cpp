@@ -1,6 +1,7 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <optional>
 
@@ -158,11 +159,10 @@ void TroubleFinder::flag_critical_points() {
       const int side = side_of_saddle(corners, isovalue, saddle);
       if (side != 0) check(cell, saddle.uvw, side > 0, *component);
     }
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const CellIndex offset{static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1),
-                             static_cast<int>(corner >> 2)};
-      if (!is_critical_sample(grid_, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]})) continue;
-      const Vec3 uvw{static_cast<double>(offset[0]), static_cast<double>(offset[1]), static_cast<double>(offset[2])};
+    for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
+      const auto corner = static_cast<unsigned>(std::countr_zero(critical));
+      const Vec3 uvw{static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u),
+                     static_cast<double>(corner >> 2)};
       check(cell, uvw, corners[corner] > isovalue, *component);
     }
   });
