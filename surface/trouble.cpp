@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "surface/evidence.h"
+#include "surface/sample_locator.h"
 #include "volume/critical_points.h"
 
 namespace deliso {
@@ -144,9 +145,9 @@ void TroubleFinder::flag_critical_points() {
   const double isovalue = restricted_.isosurface().isovalue();
   std::vector<CriticalPoint> saddles;
   TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
-  const auto check = [&](const CellIndex& cell, const Vec3& uvw, bool above, std::uint32_t component) {
-    const Vec3 p = to_mesh_space({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z});
-    hint = restricted_.locate(p, hint);
+  SampleLocator locator(restricted_, grid_);
+  const auto check = [&](const Vec3& p, TetId holds_p, bool above, std::uint32_t component) {
+    hint = holds_p;
     if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
   };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
@@ -157,13 +158,16 @@ void TroubleFinder::flag_critical_points() {
     append_critical_points(corners, saddles);
     for (const CriticalPoint& saddle : saddles) {
       const int side = side_of_saddle(corners, isovalue, saddle);
-      if (side != 0) check(cell, saddle.uvw, side > 0, *component);
+      if (side == 0) continue;
+      const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
+      check(p, restricted_.locate(p, hint), side > 0, *component);
     }
     for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
       const auto corner = static_cast<unsigned>(std::countr_zero(critical));
-      const Vec3 uvw{static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u),
-                     static_cast<double>(corner >> 2)};
-      check(cell, uvw, corners[corner] > isovalue, *component);
+      const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
+                             cell[2] + static_cast<int>(corner >> 2)};
+      const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
+      check(to_mesh_space(p), locator.locate(sample, hint), corners[corner] > isovalue, *component);
     }
   });
 }
