@@ -102,13 +102,12 @@ void UnfoundedPockets::look_at(TetId seed) {
   }
 }
 
-std::int64_t overturn_unfounded_signs(SignedDelaunay& restricted, const ScalarGrid& grid) {
-  UnfoundedPockets unfounded(restricted, grid);
-  unfounded.update();
-  for (const auto& pocket : unfounded.pockets()) {
+std::int64_t UnfoundedPockets::overturn(SignedDelaunay& restricted) {
+  update();
+  for (const auto& pocket : pockets_) {
     for (const TetId t : pocket) restricted.overturn_sign(t);
   }
-  return static_cast<std::int64_t>(unfounded.pockets().size());
+  return static_cast<std::int64_t>(pockets_.size());
 }
 
 }  // namespace deliso

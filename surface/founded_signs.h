@@ -20,6 +20,9 @@ class UnfoundedPockets {
 
   // Finds the sets for the signs as they stand; looks only around those that have changed since the last update.
   void update();
+  // Finds the sets and turns the signs in them over; returns how many there were. `restricted` is that of the
+  // constructor.
+  std::int64_t overturn(SignedDelaunay& restricted);
   [[nodiscard]] const std::vector<std::vector<TetId>>& pockets() const { return pockets_; }
 
  private:
@@ -34,8 +37,5 @@ class UnfoundedPockets {
   std::vector<TetId> flood_;
   std::vector<std::vector<TetId>> pockets_;
 };
-
-// Turns the signs of unfounded pockets over; returns how many there were.
-std::int64_t overturn_unfounded_signs(SignedDelaunay& restricted, const ScalarGrid& grid);
 
 }  // namespace deliso

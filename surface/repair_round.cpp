@@ -29,20 +29,13 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
 
 void RepairRound::take_plain_signs() {
   restricted_->set_signs(at_circumcenters_);
-  overturn_unfounded();
+  unfounded_.overturn(*restricted_);
 }
 
 void RepairRound::take_signs(SignRule rule) {
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_);
   rules_->take_signs(rule, *restricted_);
-  overturn_unfounded();
-}
-
-void RepairRound::overturn_unfounded() {
-  unfounded_.update();
-  for (const auto& pocket : unfounded_.pockets()) {
-    for (const TetId t : pocket) restricted_->overturn_sign(t);
-  }
+  unfounded_.overturn(*restricted_);
 }
 
 std::optional<MatchedMesh> RepairRound::assemble() {

@@ -46,7 +46,6 @@ class RepairRound {
   }
 
  private:
-  void overturn_unfounded();
   void find_missing_parts(MatchedMesh& mesh) const;
 
   const ScalarGrid& grid_;
