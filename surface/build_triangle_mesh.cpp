@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "delaunay/base/check.h"
@@ -31,11 +32,11 @@ class DisjointSets {
 
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}
+  explicit MeshBuilder(const FacetPairing& pairing)
+      : pairing_(pairing), restricted_(pairing.restricted()), delaunay_(restricted_.delaunay()) {}
 
   BuiltMesh build() {
     collect_triangles();
-    pair_sides();
     name_vertices();
     subdivide_shared_edges();
     group_copies();
@@ -44,12 +45,9 @@ class MeshBuilder {
 
  private:
   void collect_triangles();
-  void pair_sides();
   void name_vertices();
   void subdivide_shared_edges();
 
-  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId a, VertexId b) const;
-  [[nodiscard]] FacetId partner(std::uint32_t triangle, unsigned corner, bool& contested) const;
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<Vec3> places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const;
   Copy subdivide(TriangleSide side);
@@ -58,84 +56,29 @@ class MeshBuilder {
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
   void group_copies();
 
+  const FacetPairing& pairing_;
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   BuiltMesh built_;
   SurfaceMesh& mesh_ = built_.mesh;
-  std::vector<FacetId> facets_;                                 // of each triangle, seen from the tetrahedron above
-  std::vector<std::uint32_t> triangle_of_;                      // of each facet seen from above: its triangle
   std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
 // One triangle for each restricted facet, counterclockwise seen from below.
 void MeshBuilder::collect_triangles() {
-  triangle_of_.assign(4 * delaunay_.tet_slots(), kNoSide);
-  for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) {
-    const TetId t(i);
-    if (!delaunay_.is_live(t) || !restricted_.is_above(t)) continue;
-    for (unsigned face = 0; face < 4; ++face) {
-      const FacetId f(t, face);
-      if (!restricted_.is_restricted(f)) continue;
-      const auto& slots = kFacetSlots[face];
-      const std::array<VertexId, 3> v = {delaunay_.vertices(t)[slots[0]], delaunay_.vertices(t)[slots[1]],
-                                         delaunay_.vertices(t)[slots[2]]};
-      if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) continue;
-      triangle_of_[f.value] = static_cast<std::uint32_t>(mesh_.triangles.size());
-      facets_.push_back(f);
-      mesh_.triangles.push_back({v[0].value, v[1].value, v[2].value});
-    }
-  }
-}
-
-// From a restricted facet, rotate about its edge ab through the tetrahedra of one sign, f's own, to the next restricted
-// facet; both are seen from inside that sector.
-FacetId MeshBuilder::next_restricted_facet(FacetId f, VertexId a, VertexId b) const {
-  for (;;) {
-    const auto& v = delaunay_.vertices(f.tet());
-    unsigned other = f.face();  // the other facet at ab lies opposite the vertex of f that is neither a nor b
-    for (unsigned slot = 0; slot < 4; ++slot) {
-      if (slot != f.face() && v[slot] != a && v[slot] != b) other = slot;
-    }
-    const FacetId g(f.tet(), other);
-    if (restricted_.is_restricted(g)) return g;
-    f = delaunay_.mirror(g);
-  }
-}
-
-// The facet paired with the triangle across the edge opposite `corner`, seen from above.
-FacetId MeshBuilder::partner(std::uint32_t triangle, unsigned corner, bool& contested) const {
-  const FacetId f = facets_[triangle];
-  const VertexId a(mesh_.triangles[triangle][(corner + 1) % 3]);
-  const VertexId b(mesh_.triangles[triangle][(corner + 2) % 3]);
-  const FacetId around_above = next_restricted_facet(f, a, b);
-  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(f), a, b));
-  contested = around_above != around_below;
-  if (!contested) return around_above;
-  const bool middle_above = restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)));
-  return middle_above ? around_below : around_above;
-}
-
-void MeshBuilder::pair_sides() {
-  mesh_.neighbours.assign(mesh_.triangles.size(), {kNoSide, kNoSide, kNoSide});
-  for (std::uint32_t triangle = 0; triangle < mesh_.triangles.size(); ++triangle) {
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      bool contested = false;
-      const FacetId f = partner(triangle, corner, contested);
-      const std::uint32_t across = triangle_of_[f.value];
-      if (across != kNoSide) {
-        // Our edge runs the other way over there.
-        const std::uint32_t from = mesh_.triangles[triangle][(corner + 1) % 3];
-        const std::uint32_t to = mesh_.triangles[triangle][(corner + 2) % 3];
-        for (unsigned i = 0; i < 3; ++i) {
-          const auto& there = mesh_.triangles[across];
-          if (there[(i + 1) % 3] == to && there[(i + 2) % 3] == from) {
-            mesh_.neighbours[triangle][corner] = 4 * across + i;
-          }
-        }
-        DELISO_CHECK(mesh_.neighbours[triangle][corner] != kNoSide, "paired facets must share an edge");
+  const std::span<const PairedFacet> facets = pairing_.facets();
+  mesh_.triangles.reserve(facets.size());
+  mesh_.neighbours.assign(facets.size(), {kNoSide, kNoSide, kNoSide});
+  for (std::uint32_t t = 0; t < facets.size(); ++t) {
+    const auto& v = facets[t].vertices;
+    mesh_.triangles.push_back({v[0].value, v[1].value, v[2].value});
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t across = facets[t].across[i];
+      if (across != PairedFacet::kUnpaired) {
+        mesh_.neighbours[t][i] = 4 * pairing_.place_of(FacetId(across >> 2)) + (across & 3u);
       }
-      if (contested) contested_sides_.push_back(4 * triangle + corner);
+      if (facets[t].contested[i]) contested_sides_.push_back(4 * t + i);
     }
   }
 }
@@ -153,23 +96,32 @@ void MeshBuilder::name_vertices() {
       corners.join(3 * t + (i + 2) % 3, 3 * s + (j + 1) % 3);
     }
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> classes;  // (vertex of the triangulation, representing corner)
+  // A vertex for each class, in order of (vertex of the triangulation, representing corner).
+  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // name of each vertex's first class, moved on
+  std::uint32_t count = 0;
   for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-    if (corners.find(c) == c) classes.emplace_back(mesh_.triangles[c / 3][c % 3], c);
+    if (corners.find(c) != c) continue;
+    ++first[mesh_.triangles[c / 3][c % 3] + 1];
+    ++count;
   }
-  std::sort(classes.begin(), classes.end());
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
   std::vector<std::uint32_t> name(3 * mesh_.triangles.size());
-  for (const auto& [vertex, corner] : classes) {
-    name[corner] = static_cast<std::uint32_t>(mesh_.points.size());
-    mesh_.points.push_back(delaunay_.point(VertexId(vertex)));
-    built_.vertex_of.emplace_back(vertex);
+  mesh_.points.resize(count);
+  built_.vertex_of.resize(count);
+  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
+    if (corners.find(c) == c) {
+      const VertexId vertex(mesh_.triangles[c / 3][c % 3]);
+      name[c] = first[vertex.index()]++;
+      mesh_.points[name[c]] = delaunay_.point(vertex);
+      built_.vertex_of[name[c]] = vertex;
+    }
+    mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];  // a class is named before its other corners
   }
   for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
     if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
     if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
     built_.copies.push_back(v);
   }
-  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];
 }
 
 // Contested edges whose two ends were not both split leave two pairs on the same two vertices.
@@ -306,6 +258,10 @@ void MeshBuilder::group_copies() {
 
 }  // namespace
 
-BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) { return MeshBuilder(restricted).build(); }
+BuiltMesh build_triangle_mesh(const FacetPairing& pairing) { return MeshBuilder(pairing).build(); }
+
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) {
+  return build_triangle_mesh(FacetPairing(restricted));
+}
 
 }  // namespace deliso

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "surface/facet_pairing.h"
 #include "surface/separate_copies.h"
 #include "surface/signed_delaunay.h"
 #include "surface/surface_mesh.h"
@@ -16,12 +17,11 @@ struct BuiltMesh {
   std::vector<CopyGroup> groups;      // of copies, and of vertices on the same subdivided edge
 };
 
-// The restricted facets bound the tetrahedra above the isovalue, so around every edge their number is even. Where it is
-// more than two the surface touches itself; the facets are then paired by side: around the sectors whose sign is not
-// that of the field at the edge's midpoint, so that the side which holds the midpoint stays connected. A vertex is
-// given once for each fan of paired triangles. An edge that two pairs still share afterwards
-// is subdivided in each of them. The result is a manifold with boundary, oriented, by construction. Vertices
-// without triangles are left out. It touches itself at the copies until separate_copies has moved them apart.
+// From the paired facets (facet_pairing.h). A vertex is given once for each fan of paired triangles. An edge that two
+// pairs still share afterwards is subdivided in each of them. The result is a manifold with boundary, oriented, by
+// construction. Vertices without triangles are left out. It touches itself at the copies until separate_copies has
+// moved them apart.
+BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted);
 
 }  // namespace deliso

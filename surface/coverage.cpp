@@ -29,6 +29,64 @@ std::vector<Box3> boxes_of(const SurfaceMesh& mesh) {
   return boxes;
 }
 
+// Whether a triangle's corners lie within `length` of each other and its circumradius is below twice that; may say no.
+bool is_small(const SurfaceMesh& mesh, std::uint32_t t, double length) {
+  const auto& v = mesh.triangles[t];
+  const Vec3 ab = mesh.points[v[1]] - mesh.points[v[0]];
+  const Vec3 ac = mesh.points[v[2]] - mesh.points[v[0]];
+  const std::array<double, 3> squared = {squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)};
+  if (*std::max_element(squared.begin(), squared.end()) > length * length) return false;
+  // The circumradius is the product of the sides over four times the area.
+  return squared[0] * squared[1] * squared[2] < 3.9 * 4 * length * length * squared_norm(cross(ab, ac));
+}
+
+// The blocks of space near some points: a cheap way to see that a small triangle is far from all of them.
+class NearBlocks {
+ public:
+  explicit NearBlocks(const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) box_.extend(p);
+    const Vec3 sides = box_.high - box_.low;
+    side_ = std::max(kBlock, std::max({sides.x, sides.y, sides.z}) / kMostBlocks);
+    for (std::size_t axis = 0; axis < 3; ++axis) dims_[axis] = block_of(box_.high, axis) + 2;
+    is_near_.assign(static_cast<std::size_t>(dims_[0] * dims_[1] * dims_[2]), false);
+    for (const Vec3& p : points) {
+      const std::array<std::int64_t, 3> at = {block_of(p, 0), block_of(p, 1), block_of(p, 2)};
+      for (std::int64_t k = at[2] - 1; k <= at[2] + 1; ++k) {
+        for (std::int64_t j = at[1] - 1; j <= at[1] + 1; ++j) {
+          for (std::int64_t i = at[0] - 1; i <= at[0] + 1; ++i) is_near_[place(i, j, k)] = true;
+        }
+      }
+    }
+  }
+
+  // Points within this distance along each axis of one that is not near any are none of those given.
+  [[nodiscard]] double reach() const { return side_; }
+  [[nodiscard]] bool is_near(const Vec3& p) const {
+    const std::array<std::int64_t, 3> at = {block_of(p, 0), block_of(p, 1), block_of(p, 2)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (at[axis] < 0 || at[axis] >= dims_[axis]) return false;
+    }
+    return is_near_[place(at[0], at[1], at[2])];
+  }
+
+ private:
+  static constexpr double kBlock = 4;
+  static constexpr double kMostBlocks = 256;  // along an axis
+
+  // Block 0 is a margin, and so is the last one.
+  [[nodiscard]] std::int64_t block_of(const Vec3& p, std::size_t axis) const {
+    return static_cast<std::int64_t>(std::clamp(std::floor((p[axis] - box_.low[axis]) / side_), -2.0, 1e6)) + 1;
+  }
+  [[nodiscard]] std::size_t place(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return static_cast<std::size_t>(i + dims_[0] * (j + dims_[1] * k));
+  }
+
+  Box3 box_;
+  double side_ = kBlock;
+  std::array<std::int64_t, 3> dims_{};
+  std::vector<bool> is_near_;
+};
+
 double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
   const auto& v = mesh.triangles[t];
   return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
@@ -67,7 +125,10 @@ std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceM
   std::vector<Box3> boxes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) boxes[i].extend(points[i]);
   const BoxTree tree(boxes);
+  const NearBlocks blocks(points);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    // A corner far from all points tells of a small triangle: sides and reach together stay within a block.
+    if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && is_small(mesh, t, blocks.reach() / 3)) continue;
     if (!takes(t)) continue;
     const auto& v = mesh.triangles[t];
     const double radius = circumradius(mesh, t);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "delaunay/predicates.h"
+#include "surface/sample_locator.h"
 #include "volume/critical_points.h"
 #include "volume/exact_topology_cell.h"
 
@@ -20,6 +21,7 @@ class Collector {
       : restricted_(restricted),
         delaunay_(restricted.delaunay()),
         grid_(grid),
+        locator_(restricted, grid),
         sides_(delaunay_.tet_slots(), kNoEvidence),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
@@ -29,9 +31,10 @@ class Collector {
  private:
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
-  void follow(const Vec3& a, const Vec3& b, std::uint8_t side);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   TetId note(const Vec3& p, std::uint8_t side);
+  TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
+  void note_located(const Vec3& p, std::uint8_t side);
   [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
     return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
   }
@@ -42,6 +45,7 @@ class Collector {
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
+  SampleLocator locator_;
   std::vector<std::uint8_t> sides_;
   TetId hint_;
   std::vector<CriticalPoint> critical_;
@@ -63,7 +67,9 @@ void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners)
       if ((corner & axis) != 0) continue;
       const std::uint8_t side = side_of(corners[corner]);
       if (side != side_of(corners[corner | axis])) continue;
-      follow(place(cell, corner_place(corner)), place(cell, corner_place(corner | axis)), side);
+      const TetId at_a = note_corner(cell, corner, side);
+      const TetId at_b = note_corner(cell, corner | axis, side);
+      follow(place(cell, corner_place(corner)), at_a, place(cell, corner_place(corner | axis)), at_b, side);
     }
   }
 }
@@ -82,15 +88,12 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
     for (const int corner : face_corners(c.face)) {
       const double value = corners[static_cast<std::size_t>(corner)];
       if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
-        follow(p, place(cell, corner_place(static_cast<unsigned>(corner))), side);
+        const TetId at_p = note(p, side);
+        const TetId at_corner = note_corner(cell, static_cast<unsigned>(corner), side);
+        follow(p, at_p, place(cell, corner_place(static_cast<unsigned>(corner))), at_corner, side);
       }
     }
   }
-}
-
-void Collector::follow(const Vec3& a, const Vec3& b, std::uint8_t side) {
-  const TetId at_a = note(a, side);
-  follow(a, at_a, b, note(b, side), side);
 }
 
 // Halves the segment until both ends lie in one tetrahedron.
@@ -102,11 +105,23 @@ void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std
   follow(middle, at_middle, b, at_b, side);
 }
 
-// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on.
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
   hint_ = restricted_.locate(p, hint_);
+  note_located(p, side);
+  return hint_;
+}
+
+TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
+  const auto bit = [corner](unsigned axis) { return static_cast<std::int32_t>(corner >> axis & 1u); };
+  hint_ = locator_.locate({cell[0] + bit(0), cell[1] + bit(1), cell[2] + bit(2)}, hint_);
+  note_located(place(cell, corner_place(corner)), side);
+  return hint_;
+}
+
+// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on.
+void Collector::note_located(const Vec3& p, std::uint8_t side) {
   sides_[hint_.index()] |= side;
-  if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return hint_;
+  if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return;
   const auto& v = delaunay_.vertices(hint_);
   for (unsigned face = 0; face < 4; ++face) {
     const TetId across = delaunay_.neighbour(hint_, face);
@@ -116,7 +131,6 @@ TetId Collector::note(const Vec3& p, std::uint8_t side) {
       sides_[across.index()] |= side;
     }
   }
-  return hint_;
 }
 
 }  // namespace

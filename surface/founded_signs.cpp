@@ -50,34 +50,64 @@ bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId 
 
 }  // namespace
 
-std::int64_t overturn_unfounded_signs(SignedDelaunay& restricted, const ScalarGrid& grid) {
-  const Tetrahedralization& delaunay = restricted.delaunay();
-  std::vector<bool> seen(delaunay.tet_slots(), false);
-  std::vector<TetId> pocket;
-  std::vector<TetId> unfounded;
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-    if (seen[i] || !delaunay.is_live(TetId(i))) continue;
-    // The face-connected set of tetrahedra of one sign.
-    pocket.assign(1, TetId(i));
-    seen[i] = true;
-    bool has_ghost = false;
-    for (std::size_t at = 0; at < pocket.size(); ++at) {
-      has_ghost |= delaunay.is_ghost(pocket[at]);
-      for (unsigned face = 0; face < 4; ++face) {
-        const TetId next = delaunay.neighbour(pocket[at], face);
-        if (seen[next.index()] || restricted.is_above(next) != restricted.is_above(pocket[at])) continue;
-        seen[next.index()] = true;
-        pocket.push_back(next);
-      }
-    }
-    if (has_ghost || pocket.size() > kLargestPocket) continue;
-    if (std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return is_founded(restricted, grid, t); })) continue;
-    unfounded.insert(unfounded.end(), pocket.begin(), pocket.end());
-    ++count;
+UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid)
+    : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid) {}
+
+void UnfoundedPockets::update() {
+  state_.assign(delaunay_.tet_slots(), State::kUnseen);
+  if (signs_.empty()) {
+    signs_ = restricted_.signs();
+    for (std::size_t i = 0; i < signs_.size(); ++i) look_at(TetId(i));
+    return;
   }
-  for (const TetId t : unfounded) restricted.overturn_sign(t);
-  return count;
+  std::vector<bool> touched(signs_.size(), false);
+  std::vector<TetId> seeds;
+  for (std::size_t i = 0; i < signs_.size(); ++i) {
+    const TetId t(i);
+    if (signs_[i] == restricted_.is_above(t)) continue;
+    signs_[i] = !signs_[i];
+    seeds.push_back(t);
+    for (unsigned face = 0; face < 4; ++face) seeds.push_back(delaunay_.neighbour(t, face));
+  }
+  for (const TetId t : seeds) touched[t.index()] = true;
+  std::erase_if(pockets_, [&](const std::vector<TetId>& pocket) {
+    return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });
+  });
+  for (const TetId t : seeds) look_at(t);
+}
+
+// Floods the face-connected set of tetrahedra of one sign around a seed, until it turns out to be left alone.
+void UnfoundedPockets::look_at(TetId seed) {
+  if (state_[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return;
+  std::vector<TetId>& flood = flood_;
+  flood.assign(1, seed);
+  state_[seed.index()] = State::kPocket;
+  bool is_pocket = true;
+  for (std::size_t at = 0; at < flood.size() && is_pocket; ++at) {
+    is_pocket = !delaunay_.is_ghost(flood[at]);
+    for (unsigned face = 0; face < 4 && is_pocket; ++face) {
+      const TetId next = delaunay_.neighbour(flood[at], face);
+      State& state = state_[next.index()];
+      if (restricted_.is_above(next) != restricted_.is_above(seed) || state == State::kPocket) continue;
+      is_pocket = state == State::kUnseen && flood.size() < kLargestPocket;
+      if (!is_pocket) break;
+      state = State::kPocket;
+      flood.push_back(next);
+    }
+  }
+  if (!is_pocket) {
+    for (const TetId t : flood) state_[t.index()] = State::kLeftAlone;
+  } else if (std::none_of(flood.begin(), flood.end(), [&](TetId t) { return is_founded(restricted_, grid_, t); })) {
+    pockets_.push_back(flood);
+  }
+}
+
+std::int64_t UnfoundedPockets::overturn(SignedDelaunay& restricted) {
+  update();
+  for (const auto& pocket : pockets_) {
+    for (const TetId t : pocket) restricted.overturn_sign(t);
+  }
+  return static_cast<std::int64_t>(pockets_.size());
 }
 
 }  // namespace deliso

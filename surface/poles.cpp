@@ -32,6 +32,10 @@ double pole_height(const std::array<double, 2>& squared, double most, PoleHeight
 }  // namespace
 
 std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule) {
+  return compute_poles(restricted, std::vector<bool>(restricted.delaunay().vertex_count(), true), rule);
+}
+
+std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule) {
   const Tetrahedralization& delaunay = restricted.delaunay();
 
   // All four vertices of a tetrahedron are equally far from its Voronoi vertex; that of a ghost lies at infinity.
@@ -40,6 +44,8 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight r
     const TetId t(i);
     if (!delaunay.is_live(t)) continue;
     const auto& v = delaunay.vertices(t);
+    if (std::none_of(v.begin(), v.end(), [&](VertexId q) { return q != kInfiniteVertex && wanted[q.index()]; }))
+      continue;
     double squared_radius = std::numeric_limits<double>::infinity();
     if (!delaunay.is_ghost(t)) {
       const Vec3 center =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "volume/marching_cubes.h"
 
@@ -9,30 +10,36 @@ namespace deliso {
 
 namespace {
 
-// Neighbours of the triangles of a manifold mesh: sides with the same two ends, one run each way.
+// Neighbours of the triangles of a manifold mesh: sides with the same two ends, one run each way. Sides are put in
+// buckets by their lower end.
 void link_sides(SurfaceMesh& mesh) {
-  struct Side {
-    std::uint32_t low, high;
-    TriangleSide side;
+  const auto ends = [&](TriangleSide side) {
+    const auto& v = mesh.triangles[side >> 2];
+    return std::minmax(v[((side & 3u) + 1) % 3], v[((side & 3u) + 2) % 3]);
   };
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3]});
-      sides.push_back({low, high, 4 * t + i});
+  const auto for_each_side = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) visit(4 * t + i);
     }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.side < b.side;
+  };
+  std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // of each bucket, moved on as it is filled
+  for_each_side([&](TriangleSide side) { ++first[ends(side).first + 2]; });
+  for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+  std::vector<std::pair<std::uint32_t, TriangleSide>> sides(3 * mesh.triangles.size());  // (higher end, side)
+  for_each_side([&](TriangleSide side) {
+    const auto [low, high] = ends(side);
+    sides[first[low + 1]++] = {high, side};
   });
   mesh.neighbours.assign(mesh.triangles.size(), {kNoSide, kNoSide, kNoSide});
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    const Side& a = sides[i - 1];
-    const Side& b = sides[i];
-    if (a.low != b.low || a.high != b.high) continue;
-    mesh.neighbours[a.side >> 2][a.side & 3u] = b.side;
-    mesh.neighbours[b.side >> 2][b.side & 3u] = a.side;
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    std::sort(sides.begin() + first[v], sides.begin() + first[v + 1]);
+    for (std::size_t i = first[v] + 1; i < first[v + 1]; ++i) {
+      const auto& [a_high, a] = sides[i - 1];
+      const auto& [b_high, b] = sides[i];
+      if (a_high != b_high) continue;
+      mesh.neighbours[a >> 2][a & 3u] = b;
+      mesh.neighbours[b >> 2][b & 3u] = a;
+    }
   }
 }
 

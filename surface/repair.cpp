@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
-#include "surface/coverage.h"
-#include "surface/founded_signs.h"
 #include "surface/poles.h"
 #include "surface/polygonized_components.h"
 #include "surface/raised_cells.h"
+#include "surface/repair_round.h"
 #include "surface/sample_lattice.h"
+#include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
 #include "surface/sweep_difference.h"
 #include "surface/trouble.h"
@@ -41,9 +40,9 @@ class Repair {
         isosurface_(restricted->isosurface()),
         topology_(topology),
         stats_(stats),
-        restricted_(std::move(restricted)),
         lattice_(grid, isosurface_.isovalue(), topology),
         raised_(grid, isosurface_),
+        round_(std::in_place, grid, topology, raised_, std::move(restricted)),
         done_(topology.components.size(), false),
         best_(topology.components.size(), Agreement::kNone) {}
 
@@ -55,18 +54,24 @@ class Repair {
     std::uint64_t key = 0;  // of a lattice sample; 0 for a free one
   };
 
+  struct KeptMesh {
+    std::shared_ptr<MatchedMesh> mesh;
+    std::vector<bool> signs;  // that it was made with; empty once it has its pole heights
+  };
+
   void take_samples();
   void resample();
   void triangulate();
-  void look_around();
   bool try_rule(SignRule rule);
   void try_rules();
-  MatchedMesh assemble();
-  void find_missing_parts(MatchedMesh& mesh);
-  [[nodiscard]] std::uint32_t component_at(const Vec3& p) const;
   std::vector<Places> places_of_difference(std::int32_t round);
   const PolygonizedSurface& polygonized();
-  void keep(const MatchedMesh& mesh);
+  void keep();
+  void drop_outdone();
+  void give_poles();
+  [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
+    return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
+  }
   SurfaceMesh assemble_kept();
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
@@ -76,47 +81,46 @@ class Repair {
   const Isosurface& isosurface_;
   const IsosurfaceTopology& topology_;
   RepairStats& stats_;
-  std::unique_ptr<SignedDelaunay> restricted_;
   SampleLattice lattice_;
   RaisedCells raised_;
-  std::vector<bool> at_circumcenters_;              // signs, by slot of the tetrahedron
-  std::vector<std::uint32_t> component_of_vertex_;  // of the triangulation
+  std::optional<RepairRound> round_;
   std::vector<Sample> samples_;
-  MatchedMesh mesh_;             // the latest
-  std::vector<bool> done_;       // of each exact component: needs no more work
-  std::vector<Agreement> best_;  // of each: the best, kWithStrays at most, reached by some mesh in history_
+  std::shared_ptr<MatchedMesh> mesh_;  // the latest
+  std::vector<bool> done_;             // of each exact component: needs no more work
+  std::vector<Agreement> best_;        // of each: the best, kWithStrays at most, reached by some mesh in history_
   std::optional<PolygonizedSurface> polygonized_;  // made when first needed
-  std::vector<MatchedMesh> history_;               // meshes that brought a component further
+  std::vector<KeptMesh> history_;                  // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   take_samples();
-  look_around();
-  overturn_unfounded_signs(*restricted_, grid_);
-  mesh_ = assemble();
-  stats_.vertices_before = static_cast<std::int64_t>(mesh_.built.mesh.points.size());
-  stats_.components_before = std::count_if(mesh_.match.agreement.begin(), mesh_.match.agreement.end(),
+  round_->take_plain_signs();
+  mesh_ = std::make_shared<MatchedMesh>(round_->assemble().value());
+  stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
+  stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
-  keep(mesh_);
+  keep();
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
-    controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_.match.error));
-    raised_.raise(cells_in_trouble(
-        {grid_, topology_, *restricted_, mesh_, raised_, component_of_vertex_, done_, places_of_difference(round)}));
+    controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
+    raised_.raise(
+        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
+                          places_of_difference(round), round_->evidence()}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
     try_rules();
     stats_.rounds = round;
   }
+  give_poles();
   SurfaceMesh kept = assemble_kept();
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
 }
 
 void Repair::take_samples() {
-  const auto& points = restricted_->delaunay().points();
+  const auto& points = round_->restricted().delaunay().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!restricted_->is_virtual(VertexId(i))) samples_.push_back({points[i], 0});
+    if (!round_->restricted().is_virtual(VertexId(i))) samples_.push_back({points[i], 0});
   }
 }
 
@@ -145,100 +149,44 @@ void Repair::triangulate() {
   std::vector<Vec3> points;
   points.reserve(samples_.size());
   for (const Sample& sample : samples_) points.push_back(sample.point);
-  restricted_.reset();
-  restricted_ = std::make_unique<SignedDelaunay>(isosurface_, points);
-  look_around();
-}
-
-// What all rules need of a new triangulation.
-void Repair::look_around() {
-  at_circumcenters_ = restricted_->signs();
-  const Tetrahedralization& delaunay = restricted_->delaunay();
-  component_of_vertex_.assign(delaunay.vertex_count(), 0);
-  for (std::size_t i = 0; i < component_of_vertex_.size(); ++i) {
-    if (!restricted_->is_virtual(VertexId(i))) component_of_vertex_[i] = component_at(delaunay.point(VertexId(i)));
-  }
+  give_poles();
+  round_.reset();
+  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points));
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
 bool Repair::try_rule(SignRule rule) {
-  take_signs(*restricted_, grid_, raised_, at_circumcenters_, rule);
-  overturn_unfounded_signs(*restricted_, grid_);
-  mesh_ = assemble();
-  keep(mesh_);
+  round_->take_signs(rule);
+  std::optional<MatchedMesh> mesh = round_->assemble();
+  if (!mesh) return false;
+  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
+  keep();
   return is_done();
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules() {
-  MatchedMesh best;
+  std::shared_ptr<MatchedMesh> best;
   std::vector<bool> signs;
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
   for (const SignRule rule : kRules) {
     if (try_rule(rule)) return;
-    if (mesh_.match.error >= least) continue;
-    least = mesh_.match.error;
-    best = std::move(mesh_);
-    signs = restricted_->signs();
+    if (best && mesh_->match.error >= best->match.error) continue;
+    best = mesh_;
+    signs = round_->restricted().signs();
   }
   mesh_ = std::move(best);
-  restricted_->set_signs(signs);
-}
-
-// The mesh and its match with the exact components.
-MatchedMesh Repair::assemble() {
-  MatchedMesh mesh{build_triangle_mesh(*restricted_), {}, {}};
-  for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
-  mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
-  find_missing_parts(mesh);
-  return mesh;
-}
-
-std::uint32_t Repair::component_at(const Vec3& p) const {
-  const Vec3& step = isosurface_.step();
-  const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-  return component_of(grid_, isosurface_.isovalue(), topology_, index_point).value_or(0);
-}
-
-// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
-// tell: each must have one of their triangles near.
-void Repair::find_missing_parts(MatchedMesh& mesh) {
-  ComponentMatch& match = mesh.match;
-  const auto on_main_piece = [&](std::uint32_t v) {
-    const std::uint32_t piece = match.piece_of[v];
-    return piece != kNoPiece && match.main_piece[match.pieces[piece].component] == piece;
-  };
-  std::vector<bool> used(restricted_->delaunay().vertex_count(), false);
-  for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
-    if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
-  }
-  std::vector<Vec3> left_out;
-  std::vector<std::uint32_t> component;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
-    if (match.agreement[component_of_vertex_[i]] <= Agreement::kPartial) continue;
-    left_out.push_back(restricted_->delaunay().point(VertexId(i)));
-    component.push_back(component_of_vertex_[i]);
-  }
-  const std::vector<bool> covered = covered_points(
-      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
-  for (std::size_t i = 0; i < left_out.size(); ++i) {
-    Agreement& agreement = match.agreement[component[i]];
-    if (covered[i] || agreement == Agreement::kPartial) continue;
-    agreement = Agreement::kPartial;
-    ++match.error;
-  }
+  round_->set_signs(signs);
 }
 
 // Where sweeps along the axes see main pieces part from their components.
 std::vector<Places> Repair::places_of_difference(std::int32_t round) {
   std::vector<Places> places(done_.size());
-  const ComponentMatch& match = mesh_.match;
+  const ComponentMatch& match = mesh_->match;
   for (std::uint32_t c = 0; c < done_.size(); ++c) {
     const std::uint32_t main = match.main_piece[c];
     if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
     auto& layers = places[c].layers;
-    layers = jumps_between({mesh_.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
+    layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
                            {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
                            isosurface_.step(), grid_.dims());
     if (places[c].count() > (round == 1 ? kFewPlaces : kMostPlaces)) places[c] = {};
@@ -251,20 +199,52 @@ const PolygonizedSurface& Repair::polygonized() {
   return *polygonized_;
 }
 
-// Keeps a mesh when some component agrees with it that agreed with no earlier one.
-void Repair::keep(const MatchedMesh& mesh) {
+// Keeps the latest mesh when some component agrees with it that agreed with no earlier one.
+void Repair::keep() {
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (mesh.match.agreement[c] <= best_[c]) continue;
-    best_[c] = std::min(mesh.match.agreement[c], Agreement::kWithStrays);
+    if (mesh_->match.agreement[c] <= best_[c]) continue;
+    best_[c] = std::min(mesh_->match.agreement[c], Agreement::kWithStrays);
     done_[c] = best_[c] == Agreement::kWithStrays;
     helps = true;
   }
   if (!helps) return;
-  history_.push_back(mesh);
-  const std::vector<double> heights = compute_poles(*restricted_);
-  SurfaceMesh& kept = history_.back().built.mesh;
-  for (const VertexId v : mesh.built.vertex_of) kept.pole_heights.push_back(heights[v.index()]);
+  history_.push_back({mesh_, round_->restricted().signs()});
+  drop_outdone();
+}
+
+// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be.
+void Repair::drop_outdone() {
+  std::vector<bool> given(done_.size(), false);
+  for (auto kept = history_.end(); kept != history_.begin();) {
+    --kept;
+    bool gives = false;
+    for (std::size_t c = 0; c < given.size(); ++c) {
+      if (given[c] || !may_give(*kept->mesh, c)) continue;
+      given[c] = gives = true;
+    }
+    if (!gives) kept = history_.erase(kept);
+  }
+}
+
+// Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
+// from them.
+void Repair::give_poles() {
+  for (KeptMesh& kept : history_) {
+    if (kept.signs.empty()) continue;
+    round_->set_signs(kept.signs);
+    kept.signs.clear();
+    BuiltMesh& built = kept.mesh->built;
+    std::vector<bool> wanted(round_->restricted().delaunay().vertex_count(), false);
+    for (std::size_t v = 0; v < built.vertex_of.size(); ++v) {
+      const std::uint32_t piece = kept.mesh->match.piece_of[v];
+      if (piece != kNoPiece && may_give(*kept.mesh, kept.mesh->match.pieces[piece].component)) {
+        wanted[built.vertex_of[v].index()] = true;
+      }
+    }
+    const std::vector<double> heights = compute_poles(round_->restricted(), wanted);
+    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+  }
 }
 
 // Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
@@ -272,11 +252,12 @@ void Repair::keep(const MatchedMesh& mesh) {
 SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
   std::vector<bool> taken(done_.size(), false);
-  for (auto mesh = history_.rbegin(); mesh != history_.rend(); ++mesh) {
+  for (auto at = history_.rbegin(); at != history_.rend(); ++at) {
+    MatchedMesh* const mesh = at->mesh.get();
     const ComponentMatch& match = mesh->match;
     std::vector<bool> wanted(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (taken[c] || best_[c] == Agreement::kNone || match.agreement[c] < best_[c]) continue;
+      if (taken[c] || !may_give(*mesh, c)) continue;
       taken[c] = wanted[match.main_piece[c]] = true;
       stats_.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "surface/self_intersection.h"
 
@@ -24,6 +23,12 @@ constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
 constexpr int kSweeps = 3;
 
+// Whether two closed boxes have a point in common.
+bool meet(const Box3& a, const Box3& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 class Separation {
  public:
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
@@ -32,29 +37,51 @@ class Separation {
   }
 
   void run() {
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    bool moved = true;
+    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+      moved = false;
       for (const CopyGroup& group : groups_) {
         find_surroundings(group);
         for (const Copy& copy : group) {
+          const Vec3 before = mesh_.points[copy.vertex];
           const int now = sweep == 0 ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
           if (now > 0) move(copy, now);
+          moved |= mesh_.points[copy.vertex] != before;
         }
       }
     }
   }
 
  private:
+  // A triangle as it was when last looked at.
+  struct Surrounding {
+    std::uint32_t triangle = 0;
+    Box3 box;
+    bool has_area = false;
+  };
+
   void find_fans();
   void find_surroundings(const CopyGroup& group);
+  void look_again_at(std::uint32_t copy);
   void move(const Copy& copy, int fewest);
   [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy) const;
   [[nodiscard]] Vec3 within_box_face(const Vec3& at, Vec3 d) const;
   [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
-  [[nodiscard]] int conflicts(std::uint32_t copy) const;
+  [[nodiscard]] int conflicts(std::uint32_t copy);
   [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
   [[nodiscard]] const std::vector<std::uint32_t>& fan(std::uint32_t v) const { return fans_.at(origin_of_[v].index()); }
   [[nodiscard]] bool is_around(std::uint32_t t, std::uint32_t v) const {
     return std::find(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v) != mesh_.triangles[t].end();
+  }
+
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
+    Box3 box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
+    return box;
+  }
+  [[nodiscard]] bool has_area_at(std::uint32_t t) const {
+    const auto& v = mesh_.triangles[t];
+    return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
   }
 
   SurfaceMesh& mesh_;
@@ -62,42 +89,54 @@ class Separation {
   std::span<const VertexId> origin_of_;
   const Box3& box_;
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin: triangles around its copies
-  std::vector<std::uint32_t> surroundings_;                           // triangles around the group at hand
+  std::vector<Surrounding> surroundings_;                             // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
 };
 
 // The triangles at all vertices that stand beside a copy.
 void Separation::find_fans() {
-  std::unordered_set<std::uint32_t> copies;
+  if (groups_.empty()) return;
+  std::vector<bool> is_copy(mesh_.points.size(), false);
   for (const CopyGroup& group : groups_) {
     for (const Copy& copy : group) {
-      copies.insert(copy.vertex);
+      is_copy[copy.vertex] = true;
       home_[copy.vertex] = mesh_.points[copy.vertex];
     }
   }
   for (const auto& triangle : mesh_.triangles) {
-    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return copies.contains(v); })) continue;
+    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return is_copy[v]; })) continue;
     for (const std::uint32_t v : triangle) fans_[origin_of_[v].index()];
   }
+  std::vector<bool> has_fan(mesh_.points.size());
+  for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) has_fan[v] = fans_.contains(origin_of_[v].index());
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh_.triangles[t]) {
-      const auto at = fans_.find(origin_of_[v].index());
-      if (at != fans_.end() && (at->second.empty() || at->second.back() != t)) at->second.push_back(t);
+      if (!has_fan[v]) continue;
+      std::vector<std::uint32_t>& fan = fans_[origin_of_[v].index()];
+      if (fan.empty() || fan.back() != t) fan.push_back(t);
     }
   }
 }
 
 void Separation::find_surroundings(const CopyGroup& group) {
-  surroundings_.clear();
+  std::vector<std::uint32_t> triangles;
   for (const Copy& copy : group) {
     for (const std::uint32_t t : fan(copy.vertex)) {
       if (!is_around(t, copy.vertex)) continue;
-      for (const std::uint32_t v : mesh_.triangles[t])
-        surroundings_.insert(surroundings_.end(), fan(v).begin(), fan(v).end());
+      for (const std::uint32_t v : mesh_.triangles[t]) triangles.insert(triangles.end(), fan(v).begin(), fan(v).end());
     }
   }
-  std::sort(surroundings_.begin(), surroundings_.end());
-  surroundings_.erase(std::unique(surroundings_.begin(), surroundings_.end()), surroundings_.end());
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  surroundings_.clear();
+  for (const std::uint32_t t : triangles) surroundings_.push_back({t, box_of(t), has_area_at(t)});
+}
+
+// A copy may have moved, and the triangles at it with it.
+void Separation::look_again_at(std::uint32_t copy) {
+  for (Surrounding& t : surroundings_) {
+    if (is_around(t.triangle, copy)) t = {t.triangle, box_of(t.triangle), has_area_at(t.triangle)};
+  }
 }
 
 double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
@@ -133,6 +172,7 @@ void Separation::move(const Copy& copy, int fewest) {
     }
   }
   mesh_.points[v] = best;
+  look_again_at(v);
 }
 
 // Directions to try, the most promising first: towards either side of the whole fan; then, for a fan that no direction
@@ -188,21 +228,19 @@ std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const
 
 // Counts pairs of a triangle at this copy and one around its group that meet where they should not. Copies of a
 // neighbouring vertex may still share their place, so touching counts less.
-int Separation::conflicts(std::uint32_t copy) const {
+int Separation::conflicts(std::uint32_t copy) {
+  look_again_at(copy);
   int count = 0;
-  const auto has_area_at = [&](std::uint32_t t) {
-    const auto& v = mesh_.triangles[t];
-    return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
-  };
   for (const std::uint32_t s : fan(copy)) {
     if (!is_around(s, copy)) continue;
     if (!has_area_at(s)) {
       count += kCrossingWeight;
       continue;
     }
-    for (const std::uint32_t t : surroundings_) {
-      if (s == t || !has_area_at(t)) continue;
-      const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t]);
+    const Box3 box = box_of(s);
+    for (const Surrounding& t : surroundings_) {
+      if (s == t.triangle || !meet(box, t.box) || !t.has_area) continue;
+      const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t.triangle]);
       if (contact == TriangleContact::kTouching) ++count;
       if (contact == TriangleContact::kCrossing) count += kCrossingWeight;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "surface/evidence.h"
@@ -53,35 +54,47 @@ bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3
   return false;
 }
 
-// Evidence overrules: a small tetrahedron that segments of one side alone cross takes that side.
-void take_signs_from_evidence(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised) {
-  const std::vector<std::uint8_t> evidence = evidence_in(restricted, grid, raised);
-  for (std::size_t i = 0; i < evidence.size(); ++i) {
-    if (evidence[i] != kAbove && evidence[i] != kBelow) continue;
-    if (restricted.is_above(TetId(i)) == (evidence[i] == kAbove)) continue;
-    if (shape_of(restricted, TetId(i)).is_small) restricted.overturn_sign(TetId(i));
+}  // namespace
+
+SignRules::SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
+                     std::vector<bool> at_circumcenters)
+    : raised_(raised),
+      at_circumcenters_(std::move(at_circumcenters)),
+      evidence_(evidence_in(restricted, grid, raised)) {
+  for (std::size_t i = 0; i < evidence_.size(); ++i) {
+    if (evidence_[i] != kAbove && evidence_[i] != kBelow) continue;
+    if (shape_of(restricted, TetId(i)).is_small) overruled_.emplace_back(TetId(i), evidence_[i] == kAbove);
   }
 }
 
-}  // namespace
-
-void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
-                const std::vector<bool>& at_circumcenters, SignRule rule) {
-  restricted.set_signs(at_circumcenters);
-  const auto zone = raised.zone();
+void SignRules::find_candidates(const SignedDelaunay& restricted) {
+  const auto zone = raised_.zone();
   const Tetrahedralization& delaunay = restricted.delaunay();
   for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
     const TetId t(i);
-    if (!delaunay.is_live(t) || rule == SignRule::kCircumcenter) continue;
+    if (!delaunay.is_live(t)) continue;
     const Shape shape = shape_of(restricted, t);
     if (!shape.is_small) continue;
-    const auto at = zone.find(raised.name(raised.cell_of(shape.centroid)));
+    const auto at = zone.find(raised_.name(raised_.cell_of(shape.centroid)));
     if (at == zone.end()) continue;
-    if (rule != SignRule::kCentroidWithRing && at->second == RaisedCells::Zone::kRing) continue;
-    if (rule == SignRule::kCentroidWhereOpposed && !has_opposed_gradients(restricted, t, shape.centroid)) continue;
-    restricted.take_sign_at(t, shape.centroid);
+    const bool in_ring = at->second == RaisedCells::Zone::kRing;
+    candidates_.push_back({t, in_ring, restricted.isosurface().is_above(shape.centroid),
+                           !in_ring && has_opposed_gradients(restricted, t, shape.centroid)});
   }
-  take_signs_from_evidence(restricted, grid, raised);
+  has_candidates_ = true;
+}
+
+void SignRules::take_signs(SignRule rule, SignedDelaunay& restricted) {
+  restricted.set_signs(at_circumcenters_);
+  if (rule != SignRule::kCircumcenter) {
+    if (!has_candidates_) find_candidates(restricted);
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.in_ring && rule != SignRule::kCentroidWithRing) continue;
+      if (!candidate.is_opposed && rule == SignRule::kCentroidWhereOpposed) continue;
+      restricted.set_sign(candidate.tet, candidate.is_above);
+    }
+  }
+  for (const auto& [tet, is_above] : overruled_) restricted.set_sign(tet, is_above);
 }
 
 }  // namespace deliso

@@ -5,6 +5,8 @@
 // everywhere; repair tries them in turn.
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "surface/raised_cells.h"
@@ -19,11 +21,35 @@ enum class SignRule {
   kCircumcenter,
 };
 
-// Gives every tetrahedron its sign by a rule, starting from the signs of the circumcenters (SignedDelaunay::signs, by
-// slot), and then, in raised cells, each tetrahedron that holds a critical
-// point of the interpolant the sign of that point: evidence that no rule may overrule, for where the surface passes a
-// critical point its topology changes.
-void take_signs(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
-                const std::vector<bool>& at_circumcenters, SignRule rule);
+// The rules for one triangulation and the raised cells as they stand. What the rules have in common is found once.
+class SignRules {
+ public:
+  // `at_circumcenters`: the signs that every rule starts from (SignedDelaunay::signs).
+  SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
+            std::vector<bool> at_circumcenters);
+
+  // Gives every tetrahedron its sign by a rule; then each small one that segments of known side cross takes their side:
+  // evidence that no rule may overrule. `restricted` is the triangulation of the constructor.
+  void take_signs(SignRule rule, SignedDelaunay& restricted);
+
+  // What is known of the sides in each tetrahedron (evidence.h).
+  [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_; }
+
+ private:
+  struct Candidate {
+    TetId tet;
+    bool in_ring = false;  // of the raised cells; else in one of them
+    bool is_above = false;
+    bool is_opposed = false;  // gradients at two of the vertices oppose each other
+  };
+  void find_candidates(const SignedDelaunay& restricted);
+
+  const RaisedCells& raised_;
+  std::vector<bool> at_circumcenters_;
+  std::vector<std::uint8_t> evidence_;
+  std::vector<std::pair<TetId, bool>> overruled_;  // small tetrahedra with evidence of one side: whether it is above
+  std::vector<Candidate> candidates_;              // for the sign of their centroid; found when first needed
+  bool has_candidates_ = false;
+};
 
 }  // namespace deliso

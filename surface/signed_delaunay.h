@@ -42,8 +42,8 @@ class SignedDelaunay {
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
   // The tetrahedron that holds p, by a walk from `hint`.
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
-  // Gives a tetrahedron the sign of the field at another point than its circumcenter.
-  void take_sign_at(TetId t, const Vec3& p) { sign_[t.index()] = sign_at(p); }
+  // Gives a tetrahedron another sign than that of the field at its circumcenter.
+  void set_sign(TetId t, bool above) { sign_[t.index()] = above ? Sign::kAbove : Sign::kBelow; }
   // All signs as they stand, by slot of their tetrahedron; and back again.
   [[nodiscard]] std::vector<bool> signs() const {
     std::vector<bool> above(sign_.size());

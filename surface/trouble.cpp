@@ -1,10 +1,12 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <optional>
 
 #include "surface/evidence.h"
+#include "surface/sample_locator.h"
 #include "volume/critical_points.h"
 
 namespace deliso {
@@ -37,6 +39,7 @@ class TroubleFinder {
         component_of_vertex_(context.component_of_vertex),
         done_(context.done),
         places_(context.places),
+        evidence_(context.evidence),
         has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
@@ -79,7 +82,8 @@ class TroubleFinder {
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
-  std::vector<bool> has_sign_;         // of each exact component
+  std::span<const std::uint8_t> evidence_;
+  std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
 };
 
@@ -113,9 +117,8 @@ void TroubleFinder::flag_mesh() {
 // Tetrahedra that reach from one side of the isovalue to the other.
 void TroubleFinder::flag_conflicts() {
   const Tetrahedralization& delaunay = restricted_.delaunay();
-  const std::vector<std::uint8_t> evidence = evidence_in(restricted_, grid_, cells_);
-  for (std::size_t i = 0; i < evidence.size(); ++i) {
-    if (evidence[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
+  for (std::size_t i = 0; i < evidence_.size(); ++i) {
+    if (evidence_[i] != kConflict || delaunay.is_ghost(TetId(i))) continue;
     const auto& v = delaunay.vertices(TetId(i));
     for (unsigned a = 0; a < 4; ++a) {
       for (unsigned b = 0; b <= a; ++b) {
@@ -142,9 +145,9 @@ void TroubleFinder::flag_critical_points() {
   const double isovalue = restricted_.isosurface().isovalue();
   std::vector<CriticalPoint> saddles;
   TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
-  const auto check = [&](const CellIndex& cell, const Vec3& uvw, bool above, std::uint32_t component) {
-    const Vec3 p = to_mesh_space({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z});
-    hint = restricted_.locate(p, hint);
+  SampleLocator locator(restricted_, grid_);
+  const auto check = [&](const Vec3& p, TetId holds_p, bool above, std::uint32_t component) {
+    hint = holds_p;
     if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
   };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
@@ -155,14 +158,16 @@ void TroubleFinder::flag_critical_points() {
     append_critical_points(corners, saddles);
     for (const CriticalPoint& saddle : saddles) {
       const int side = side_of_saddle(corners, isovalue, saddle);
-      if (side != 0) check(cell, saddle.uvw, side > 0, *component);
+      if (side == 0) continue;
+      const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
+      check(p, restricted_.locate(p, hint), side > 0, *component);
     }
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const CellIndex offset{static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1),
-                             static_cast<int>(corner >> 2)};
-      if (!is_critical_sample(grid_, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]})) continue;
-      const Vec3 uvw{static_cast<double>(offset[0]), static_cast<double>(offset[1]), static_cast<double>(offset[2])};
-      check(cell, uvw, corners[corner] > isovalue, *component);
+    for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
+      const auto corner = static_cast<unsigned>(std::countr_zero(critical));
+      const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
+                             cell[2] + static_cast<int>(corner >> 2)};
+      const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
+      check(to_mesh_space(p), locator.locate(sample, hint), corners[corner] > isovalue, *component);
     }
   });
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/build_triangle_mesh.h"
@@ -40,6 +41,7 @@ struct TroubleContext {
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   std::vector<Places> places;                             // of each exact component
+  std::span<const std::uint8_t> evidence;                 // in the raised cells, by slot (evidence.h); may be empty
 };
 
 // The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices

@@ -74,6 +74,18 @@ void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& point
   }
 }
 
+// The neighbours of a sample along the axes: bit 2 axis + direction.
+struct Neighbourhood {
+  std::array<unsigned, 2> sides{};  // those below it, those above
+
+  void add(std::size_t axis, unsigned direction, bool above) { sides[above ? 1 : 0] |= 1u << (2 * axis + direction); }
+  [[nodiscard]] bool is_critical() const {
+    return std::any_of(sides.begin(), sides.end(), [](unsigned side) {
+      return side == 0 || side == 0b11u || side == 0b1100u || side == 0b110000u;
+    });
+  }
+};
+
 }  // namespace
 
 void append_critical_points(const CellCorners& corners, std::vector<CriticalPoint>& points) {
@@ -100,25 +112,31 @@ int side_of_saddle(const CellCorners& corners, double isovalue, const CriticalPo
   return (corner(0) - corner(1)) + (corner(2) - corner(3)) > 0 ? determinant : -determinant;
 }
 
-bool is_critical_sample(const ScalarGrid& grid, const std::array<std::int32_t, 3>& sample) {
-  const double value = grid.at(sample[0], sample[1], sample[2]);
-  std::array<std::size_t, 2> count{};      // neighbours below and above
-  std::array<std::size_t, 2> axis_bits{};  // a bit for each axis that holds one of them; two opposite ones cancel
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const std::int32_t step : {-1, 1}) {
-      std::array<std::int32_t, 3> at = sample;
-      at[axis] += step;
-      if (at[axis] < 0 || at[axis] >= grid.dims()[axis]) continue;
-      const double there = grid.at(at[0], at[1], at[2]);
-      const std::size_t side = there > value || (there == value && step > 0) ? 1 : 0;
-      ++count[side];
-      axis_bits[side] ^= std::size_t{1} << axis;
+unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t, 3>& cell) {
+  return visit_samples(grid.samples(), [&](const auto& samples) {
+    const std::size_t first = grid.index(cell[0], cell[1], cell[2]);
+    const std::array<std::size_t, 3> strides = {1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
+    std::array<Neighbourhood, 8> corners;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t step = strides[axis];
+      const std::size_t u = (axis + 1) % 3;
+      const std::size_t v = (axis + 2) % 3;
+      // Along each of four lines: a sample before the cell, two corners, a sample behind it.
+      for (std::size_t line = 0; line < 4; ++line) {
+        const std::size_t at = first + (line & 1u) * strides[u] + (line >> 1) * strides[v];
+        const std::size_t near = ((line & 1u) << u) | ((line >> 1) << v);
+        const std::size_t far = near | (std::size_t{1} << axis);
+        const bool rises = samples[at] <= samples[at + step];
+        corners[near].add(axis, 1, rises);
+        corners[far].add(axis, 0, !rises);
+        if (cell[axis] > 0) corners[near].add(axis, 0, samples[at - step] > samples[at]);
+        if (cell[axis] + 2 < grid.dims()[axis]) corners[far].add(axis, 1, samples[at + step] <= samples[at + 2 * step]);
+      }
     }
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (count[side] == 0 || (count[side] == 2 && axis_bits[side] == 0)) return true;
-  }
-  return false;
+    unsigned critical = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) critical |= corners[corner].is_critical() ? 1u << corner : 0u;
+    return critical;
+  });
 }
 
 }  // namespace deliso

@@ -24,9 +24,9 @@ void append_critical_points(const CellCorners& corners, std::vector<CriticalPoin
 // body 0 also when rounding could decide.
 int side_of_saddle(const CellCorners& corners, double isovalue, const CriticalPoint& saddle);
 
-// Whether a sample is an extremum or a saddle of the interpolant. Near a sample the interpolant is linear in every
-// octant, so the signs of the differences to the six neighbours decide: those above it (or those below it) are none, or
-// just two opposite ones, which no path around the sample joins. Ties are broken by index.
-bool is_critical_sample(const ScalarGrid& grid, const std::array<std::int32_t, 3>& sample);
+// Which corners of a cell (bit i + 2j + 4k) are extrema or saddles of the interpolant. Near a sample the interpolant is
+// linear in every octant, so the signs of the differences to the six neighbours decide: those above it (or those below
+// it) are none, or just two opposite ones, which no path around the sample joins. Ties are broken by index.
+unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t, 3>& cell);
 
 }  // namespace deliso

@@ -67,6 +67,14 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   }
   EXPECT_GT(covered, 50);
   EXPECT_LT(covered, 1950);
+
+  // A few points have most triangles far from all of them.
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    const std::vector<Vec3> some(points.begin() + static_cast<std::ptrdiff_t>(i),
+                                 points.begin() + static_cast<std::ptrdiff_t>(std::min(i + 1 + i % 2, points.size())));
+    const std::vector<bool> answers = covered_points(some, mesh, takes);
+    for (std::size_t j = 0; j < some.size(); ++j) EXPECT_EQ(answers[j], few[i + j]);
+  }
 }
 
 TEST(Coverage, OrdersAllCrossings) {

@@ -50,7 +50,7 @@ TEST(FoundedSigns, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = dense(*scene);
     const auto before = testing::signs_by_name(restricted);
-    EXPECT_EQ(overturn_unfounded_signs(restricted, scene->grid), 0) << name;
+    EXPECT_EQ(UnfoundedPockets(restricted, scene->grid).overturn(restricted), 0) << name;
     EXPECT_EQ(testing::signs_by_name(restricted), before);
   }
 }
@@ -71,7 +71,7 @@ TEST(FoundedSigns, ALoneTetrahedronWithoutASampleIsTurnedBack) {
     }
     if (!alone || holds_any_sample(*scene, testing::corners_of(delaunay, t), 1e-9)) continue;
     restricted.overturn_sign(t);
-    EXPECT_EQ(overturn_unfounded_signs(restricted, scene->grid), 1) << i;
+    EXPECT_EQ(UnfoundedPockets(restricted, scene->grid).overturn(restricted), 1) << i;
     EXPECT_EQ(testing::signs_by_name(restricted), before) << i;
     if (::testing::Test::HasFailure()) return;
     ++turned;
@@ -99,7 +99,7 @@ TEST(FoundedSigns, ALoneTetrahedronWithASampleOfItsSignStays) {
       has_sample = scene->grid.at(s[0], s[1], s[2]) > scene->isovalue &&
                    holds(testing::corners_of(delaunay, t), {double(s[0]), double(s[1]), double(s[2])}, -1e-9);
     }
-    const std::int64_t count = overturn_unfounded_signs(restricted, scene->grid);
+    const std::int64_t count = UnfoundedPockets(restricted, scene->grid).overturn(restricted);
     if (has_sample) {
       EXPECT_EQ(count, 0);
       EXPECT_TRUE(restricted.is_above(t));
@@ -114,7 +114,7 @@ TEST(FoundedSigns, NoiseEndsAfterFewPassesAndKeepsParity) {
     const auto scene = noise_scene({5, 5, 5}, seed);
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     int passes = 0;
-    while (overturn_unfounded_signs(restricted, scene->grid) > 0 && passes < 20) ++passes;
+    while (UnfoundedPockets(restricted, scene->grid).overturn(restricted) > 0 && passes < 20) ++passes;
     EXPECT_LT(passes, 20) << "seed " << seed;
     EXPECT_EQ(testing::odd_edges(restricted), 0u);
   }

@@ -1,9 +1,11 @@
 // Critical samples against a small sphere around the sample; sides of saddles against rational arithmetic.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/rng.h"
@@ -87,10 +89,58 @@ TEST(CriticalSamples, HaveASphereAroundThemThatTheirLevelDoesNotCutIntoTwoParts)
     samples[13] = static_cast<float>(rng.below(8)) * 10 + 6;
     const ScalarGrid grid({3, 3, 3}, std::move(samples));
     const bool expected = parts_around_middle(grid, true) != 1 || parts_around_middle(grid, false) != 1;
-    ASSERT_EQ(is_critical_sample(grid, {1, 1, 1}), expected) << "trial " << trial;
+    for (int corner = 0; corner < 8; ++corner) {  // of the cells around it
+      const unsigned corners = critical_corners(grid, {1 - (corner & 1), 1 - (corner >> 1 & 1), 1 - (corner >> 2)});
+      ASSERT_EQ((corners >> corner & 1u) != 0, expected) << "trial " << trial << ", corner " << corner;
+    }
     critical += expected ? 1 : 0;
   }
   EXPECT_GT(critical, 20);
+}
+
+// Whether a sample is critical, from its neighbours one by one; higher index wins ties.
+bool is_critical(const ScalarGrid& grid, const std::array<std::int32_t, 3>& sample) {
+  const auto rank = [&](const std::array<std::int32_t, 3>& s) {
+    return std::make_pair(grid.at(s[0], s[1], s[2]), grid.index(s[0], s[1], s[2]));
+  };
+  std::array<std::vector<std::array<int, 3>>, 2> sides;  // directions of the neighbours below and above
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 1}) {
+      std::array<std::int32_t, 3> at = sample;
+      at[axis] += step;
+      if (at[axis] < 0 || at[axis] >= grid.dims()[axis]) continue;
+      std::array<int, 3> direction{};
+      direction[axis] = step;
+      sides[rank(at) > rank(sample) ? 1 : 0].push_back(direction);
+    }
+  }
+  return std::any_of(sides.begin(), sides.end(), [](const auto& side) {
+    return side.empty() ||
+           (side.size() == 2 && side[0][0] == -side[1][0] && side[0][1] == -side[1][1] && side[0][2] == -side[1][2]);
+  });
+}
+
+TEST(CriticalSamples, AreToldByTheirNeighboursAlsoOnTheBorderAndWithTies) {
+  for (const Dims& dims : {Dims{6, 5, 4}, Dims{2, 2, 2}, Dims{2, 7, 3}}) {
+    Rng rng(17);
+    std::vector<std::uint8_t> samples(static_cast<std::size_t>(dims[0] * dims[1] * dims[2]));
+    for (std::uint8_t& sample : samples) sample = static_cast<std::uint8_t>(rng.below(4));
+    const ScalarGrid grid(dims, std::move(samples));
+    int critical = 0;
+    for (std::int32_t k = 0; k + 1 < dims[2]; ++k) {
+      for (std::int32_t j = 0; j + 1 < dims[1]; ++j) {
+        for (std::int32_t i = 0; i + 1 < dims[0]; ++i) {
+          const unsigned corners = critical_corners(grid, {i, j, k});
+          for (int c = 0; c < 8; ++c) {
+            const bool expected = is_critical(grid, {i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)});
+            ASSERT_EQ((corners >> c & 1) != 0, expected) << i << " " << j << " " << k << " corner " << c;
+            critical += expected ? 1 : 0;
+          }
+        }
+      }
+    }
+    EXPECT_GT(critical, 0);
+  }
 }
 
 // A face with integer corners has its saddle at (f0 f2 - f1 f3) / (f0 + f2 - f1 - f3), corners in circular order; the

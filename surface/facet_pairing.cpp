@@ -1,0 +1,121 @@
+#include "surface/facet_pairing.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+FacetPairing::FacetPairing(const SignedDelaunay& restricted)
+    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(restricted.signs()) {
+  place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
+  for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
+  pair_sides();
+}
+
+bool FacetPairing::update() {
+  // A facet may come or go at a tetrahedron with another sign and at its neighbours.
+  std::vector<TetId> touched;
+  std::vector<bool> has_changed(delaunay_.vertex_count(), false);  // of each vertex: the sign of a tetrahedron at it
+  for (std::size_t i = 0; i < signs_.size(); ++i) {
+    const TetId t(i);
+    if (signs_[i] == restricted_.is_above(t)) continue;
+    signs_[i] = !signs_[i];
+    touched.push_back(t);
+    for (unsigned face = 0; face < 4; ++face) touched.push_back(delaunay_.neighbour(t, face));
+    for (const VertexId v : delaunay_.vertices(t)) {
+      if (v != kInfiniteVertex) has_changed[v.index()] = true;
+    }
+  }
+  if (touched.empty()) return false;
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  renew_facets(touched);
+
+  // The tetrahedra around an edge are at both its ends.
+  for (PairedFacet& facet : facets_) {
+    std::array<bool, 3> changed{};
+    for (unsigned i = 0; i < 3; ++i) changed[i] = has_changed[facet.vertices[i].index()];
+    for (unsigned i = 0; i < 3; ++i) facet.known[i] = facet.known[i] && !(changed[(i + 1) % 3] && changed[(i + 2) % 3]);
+  }
+  pair_sides();
+  return true;
+}
+
+void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) const {
+  if (!delaunay_.is_live(t) || !restricted_.is_above(t)) return;
+  for (unsigned face = 0; face < 4; ++face) {
+    const FacetId f(t, face);
+    if (!restricted_.is_restricted(f)) continue;
+    const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
+    if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) continue;
+    facets.push_back({f, v, {}, {}, {}});
+  }
+}
+
+// The facets of some tetrahedra (ascending) anew, the others as they are.
+void FacetPairing::renew_facets(std::span<const TetId> tets) {
+  std::vector<PairedFacet> facets;
+  facets.reserve(facets_.size() + tets.size());
+  auto old = facets_.begin();
+  for (const TetId t : tets) {
+    for (; old != facets_.end() && old->facet.tet() < t; ++old) facets.push_back(*old);
+    for (; old != facets_.end() && old->facet.tet() == t; ++old) place_of_[old->facet.index()] = kNoPlace;
+    append_facets_of(t, facets);
+  }
+  facets.insert(facets.end(), old, facets_.end());
+  facets_ = std::move(facets);
+}
+
+void FacetPairing::pair_sides() {
+  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
+  for (PairedFacet& facet : facets_) {
+    for (unsigned side = 0; side < 3; ++side) {
+      if (!facet.known[side]) pair_side(facet, side);
+    }
+  }
+}
+
+// Pairs a side with another one, which thereby is paired, too.
+void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
+  const VertexId a = facet.vertices[(side + 1) % 3];
+  const VertexId b = facet.vertices[(side + 2) % 3];
+  const VertexId third = facet.vertices[side];
+  const FacetId around_above = next_restricted_facet(facet.facet, third);
+  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(facet.facet), third));
+  FacetId partner = around_above;
+  facet.contested[side] = around_above != around_below;
+  if (facet.contested[side] && restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)))) {
+    partner = around_below;
+  }
+  facet.known[side] = true;
+  facet.across[side] = PairedFacet::kUnpaired;
+  if (place_of(partner) == kNoPlace) return;
+
+  // Our edge runs the other way over there.
+  PairedFacet& there = facets_[place_of(partner)];
+  unsigned i = 0;
+  while (i < 3 && !(there.vertices[(i + 1) % 3] == b && there.vertices[(i + 2) % 3] == a)) ++i;
+  DELISO_CHECK(i < 3, "paired facets must share an edge");
+  facet.across[side] = 4 * there.facet.value + i;
+  there.across[i] = 4 * facet.facet.value + side;
+  there.contested[i] = facet.contested[side];
+  there.known[i] = true;
+}
+
+// From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
+// next restricted facet; both are seen from inside that sector.
+FacetId FacetPairing::next_restricted_facet(FacetId f, VertexId third) const {
+  const bool is_above = restricted_.is_above(f.tet());
+  for (;;) {
+    const auto& v = delaunay_.vertices(f.tet());
+    const FacetId g(f.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
+    const FacetId beyond = delaunay_.mirror(g);
+    if (restricted_.is_above(beyond.tet()) != is_above) return g;
+    third = v[f.face()];
+    f = beyond;
+  }
+}
+
+}  // namespace deliso

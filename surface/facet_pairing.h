@@ -1,0 +1,58 @@
+// The restricted facets of a signed triangulation and how they are paired across their edges.
+//
+// The restricted facets bound the tetrahedra above the isovalue, so around every edge their number is even. Where it is
+// more than two the surface touches itself; the facets are then paired by side: around the sectors whose sign is not
+// that of the field at the edge's midpoint, so that the side which holds the midpoint stays connected.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/signed_delaunay.h"
+
+namespace deliso {
+
+// A restricted facet without virtual vertices, seen from the tetrahedron above. Side i lies opposite vertices[i].
+struct PairedFacet {
+  FacetId facet;
+  std::array<VertexId, 3> vertices;     // counterclockwise seen from below
+  std::array<std::uint32_t, 3> across;  // the paired side as 4 * facet + side; kUnpaired: that facet is virtual
+  std::array<bool, 3> contested;        // whether the edge has more than two restricted facets
+  std::array<bool, 3> known;            // whether the two above are
+
+  static constexpr std::uint32_t kUnpaired = 0xFFFFFFFFu;
+};
+
+class FacetPairing {
+ public:
+  // Keeps a reference.
+  explicit FacetPairing(const SignedDelaunay& restricted);
+
+  // Takes account of signs that have changed since the last time: only the facets at the vertices of their tetrahedra
+  // are paired anew. Returns whether any have.
+  bool update();
+
+  [[nodiscard]] const SignedDelaunay& restricted() const { return restricted_; }
+  [[nodiscard]] std::span<const PairedFacet> facets() const { return facets_; }  // in order
+  // The place of a facet in facets().
+  [[nodiscard]] std::uint32_t place_of(FacetId f) const { return place_of_[f.index()]; }
+
+ private:
+  void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
+  void renew_facets(std::span<const TetId> tets);
+  void pair_sides();
+  void pair_side(PairedFacet& facet, unsigned side);
+  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId third) const;
+
+  static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+  std::vector<bool> signs_;  // by slot, as of the last update
+  std::vector<PairedFacet> facets_;
+  LargeArray<std::uint32_t> place_of_;  // of each facet of the triangulation; kNoPlace when it is not in facets_
+};
+
+}  // namespace deliso

@@ -1,0 +1,84 @@
+#include "surface/repair_round.h"
+
+#include <utility>
+
+#include "surface/build_triangle_mesh.h"
+#include "surface/component_match.h"
+#include "surface/coverage.h"
+
+namespace deliso {
+
+RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
+                         std::unique_ptr<SignedDelaunay> restricted)
+    : grid_(grid),
+      topology_(topology),
+      raised_(raised),
+      restricted_(std::move(restricted)),
+      at_circumcenters_(restricted_->signs()),
+      component_of_vertex_(restricted_->delaunay().vertex_count(), 0),
+      unfounded_(*restricted_, grid) {
+  const Isosurface& isosurface = restricted_->isosurface();
+  const Vec3& step = isosurface.step();
+  for (std::size_t i = 0; i < component_of_vertex_.size(); ++i) {
+    if (restricted_->is_virtual(VertexId(i))) continue;
+    const Vec3& p = restricted_->delaunay().point(VertexId(i));
+    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+    component_of_vertex_[i] = component_of(grid, isosurface.isovalue(), topology, index_point).value_or(0);
+  }
+}
+
+void RepairRound::take_plain_signs() {
+  restricted_->set_signs(at_circumcenters_);
+  unfounded_.overturn(*restricted_);
+}
+
+void RepairRound::take_signs(SignRule rule) {
+  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_);
+  rules_->take_signs(rule, *restricted_);
+  unfounded_.overturn(*restricted_);
+}
+
+std::optional<MatchedMesh> RepairRound::assemble() {
+  if (!pairing_) {
+    pairing_.emplace(*restricted_);
+  } else if (!pairing_->update()) {
+    return std::nullopt;
+  }
+  MatchedMesh mesh{build_triangle_mesh(*pairing_), {}, {}};
+  for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
+  mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
+  find_missing_parts(mesh);
+  return mesh;
+}
+
+// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
+// tell: each must have one of their triangles near.
+void RepairRound::find_missing_parts(MatchedMesh& mesh) const {
+  ComponentMatch& match = mesh.match;
+  const auto on_main_piece = [&](std::uint32_t v) {
+    const std::uint32_t piece = match.piece_of[v];
+    return piece != kNoPiece && match.main_piece[match.pieces[piece].component] == piece;
+  };
+  std::vector<bool> used(restricted_->delaunay().vertex_count(), false);
+  for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
+    if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
+  }
+  std::vector<Vec3> left_out;
+  std::vector<std::uint32_t> component;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
+    if (match.agreement[component_of_vertex_[i]] <= Agreement::kPartial) continue;
+    left_out.push_back(restricted_->delaunay().point(VertexId(i)));
+    component.push_back(component_of_vertex_[i]);
+  }
+  const std::vector<bool> covered = covered_points(
+      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    Agreement& agreement = match.agreement[component[i]];
+    if (covered[i] || agreement == Agreement::kPartial) continue;
+    agreement = Agreement::kPartial;
+    ++match.error;
+  }
+}
+
+}  // namespace deliso

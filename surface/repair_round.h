@@ -1,0 +1,62 @@
+// One triangulation of repair and the meshes that the sign rules make of it.
+//
+// The rules differ in few signs. So whatever depends on the triangulation alone is found once, and what depends on
+// signs only where they have changed from one rule to the next.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "surface/facet_pairing.h"
+#include "surface/founded_signs.h"
+#include "surface/raised_cells.h"
+#include "surface/sign_rules.h"
+#include "surface/signed_delaunay.h"
+#include "surface/trouble.h"
+#include "volume/exact_topology.h"
+
+namespace deliso {
+
+class RepairRound {
+ public:
+  // The signs of `restricted` are those of the circumcenters. Keeps references to the others.
+  RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
+              std::unique_ptr<SignedDelaunay> restricted);
+
+  // Takes the signs of the circumcenters, less those without foundation.
+  void take_plain_signs();
+  // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less those without
+  // foundation.
+  void take_signs(SignRule rule);
+  void set_signs(const std::vector<bool>& signs) { restricted_->set_signs(signs); }
+
+  // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
+  // as the last time.
+  std::optional<MatchedMesh> assemble();
+
+  [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
+  // Of each vertex: the exact component it lies on.
+  [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
+  // What is known of the sides in the tetrahedra (evidence.h); empty before the first rule is tried.
+  [[nodiscard]] std::span<const std::uint8_t> evidence() const {
+    return rules_ ? std::span<const std::uint8_t>(rules_->evidence()) : std::span<const std::uint8_t>();
+  }
+
+ private:
+  void find_missing_parts(MatchedMesh& mesh) const;
+
+  const ScalarGrid& grid_;
+  const IsosurfaceTopology& topology_;
+  const RaisedCells& raised_;
+  std::unique_ptr<SignedDelaunay> restricted_;
+  std::vector<bool> at_circumcenters_;  // signs, by slot of the tetrahedron
+  std::vector<std::uint32_t> component_of_vertex_;
+  std::optional<SignRules> rules_;
+  UnfoundedPockets unfounded_;
+  std::optional<FacetPairing> pairing_;
+};
+
+}  // namespace deliso

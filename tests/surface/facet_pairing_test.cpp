@@ -1,0 +1,127 @@
+#include "surface/facet_pairing.h"
+
+#include <gtest/gtest.h>
+
+#include "delaunay/base/rng.h"
+#include "surface/founded_signs.h"
+#include "surface/sample_locator.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::noise_scene;
+using testing::Scene;
+
+SignedDelaunay dense(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
+  return {*scene.isosurface, points};
+}
+
+// Turns over a few tetrahedra at random, or back those turned over before.
+void turn_some(SignedDelaunay& restricted, std::uint64_t count, Rng& rng) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const TetId t(static_cast<std::size_t>(rng.below(restricted.delaunay().tet_slots())));
+    if (restricted.delaunay().is_live(t)) restricted.overturn_sign(t);
+  }
+}
+
+void expect_same(const FacetPairing& a, const FacetPairing& b, std::uint64_t seed) {
+  ASSERT_EQ(a.facets().size(), b.facets().size()) << "seed " << seed;
+  for (std::uint32_t i = 0; i < a.facets().size(); ++i) {
+    const PairedFacet& f = a.facets()[i];
+    const PairedFacet& g = b.facets()[i];
+    ASSERT_EQ(f.facet, g.facet) << "seed " << seed;
+    ASSERT_EQ(f.vertices, g.vertices) << "seed " << seed;
+    ASSERT_EQ(f.across, g.across) << "seed " << seed;
+    ASSERT_EQ(f.contested, g.contested) << "seed " << seed;
+    ASSERT_EQ(a.place_of(f.facet), i) << "seed " << seed;
+  }
+}
+
+TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({8, 7, 6}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    FacetPairing pairing(restricted);
+    EXPECT_FALSE(pairing.update());
+    Rng rng(seed);
+    for (const std::uint64_t count : {1, 3, 30, 300, 2}) {
+      const std::vector<bool> before = restricted.signs();
+      turn_some(restricted, count, rng);
+      EXPECT_EQ(pairing.update(), restricted.signs() != before) << "seed " << seed;
+      expect_same(pairing, FacetPairing(restricted), seed);
+    }
+  }
+}
+
+TEST(FacetPairing, PairsSidesOfTheSameEdgeWithEachOther) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({8, 7, 6}, seed);
+    const SignedDelaunay restricted = dense(*scene);
+    const FacetPairing pairing(restricted);
+    std::size_t paired = 0;
+    for (const PairedFacet& facet : pairing.facets()) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (facet.across[i] == PairedFacet::kUnpaired) continue;
+        const PairedFacet& there = pairing.facets()[pairing.place_of(FacetId(facet.across[i] >> 2))];
+        const unsigned j = facet.across[i] & 3u;
+        EXPECT_EQ(there.across[j], 4 * facet.facet.value + i) << "seed " << seed;
+        EXPECT_EQ(there.contested[j], facet.contested[i]) << "seed " << seed;
+        EXPECT_EQ(there.vertices[(j + 1) % 3], facet.vertices[(i + 2) % 3]) << "seed " << seed;
+        EXPECT_EQ(there.vertices[(j + 2) % 3], facet.vertices[(i + 1) % 3]) << "seed " << seed;
+        ++paired;
+      }
+    }
+    EXPECT_GT(paired, pairing.facets().size());
+  }
+}
+
+TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
+  const auto sorted = [](std::vector<std::vector<TetId>> pockets) {
+    for (auto& pocket : pockets) std::sort(pocket.begin(), pocket.end());
+    std::sort(pockets.begin(), pockets.end());
+    return pockets;
+  };
+  std::size_t found = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({8, 7, 6}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    UnfoundedPockets pockets(restricted, scene->grid);
+    pockets.update();
+    Rng rng(seed);
+    for (const std::uint64_t count : {1, 3, 30, 300, 2}) {
+      turn_some(restricted, count, rng);
+      pockets.update();
+      UnfoundedPockets anew(restricted, scene->grid);
+      anew.update();
+      EXPECT_EQ(sorted(pockets.pockets()), sorted(anew.pockets())) << "seed " << seed;
+      found += anew.pockets().size();
+    }
+  }
+  EXPECT_GT(found, 50u);
+}
+
+TEST(SampleLocator, FindsWhatAWalkFromTheSameHintFinds) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({8, 7, 6}, seed);
+    const SignedDelaunay restricted = dense(*scene);
+    SampleLocator locator(restricted, scene->grid);
+    Rng rng(seed);
+    TetId hint = restricted.delaunay().incident_tet(VertexId(std::size_t{0}));
+    for (int i = 0; i < 4000; ++i) {
+      std::array<std::int32_t, 3> sample{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        sample[axis] = static_cast<std::int32_t>(rng.below(static_cast<std::uint64_t>(scene->grid.dims()[axis])));
+      }
+      const Vec3 p{double(sample[0]), double(sample[1]), double(sample[2])};
+      const TetId expected = restricted.locate(scaled(p, scene->isosurface->step()), hint);
+      hint = locator.locate(sample, hint);
+      ASSERT_EQ(hint, expected) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deliso
