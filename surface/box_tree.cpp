@@ -6,19 +6,12 @@
 
 namespace deliso {
 
-BoxTree::BoxTree(std::span<const Box3> boxes, int threads) : things_(boxes.size()), boxes_(boxes.size()) {
-  if (boxes.empty()) return;
-  // The splits move centres, not boxes; halved terms cannot overflow.
-  std::vector<Centre> centres;
-  centres.reserve(boxes.size());
-  for (const Box3& box : boxes) {
-    centres.push_back({0.5 * box.low + 0.5 * box.high, static_cast<std::uint32_t>(centres.size())});
-  }
-  const std::size_t leaves = (boxes.size() + kLeafSize - 1) / kLeafSize;
+// Moves the centres into the order of the leaves: the uppermost levels one after the other, then what hangs below them.
+void BoxTree::build(std::vector<Centre>& centres, int threads) {
+  if (centres.empty()) return;
+  const std::size_t leaves = (centres.size() + kLeafSize - 1) / kLeafSize;
   nodes_.resize(2 * leaves - 1);
-  // The uppermost levels one after the other, then what hangs below them.
-  std::vector<Subtree> subtrees = {{0, 0, static_cast<std::uint32_t>(boxes.size())}};
-  std::vector<std::uint32_t> upper;
+  std::vector<Subtree> subtrees = {{0, 0, static_cast<std::uint32_t>(centres.size())}};
   for (int depth = 0; depth < kTaskDepth; ++depth) {
     std::vector<std::pair<Subtree, Subtree>> halves(subtrees.size());
     run_tasks(subtrees.size(), threads, [&](std::size_t i) {
@@ -26,18 +19,25 @@ BoxTree::BoxTree(std::span<const Box3> boxes, int threads) : things_(boxes.size(
     });
     std::vector<Subtree> next;
     for (std::size_t i = 0; i < subtrees.size(); ++i) {
-      if (subtrees[i].is_leaf()) {
-        next.push_back(subtrees[i]);
-      } else {
-        upper.push_back(subtrees[i].node);
-        next.push_back(halves[i].first);
-        next.push_back(halves[i].second);
-      }
+      next.push_back(subtrees[i].is_leaf() ? subtrees[i] : halves[i].first);
+      if (!subtrees[i].is_leaf()) next.push_back(halves[i].second);
     }
     subtrees = std::move(next);
   }
-  run_tasks(subtrees.size(), threads, [&](std::size_t i) { build(subtrees[i], boxes, centres); });
-  std::for_each(upper.rbegin(), upper.rend(), [&](std::uint32_t node) { enclose_children(node); });
+  run_tasks(subtrees.size(), threads, [&](std::size_t i) { build(subtrees[i], centres); });
+  things_.reserve(centres.size());
+  for (const Centre& centre : centres) things_.push_back(centre.thing);
+}
+
+void BoxTree::build(const Subtree& tree, std::span<Centre> centres) {
+  if (tree.is_leaf()) {
+    nodes_[tree.node].first = tree.first;
+    nodes_[tree.node].count = tree.last - tree.first;
+    return;
+  }
+  const auto [left, right] = split(tree, centres);
+  build(left, centres);
+  build(right, centres);
 }
 
 // Parts the centres of an inner node; the left subtree gets the largest power of two of leaves that leaves some for the
@@ -59,30 +59,19 @@ std::pair<BoxTree::Subtree, BoxTree::Subtree> BoxTree::split(const Subtree& tree
           {tree.node + 2 * left_leaves, tree.first + middle, tree.last}};
 }
 
-void BoxTree::build(const Subtree& tree, std::span<const Box3> boxes, std::span<Centre> centres) {
-  if (tree.is_leaf()) return fill_leaf(tree, boxes, centres);
-  const auto [left, right] = split(tree, centres);
-  build(left, boxes, centres);
-  build(right, boxes, centres);
-  enclose_children(tree.node);
-}
-
-void BoxTree::fill_leaf(const Subtree& leaf, std::span<const Box3> boxes, std::span<const Centre> centres) {
-  Node& node = nodes_[leaf.node];
-  node.first = leaf.first;
-  node.count = leaf.last - leaf.first;
-  for (std::uint32_t i = leaf.first; i < leaf.last; ++i) {
-    things_[i] = centres[i].thing;
-    boxes_[i] = boxes[things_[i]];
-    node.box.extend(boxes_[i].low);
-    node.box.extend(boxes_[i].high);
-  }
-}
-
-void BoxTree::enclose_children(std::uint32_t node) {
-  for (const std::uint32_t child : {node + 1, nodes_[node].first}) {
-    nodes_[node].box.extend(nodes_[child].box.low);
-    nodes_[node].box.extend(nodes_[child].box.high);
+// The boxes of nodes, children first: they come after their parents.
+void BoxTree::enclose() {
+  for (auto node = static_cast<std::uint32_t>(nodes_.size()); node-- > 0;) {
+    Node& n = nodes_[node];
+    const auto include = [&n](const Box3& box) {
+      n.box.extend(box.low);
+      n.box.extend(box.high);
+    };
+    if (n.count == 0) {
+      include(nodes_[node + 1].box);
+      include(nodes_[n.first].box);
+    }
+    for (std::uint32_t i = 0; i < n.count; ++i) include(boxes_[n.first + i]);
   }
 }
 

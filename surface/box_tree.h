@@ -19,7 +19,24 @@ namespace deliso {
 
 class BoxTree {
  public:
-  explicit BoxTree(std::span<const Box3> boxes, int threads = 1);
+  explicit BoxTree(std::span<const Box3> boxes, int threads = 1)
+      : BoxTree(
+            boxes.size(), [boxes](std::size_t i) { return boxes[i]; }, threads) {}
+
+  // Of `count` things; box_of(i) gives the box of thing i, on any thread.
+  template <class BoxOf>
+  BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
+    std::vector<Centre> centres(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Box3 box = box_of(i);
+      // Halved terms cannot overflow.
+      centres[i] = {0.5 * box.low + 0.5 * box.high, static_cast<std::uint32_t>(i)};
+    }
+    build(centres, threads);
+    boxes_.reserve(count);
+    for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
+    enclose();
+  }
 
   // Calls visit(i, j) once for each pair i < j of boxes that have a point in common, faces included.
   template <class Visit>
@@ -81,10 +98,10 @@ class BoxTree {
     std::uint32_t node = 0, first = 0, last = 0;
     [[nodiscard]] bool is_leaf() const { return last - first <= kLeafSize; }
   };
+  void build(std::vector<Centre>& centres, int threads);
+  void build(const Subtree& tree, std::span<Centre> centres);
   std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
-  void fill_leaf(const Subtree& leaf, std::span<const Box3> boxes, std::span<const Centre> centres);
-  void build(const Subtree& tree, std::span<const Box3> boxes, std::span<Centre> centres);
-  void enclose_children(std::uint32_t node);
+  void enclose();
   void append_tasks(std::uint32_t node, int depth, std::vector<PairTask>& tasks) const;
 
   template <class Visit>

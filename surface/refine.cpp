@@ -1,20 +1,12 @@
 #include "surface/refine.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "delaunay/base/check.h"
 #include "delaunay/base/parallel.h"
-#include "delaunay/constructions.h"
 #include "surface/crossing_guard.h"
-#include "surface/ranked_queue.h"
-#include "surface/refinement_candidates.h"
-#include "surface/refinement_disk.h"
+#include "surface/refinement.h"
 #include "surface/refinement_slabs.h"
 #include "surface/self_intersection.h"
 
@@ -22,304 +14,9 @@ namespace deliso {
 
 namespace {
 
-// A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
-constexpr double kNearestVertex = 0.5;
-// A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
-constexpr double kFarthestMove = 0.8;
 // Starts again at most this often, with at most so many new suspects of a kind.
 constexpr std::int64_t kMostRestarts = 3;
 constexpr std::size_t kMostSuspects = 1000;
-
-class Refinement {
- public:
-  // Of a mesh whose vertices have clearances.
-  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh) {}
-  Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(part.mesh),
-        part_(&part),
-        isosurface_(isosurface),
-        options_(options),
-        stats_(stats),
-        disk_(part.mesh, part.frozen),
-        guard_(part.mesh) {}
-
-  // Finds the balls of all triangles.
-  void measure_all();
-  // Refines what has balls.
-  void run(Controls& controls);
-  // Counts the triangles that only r_min kept as they are.
-  void count_stopped();
-
- private:
-  using Candidate = RefinementCandidate;
-  // A triangle to be, with its ball and what the criteria say.
-  struct NewTriangle {
-    SurfaceDelaunayBall ball;
-    bool has_hit = false;
-    double badness = 0;
-    double radius = 0;
-  };
-
-  bool treat(std::uint32_t triangle);
-  std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
-  [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
-  void replace_disk(const Candidate& candidate);
-  void wake_neighbours();
-  bool retry_crossed();
-  void requeue(std::uint32_t triangle);
-  void queue_if_bad(std::uint32_t triangle, const NewTriangle& measured);
-
-  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
-  [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
-  [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
-  [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
-  [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
-  // B_sigma as it is kept; or found anew, the same to the last bit.
-  [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
-    if (options_.store_hits) return mesh_.triangles[triangle].ball;
-    return measure(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2), 1).ball;
-  }
-
-  RefinementMesh& mesh_;
-  const RefinementPart* part_ = nullptr;  // when the mesh is one
-  const Isosurface& isosurface_;
-  const RefineOptions& options_;
-  RefineStats& stats_;
-  RankedQueue queue_;
-  RefinementDisk disk_;  // E
-  CrossingGuard guard_;
-  std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
-  std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
-  double star_pole_height_ = 0;
-  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, the whole mesh decides
-  std::int64_t insertions_at_retry_ = 0;
-};
-
-void Refinement::measure_all() {
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const NewTriangle now = measure(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), 1);
-    mesh_.triangles[t].set_ball(now.ball, now.has_hit);
-  }
-}
-
-void Refinement::run(Controls& controls) {
-  const std::uint32_t first = part_ == nullptr ? 0 : part_->frozen;
-  for (std::uint32_t t = first; t < mesh_.triangles.size(); ++t) queue_if_bad(t, measured(t));
-  while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
-    const auto queued = queue_.pop();
-    if (!queued && !retry_crossed()) break;
-    if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
-    if (treat(queued->element)) wake_neighbours();
-  }
-}
-
-void Refinement::count_stopped() {
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const NewTriangle now = measured(t);
-    if (now.badness > 1 && now.radius <= options_.r_min) ++stats_.stopped_at_r_min;
-  }
-}
-
-void Refinement::queue_if_bad(std::uint32_t triangle, const NewTriangle& measured) {
-  if (!(measured.badness > 1 && measured.radius > options_.r_min)) return;
-  const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
-  if (options_.order == QueueOrder::kFirstInFirstOut) {
-    queue_.push_by_age(queued);
-  } else {
-    const double key = options_.order == QueueOrder::kWorstFirst ? measured.badness : measured.radius;
-    queue_.push(block_rank(key, measured.ball.center), queued);
-  }
-}
-
-// Inserts x_sigma of one triangle, or a point of the boundary curve where x_sigma would come too near to a boundary
-// edge.
-bool Refinement::treat(std::uint32_t triangle) {
-  const SurfaceDelaunayBall ball = ball_of(triangle);
-  const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
-  TriangleSide encroached = kNoSide;
-  is_blocked_ = false;
-  std::optional<Refusal> refusal = insert(candidate, &encroached);
-  if (encroached != kNoSide) {
-    const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
-    refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
-    if (!refusal) ++stats_.boundary_splits;
-    if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
-  }
-  if (refusal && !is_blocked_) {
-    const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
-    if (halving && !insert(*halving, nullptr)) {
-      ++stats_.halvings;
-      refusal.reset();
-    }
-  }
-  if (refusal) {
-    ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    mesh_.triangles[triangle].state |= RefinementMesh::Triangle::kRefused;
-    if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
-    return false;
-  }
-  ++stats_.insertions;
-  return true;
-}
-
-// Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
-// reported and nothing is inserted.
-std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
-  disk_.grow(candidate, [this](std::uint32_t t) { return ball_of(t); });
-  if (disk_.is_blocked() || (part_ != nullptr && !part_->contains(candidate.point))) {
-    is_blocked_ = true;
-    return Refusal::kNotADisk;
-  }
-  if (encroached_edge != nullptr) {
-    if (const auto side = disk_.encroached_boundary_edge(candidate, isosurface_.box())) {
-      *encroached_edge = *side;
-      return std::nullopt;
-    }
-    if (!isosurface_.box().contains(candidate.point)) return Refusal::kNoHit;
-  }
-  const RefinementDisk::Shape shape = disk_.order_rim(candidate);
-  if (shape == RefinementDisk::Shape::kNotADisk) return Refusal::kNotADisk;
-  if (shape == RefinementDisk::Shape::kRepeatedVertex) return Refusal::kRepeatedVertex;
-  if (const auto failed = plan_star(candidate)) return failed;
-  replace_disk(candidate);
-  return std::nullopt;
-}
-
-// Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
-// gradient, or a vertex is too near.
-std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
-  const Vec3& p = candidate.point;
-  const double nearest = kNearestVertex * candidate.ball_radius;
-  const Vec3 gradient = isosurface_.gradient(p);
-  for (const RimEdge& edge : disk_.rim()) {
-    const Vec3& a = mesh_.vertices[edge.from].point;
-    const Vec3& b = mesh_.vertices[edge.to].point;
-    if (squared_distance(p, a) < nearest * nearest || squared_distance(p, b) < nearest * nearest) {
-      return Refusal::kTooClose;
-    }
-    if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
-  }
-  const bool closed = candidate.split == kNoSide;
-  const double moved = disk_.distance_to(p);
-  if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
-  if (guard_.crosses(p, moved, disk_)) return Refusal::kCrossingTriangle;
-  star_pole_height_ = inherited_pole_height(p, closed);
-  star_.clear();
-  for (const RimEdge& edge : disk_.rim()) {
-    const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
-    star_.push_back(measure(p, a.point, b.point, (star_pole_height_ + a.pole_height + b.pole_height) / 3));
-  }
-  return std::nullopt;
-}
-
-// The pole height of a new vertex, from its neighbours: the corners of the rim.
-double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
-  std::uint32_t nearest = disk_.rim().front().from;
-  double sum = 0;
-  double count = 0;
-  const auto visit = [&](std::uint32_t v) {
-    sum += mesh_.vertices[v].pole_height;
-    count += 1;
-    if (squared_distance(p, mesh_.vertices[v].point) < squared_distance(p, mesh_.vertices[nearest].point)) nearest = v;
-  };
-  for (const RimEdge& edge : disk_.rim()) visit(edge.from);
-  if (!closed) visit(disk_.rim().back().to);
-  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
-}
-
-// Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
-// refinement.
-Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
-  const Circumcircle circle = circumcircle(p, a, b);
-  const Vec3 normal = cross(a - p, b - p);
-  if (!std::isfinite(circle.radius) || !(norm(normal) > 0))
-    return {{p, 0}, false, 0, 0};  // nothing can be measured on it
-  const Line dual{circle.center, normal / norm(normal)};
-  const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
-  if (!t) return {{circle.center, circle.radius * circle.radius}, false, 0, circle.radius};
-  const Vec3 x = dual.at(*t);
-  const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
-  return {{x, squared_distance(x, p)}, true, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
-}
-
-// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
-double Refinement::badness(double h, double r, double l, double mean_pole) const {
-  const double size = options_.criterion2 == Criterion2::kCircumradius ? r : l;
-  return std::max({h / (r * options_.epsilon1), size / (mean_pole * options_.epsilon2), r / (l * options_.rho),
-                   h / options_.max_distance});
-}
-
-double Refinement::mean_pole_height(std::uint32_t triangle) const {
-  double mean = 0;
-  for (const std::uint32_t v : mesh_.triangles[triangle].corners) mean += mesh_.vertices[v].pole_height / 3;
-  return mean;
-}
-
-// The same of a triangle of the mesh, by the ball it has.
-Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
-  if (!mesh_.triangles[triangle].has_hit()) return {ball_of(triangle), false, 0, 0};
-  const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
-  const Circumcircle circle = circumcircle(a, b, c);
-  const SurfaceDelaunayBall ball = ball_of(triangle);
-  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-  const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
-  return {ball, true, bad, circle.radius};
-}
-
-// Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
-void Refinement::replace_disk(const Candidate& candidate) {
-  const bool closed = candidate.split == kNoSide;
-  const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
-  const std::span<const std::uint32_t> old = disk_.triangles();
-  const std::span<const RimEdge> rim = disk_.rim();
-  for (const std::uint32_t t : old) guard_.forget(t);
-  mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_.new_clearance()});
-  const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());
-  mesh_.triangles.resize(first_new + rim.size());
-  const auto slot = [&](std::size_t i) { return i < old.size() ? old[i] : first_new + static_cast<std::uint32_t>(i); };
-  const std::size_t count = rim.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t t = slot(i);
-    const RimEdge& edge = rim[i];
-    const bool first = !closed && i == 0;
-    const bool last = !closed && i + 1 == count;
-    RefinementMesh::Triangle& triangle = mesh_.triangles[t];
-    triangle.corners = {p, edge.from, edge.to};
-    triangle.neighbours = {edge.outer, last ? kNoSide : 4 * slot((i + 1) % count) + 2,
-                           first ? kNoSide : 4 * slot((i + count - 1) % count) + 1};
-    if (edge.outer != kNoSide) mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
-    triangle.renew();
-    triangle.set_ball(star_[i].ball, star_[i].has_hit);
-    guard_.learn(t);
-    queue_if_bad(t, star_[i]);
-  }
-}
-
-// The sheet in the way may be finer now. True when a triangle was queued again.
-bool Refinement::retry_crossed() {
-  if (stats_.insertions == insertions_at_retry_) return false;
-  insertions_at_retry_ = stats_.insertions;
-  bool any = false;
-  for (const std::uint32_t t : std::exchange(crossed_, {})) {
-    if (!mesh_.triangles[t].is_refused()) continue;
-    any = true;
-    requeue(t);
-  }
-  return any;
-}
-
-void Refinement::requeue(std::uint32_t triangle) {
-  mesh_.triangles[triangle].state &= ~RefinementMesh::Triangle::kRefused;
-  queue_if_bad(triangle, measured(triangle));
-}
-
-// Triangles around the new star that were refused before get another chance.
-void Refinement::wake_neighbours() {
-  for (const RimEdge& edge : disk_.rim()) {
-    if (edge.outer != kNoSide && mesh_.triangles[edge.outer >> 2].is_refused()) requeue(edge.outer >> 2);
-  }
-}
 
 // Refines the slabs apart from each other. Of their counters those of insertions count; what they refused is tried
 // again in the whole.
@@ -346,18 +43,32 @@ void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const Refi
 }
 
 // Adds the places where triangles of the mesh cross or touch; false when there are none.
-bool add_crossings(const RefinementMesh& mesh, int threads, std::vector<Vec3>& suspects) {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  points.reserve(mesh.vertices.size());
-  triangles.reserve(mesh.triangles.size());
-  for (const RefinementMesh::Vertex& v : mesh.vertices) points.push_back(v.point);
-  for (const RefinementMesh::Triangle& t : mesh.triangles) triangles.push_back(t.corners);
-  const SelfIntersections found = self_intersections(points, triangles, kMostSuspects, threads);
+bool add_crossings(const SurfaceMesh& mesh, int threads, std::vector<Vec3>& suspects) {
+  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects, threads);
   for (const auto* pairs : {&found.crossing, &found.touching}) {
     for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
   }
   return !found.crossing.empty() || !found.touching.empty();
+}
+
+// Refines from the start, with no trust near the suspects.
+SurfaceMesh refined_once(const SurfaceMesh& start, const Isosurface& isosurface, const RefineOptions& options,
+                         std::span<const Vec3> suspects, Controls& controls, RefineStats& stats,
+                         std::vector<SurfaceDelaunayBall>* balls) {
+  RefinementMesh mesh(start);
+  set_clearances(mesh, suspects);
+  Refinement(mesh, isosurface, options, stats).measure_all();
+  refine_slabs(mesh, isosurface, options, controls, stats);
+  Refinement rest(mesh, isosurface, options, stats);
+  rest.run(controls);
+  rest.count_stopped();
+  if (balls != nullptr) {
+    balls->clear();
+    for (const RefinementMesh::Triangle& t : mesh.triangles) balls->push_back(t.ball);
+  }
+  SurfaceMesh refined;
+  mesh.move_to(refined);
+  return refined;
 }
 
 }  // namespace
@@ -371,19 +82,10 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     stats = before;
     stats.search = searches;
     stats.restarts = restarts;
-    RefinementMesh refined(mesh);
-    set_clearances(refined, suspects);
-    Refinement(refined, isosurface, options, stats).measure_all();
-    refine_slabs(refined, isosurface, options, controls, stats);
-    Refinement rest(refined, isosurface, options, stats);
-    rest.run(controls);
-    rest.count_stopped();
+    SurfaceMesh refined = refined_once(mesh, isosurface, options, suspects, controls, stats, balls);
     const bool is_last = !options.restart_at_crossings || restarts == kMostRestarts || controls.stopped();
     if (is_last || !add_crossings(refined, options.threads, suspects)) {
-      if (balls != nullptr) {
-        for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
-      }
-      refined.move_to(mesh);
+      mesh = std::move(refined);
       return;
     }
   }

@@ -58,8 +58,8 @@ struct RefineStats : StageStats {
   SearchCounters search;
 };
 
-// Counters are those of the last start, but for the searches and the seconds. When `balls` is given, B_sigma of each
-// triangle is appended to it.
+// Counters are those of the last start, but for the searches and the seconds. When `balls` is given, it gets
+// B_sigma of each triangle.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
 

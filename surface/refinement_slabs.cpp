@@ -96,7 +96,15 @@ void RefinementSlabs::fill(const RefinementMesh& whole, std::uint32_t k) {
 
 void RefinementSlabs::join(RefinementMesh& whole) {
   // The frozen triangles come first; their sides towards a part are as that part left them.
+  std::size_t triangle_count = frozen_.size();
+  std::size_t vertex_count = whole.vertices.size();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    triangle_count += parts_[k].mesh.triangles.size() - parts_[k].frozen;
+    vertex_count += parts_[k].mesh.vertices.size() - vertices_in_[k].size();
+  }
+  whole.vertices.reserve(vertex_count);
   LargeArray<RefinementMesh::Triangle> triangles(frozen_.size());
+  triangles.reserve(triangle_count);
   std::vector<std::uint32_t> place_of(part_of_.size(), kNoSide);
   for (std::uint32_t i = 0; i < frozen_.size(); ++i) place_of[frozen_[i]] = i;
   for (std::uint32_t i = 0; i < frozen_.size(); ++i) {

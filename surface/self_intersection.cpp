@@ -1,7 +1,6 @@
 #include "surface/self_intersection.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -211,7 +210,8 @@ TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const st
     }
   }
   constexpr std::array<std::size_t, 8> kOnlyBit = {0, 0, 1, 0, 2, 0, 0, 0};
-  switch (std::popcount(in_s)) {
+  constexpr std::array<int, 8> kBits = {0, 1, 1, 2, 1, 2, 2, 3};
+  switch (kBits[in_s]) {
     case 0:
       return contact_of_disjoint(s_points, t_points);
     case 1:
@@ -225,24 +225,10 @@ TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const st
 
 namespace {
 
-// The triangles that have an area, with their boxes.
-struct BoxedTriangles {
-  std::vector<std::uint32_t> triangles;
-  std::vector<Box3> boxes;
-};
-
-BoxedTriangles boxed_triangles(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
-  BoxedTriangles boxed;
-  boxed.boxes.reserve(triangles.size());
-  boxed.triangles.reserve(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    if (!has_area(points[a], points[b], points[c])) continue;
-    boxed.triangles.push_back(t);
-    boxed.boxes.emplace_back();
-    for (const std::uint32_t v : triangles[t]) boxed.boxes.back().extend(points[v]);
-  }
-  return boxed;
+Box3 box_of(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& triangle) {
+  Box3 box;
+  for (const std::uint32_t v : triangle) box.extend(points[v]);
+  return box;
 }
 
 // Counts a pair, and keeps it when it is among the first ones by number: pairs come in the order of the tree.
@@ -296,23 +282,28 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
                                      int threads) {
+  std::vector<std::uint32_t> with_area;
+  with_area.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    if (has_area(points[a], points[b], points[c])) with_area.push_back(t);
+  }
   // Broad phase: pairs of boxes that touch; narrow phase: exact tests.
-  const BoxedTriangles boxed = boxed_triangles(points, triangles);
-  const BoxTree tree(boxed.boxes, threads);
+  const auto box = [&](std::size_t i) { return box_of(points, triangles[with_area[i]]); };
+  const BoxTree tree(with_area.size(), box, threads);
   const std::vector<BoxTree::PairTask> tasks = tree.pair_tasks();
   std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
   run_tasks(tasks.size(), threads, [&](std::size_t task) {
     tree.for_each_touching_pair(tasks[task], [&](std::uint32_t i, std::uint32_t j) {
-      const std::uint32_t s = boxed.triangles[i], t = boxed.triangles[j];
+      const std::uint32_t s = with_area[i], t = with_area[j];
       const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
-      if (contact == TriangleContact::kNone) return;
-      found[task].add({s, t, contact, middle_of_common(boxed.boxes[i], boxed.boxes[j])});
+      if (contact != TriangleContact::kNone) found[task].add({s, t, contact, middle_of_common(box(i), box(j))});
     });
   });
   PairCollector all(keep);
   for (const PairCollector& part : found) all.add(part);
   SelfIntersections result = std::move(all).sorted();
-  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - boxed.triangles.size());
+  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - with_area.size());
   return result;
 }
 

@@ -1,0 +1,85 @@
+// One pass of stage 2 over a mesh or a part of it (Dey and Levine, section 3.2): queue, disk, star, criteria.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/crossing_guard.h"
+#include "surface/ranked_queue.h"
+#include "surface/refine.h"
+#include "surface/refinement_candidates.h"
+#include "surface/refinement_disk.h"
+#include "surface/refinement_mesh.h"
+#include "surface/refinement_slabs.h"
+
+namespace deliso {
+
+class Refinement {
+ public:
+  // Of a mesh whose vertices have clearances.
+  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh) {}
+  Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+      : mesh_(part.mesh),
+        part_(&part),
+        isosurface_(isosurface),
+        options_(options),
+        stats_(stats),
+        disk_(part.mesh, part.frozen),
+        guard_(part.mesh) {}
+
+  // Finds the balls of all triangles.
+  void measure_all();
+  // Refines what has balls.
+  void run(Controls& controls);
+  // Counts the triangles that only r_min kept as they are.
+  void count_stopped();
+
+ private:
+  using Candidate = RefinementCandidate;
+  // A triangle to be, with its ball and what the criteria say.
+  struct NewTriangle {
+    SurfaceDelaunayBall ball;
+    bool has_hit = false;
+    double badness = 0;
+    double radius = 0;
+  };
+
+  bool treat(std::uint32_t triangle);
+  std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
+  [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  void replace_disk(const Candidate& candidate);
+  void wake_neighbours();
+  bool retry_crossed();
+  void requeue(std::uint32_t triangle);
+  void queue_if_bad(std::uint32_t triangle, const NewTriangle& measured);
+
+  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
+  [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
+  [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
+  [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
+  [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
+  // B_sigma as it is kept; or found anew, the same to the last bit.
+  [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
+    if (options_.store_hits) return mesh_.triangles[triangle].ball;
+    return measure(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2), 1).ball;
+  }
+
+  RefinementMesh& mesh_;
+  const RefinementPart* part_ = nullptr;  // when the mesh is one
+  const Isosurface& isosurface_;
+  const RefineOptions& options_;
+  RefineStats& stats_;
+  RankedQueue queue_;
+  RefinementDisk disk_;  // E
+  CrossingGuard guard_;
+  std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
+  std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
+  double star_pole_height_ = 0;
+  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, the whole mesh decides
+  std::int64_t insertions_at_retry_ = 0;
+};
+
+}  // namespace deliso
