@@ -67,7 +67,8 @@ bool Refinement::treat(std::uint32_t triangle) {
     const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
     refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
     if (!refusal) ++stats_.boundary_splits;
-    if (refusal && isosurface_.box().contains(candidate.point)) refusal = insert(candidate, nullptr);
+    const bool is_inside = isosurface_.box().contains(candidate.point);
+    if (refusal && !is_blocked_ && is_inside) refusal = insert(candidate, nullptr);
   }
   if (refusal && !is_blocked_) {
     const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
