@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "surface/box_tree.h"
@@ -19,7 +20,7 @@ namespace deliso {
 // The triangles of a mesh by place, for asking whether many points of the surface lie near them.
 class MeshCover {
  public:
-  // Keeps a reference to the mesh.
+  // Keeps a reference to the mesh, which has neighbours.
   explicit MeshCover(const SurfaceMesh& mesh);
 
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse
@@ -28,6 +29,8 @@ class MeshCover {
 
  private:
   [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
+  // A triangle near p and its squared distance.
+  [[nodiscard]] std::pair<std::uint32_t, double> walk_towards(const Vec3& p) const;
 
   const SurfaceMesh& mesh_;
   BoxTree tree_;
