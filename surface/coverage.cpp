@@ -1,6 +1,7 @@
 #include "surface/coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -104,20 +105,17 @@ double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) con
 
 bool MeshCover::covers(const Vec3& p) {
   if (mesh_.triangles.empty()) return false;
-  for (const std::uint32_t t : recent_) {
-    if (squared_distance_to(p, t) < kNear * kNear) return true;
-  }
   // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
-  auto [guess, squared_guess] = walk_towards(p);
+  const auto [guess, squared_guess] = walk_towards(p);
   if (squared_guess < kNear * kNear) {
-    recent_[turn_++ % recent_.size()] = guess;
+    last_ = guess;
     return true;
   }
   // The nearest of all is no farther than the guess; a little more, so that the guess itself is found as well.
   const auto [nearest, squared] =
       tree_.nearest(p, 1.001 * squared_guess, [&](std::uint32_t t) { return squared_distance_to(p, t); });
   if (squared < kNear * kNear) {
-    recent_[turn_++ % recent_.size()] = nearest;
+    last_ = nearest;
     return true;
   }
   const double reach = kRadiusFraction * circumradius(mesh_, nearest);
@@ -125,8 +123,7 @@ bool MeshCover::covers(const Vec3& p) {
 }
 
 std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p) const {
-  std::pair<std::uint32_t, double> best = {recent_[(turn_ - 1) % recent_.size()], 0};
-  best.second = squared_distance_to(p, best.first);
+  std::pair<std::uint32_t, double> best = {last_, squared_distance_to(p, last_)};
   for (int step = 0; step < kLongestWalk && best.second >= kNear * kNear; ++step) {
     const std::uint32_t from = best.first;
     for (const TriangleSide side : mesh_.neighbours[from]) {
