@@ -47,6 +47,9 @@ class BowyerWatson : public Tetrahedralization {
   // The facets around the region, each as the tetrahedron outside knows it.
   [[nodiscard]] std::span<const FacetId> rim() const { return std::span(rim_).first(rim_size_); }
 
+  // The same facets as the region knows them: 4 * place in conflict_region() + face.
+  [[nodiscard]] std::span<const std::uint32_t> rim_from_inside() const { return std::span(rim_from_).first(rim_size_); }
+
   // The squared distance of p from the nearest vertex, which always lies on the rim.
   [[nodiscard]] double nearest_squared_distance() const { return rows_.nearest_squared(); }
 

@@ -23,6 +23,8 @@ class ActiveCells {
     const std::size_t place = place_of(cell);
     return ((words_[place / 64] >> (place % 64)) & 1) != 0;
   }
+  // Tells the processor that a cell's bit will be read soon.
+  void prefetch(const Cell& cell) const { __builtin_prefetch(&words_[place_of(cell) / 64]); }
   // The bits of the brick of 4 x 4 x 4 cells that holds a cell.
   [[nodiscard]] std::uint64_t brick(const Cell& cell) const { return words_[place_of(cell) / 64]; }
   // Is a cell active in the box from `low` to `high`, both inclusive?

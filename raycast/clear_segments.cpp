@@ -24,6 +24,21 @@ Isosurface::Place Isosurface::place_of(const Vec3& p) const {
   return {cell, bricks_->clearance(cell)};
 }
 
+void Isosurface::prefetch(const Place& place) const {
+  if (bricks_ == nullptr || place.clearance != 0) return;  // far from the isosurface nothing else is read
+  active_->prefetch(place.cell);
+  const Dims& dims = grid_.dims();
+  const Cell base = grid_cell(place.cell, dims);
+  const std::size_t first = grid_.index(base[0], base[1], base[2]);
+  const auto row = static_cast<std::size_t>(dims[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(dims[1]);
+  visit_samples(grid_.samples(), [&](const auto& samples) {
+    for (const std::size_t sample : {first, first + row, first + slice, first + slice + row}) {
+      __builtin_prefetch(samples.data() + sample);
+    }
+  });
+}
+
 bool Isosurface::is_clear_box(const Place& a, const Place& b) const {
   if (bricks_ == nullptr) return false;
   if (EmptyBricks::is_empty_between(a.cell, a.clearance, b.cell, b.clearance)) return true;

@@ -67,6 +67,8 @@ class Isosurface {
   [[nodiscard]] bool is_above(const Vec3& p, const Place& place) const {
     return place.clearance != 0 ? place.clearance > 0 : value(p) >= 0;
   }
+  // Tells the processor that the field around a place will be read soon.
+  void prefetch(const Place& place) const;
   // True only when the box of cells that two places span (that the segment between the two points passes) has no active
   // cell, so that no hit lies there. False tells nothing. Fast; always false but for traversal kCellWalk with pruning.
   [[nodiscard]] bool is_clear_box(const Place& a, const Place& b) const;

@@ -1,6 +1,7 @@
 #include "surface/coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,6 +19,7 @@ constexpr double kNear = 0.8;  // mesh-space units
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
 constexpr double kFewRadii = 0.5;  // the same where little is at stake
+constexpr int kLongestWalk = 16;   // triangles
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
 
@@ -103,19 +105,35 @@ double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) con
 
 bool MeshCover::covers(const Vec3& p) {
   if (mesh_.triangles.empty()) return false;
-  for (const std::uint32_t t : recent_) {
-    if (squared_distance_to(p, t) < kNear * kNear) return true;
-  }
-  // Most points have a triangle close by; only for the others the nearest one matters.
-  const auto measure = [&](std::uint32_t t) { return squared_distance_to(p, t); };
-  const auto close = tree_.nearest(p, kNear * kNear, measure);
-  if (close.second < kNear * kNear) {
-    recent_[turn_++ % recent_.size()] = close.first;
+  // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
+  const auto [guess, squared_guess] = walk_towards(p);
+  if (squared_guess < kNear * kNear) {
+    last_ = guess;
     return true;
   }
-  const auto [nearest, squared] = tree_.nearest(p, std::numeric_limits<double>::infinity(), measure);
+  // The nearest of all is no farther than the guess; a little more, so that the guess itself is found as well.
+  const auto [nearest, squared] =
+      tree_.nearest(p, 1.001 * squared_guess, [&](std::uint32_t t) { return squared_distance_to(p, t); });
+  if (squared < kNear * kNear) {
+    last_ = nearest;
+    return true;
+  }
   const double reach = kRadiusFraction * circumradius(mesh_, nearest);
   return squared <= reach * reach;
+}
+
+std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p) const {
+  std::pair<std::uint32_t, double> best = {last_, squared_distance_to(p, last_)};
+  for (int step = 0; step < kLongestWalk && best.second >= kNear * kNear; ++step) {
+    const std::uint32_t from = best.first;
+    for (const TriangleSide side : mesh_.neighbours[from]) {
+      if (side == kNoSide) continue;
+      const double squared = squared_distance_to(p, side >> 2);
+      if (squared < best.second) best = {side >> 2, squared};
+    }
+    if (best.first == from) break;
+  }
+  return best;
 }
 
 std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,

@@ -2,10 +2,10 @@
 // topology nor any dual edge tells of it.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "surface/box_tree.h"
@@ -19,7 +19,7 @@ namespace deliso {
 // The triangles of a mesh by place, for asking whether many points of the surface lie near them.
 class MeshCover {
  public:
-  // Keeps a reference to the mesh.
+  // Keeps a reference to the mesh, which has neighbours.
   explicit MeshCover(const SurfaceMesh& mesh);
 
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse
@@ -28,11 +28,12 @@ class MeshCover {
 
  private:
   [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
+  // Where a walk over the mesh that comes ever nearer to p ends, or was given up; and its squared distance.
+  [[nodiscard]] std::pair<std::uint32_t, double> walk_towards(const Vec3& p) const;
 
   const SurfaceMesh& mesh_;
   BoxTree tree_;
-  std::array<std::uint32_t, 4> recent_{};  // triangles that covered recent points: good guesses for the next
-  std::size_t turn_ = 0;
+  std::uint32_t last_ = 0;  // the triangle that covered the last point: a good guess for the next
 };
 
 // For a few points: which lie within 0.8 mesh-space units, or within half its circumradius, of a triangle t for which

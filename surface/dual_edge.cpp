@@ -27,17 +27,14 @@ double surface_hit(const DualEdge& edge) {
   return nearest;
 }
 
-// The same as search_facet, given the dual points of the tetrahedra on both sides: most dual edges lie far from the
-// isosurface.
-void RestrictedDelaunay::search_facet_between(FacetId f, const DualEnd& from, const DualEnd& to) {
+// The same as search_facet, for a facet between tetrahedra of one sign with these dual points: most such dual edges
+// lie far from the isosurface.
+void RestrictedDelaunay::search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to) {
   if (has_virtual_vertex(f)) return;
-  if (!is_restricted(f)) {
-    const bool is_finite = !delaunay_.is_ghost(f.tet()) && !delaunay_.is_ghost(delaunay_.mirror(f).tet());
-    if (is_finite ? isosurface_.is_clear(from.point, from.place, to.point, to.place)
-                  : isosurface_.is_clear_box(from.place, to.place)) {
-      ++counters_.searches;
-      return;
-    }
+  if (from.is_finite && to.is_finite ? isosurface_.is_clear(from.point, from.place, to.point, to.place)
+                                     : isosurface_.is_clear_box(from.place, to.place)) {
+    ++counters_.searches;
+    return;
   }
   search_facet(f);
 }
@@ -50,6 +47,7 @@ void RestrictedDelaunay::search_facet(FacetId f) {
   const Vec3& b = delaunay_.point(v[1]);
   const Vec3& c = delaunay_.point(v[2]);
   const Circumcircle circle = circumcircle(a, b, c);
+  isosurface_.prefetch(isosurface_.place_of(circle.center));  // hits are often near it
   const Vec3 normal = cross(b - a, c - a);
   const double length = norm(normal);
   DualEdge& edge = scratch_;
@@ -74,9 +72,9 @@ void RestrictedDelaunay::search_facet(FacetId f) {
   const std::uint32_t generation = kept.generation;
   std::swap(kept, edge);
   kept.generation = generation;
-  edge_of_[f.tet().index()][f.face()] = e;
+  tets_[f.tet().index()].edges[f.face()] = e;
   const FacetId mirror = delaunay_.mirror(f);
-  edge_of_[mirror.tet().index()][mirror.face()] = e;
+  tets_[mirror.tet().index()].edges[mirror.face()] = e;
   touched_edges_.push_back(e);
   if (rule_ == FacetRule::kHits && is_dual_to_surface(f)) add_restricted(f);
 }

@@ -16,10 +16,9 @@ RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<c
 
 void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
-  edge_of_.assign(slots, {});
+  tets_.assign(slots, {});
   touched_stamp_.assign(delaunay_.vertex_count(), 0);
   umbrellas_.assign(delaunay_.vertex_count(), {});
-  position_.assign(slots, 0);
   std::vector<DualEnd> dual_ends(slots);
   for (std::size_t i = 0; i < slots; ++i) {
     if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_of(TetId(i));
@@ -31,7 +30,11 @@ void RestrictedDelaunay::search_everything() {
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
       if (is_dual_to_surface(f)) add_restricted(f);
-      search_facet_between(f, dual_ends[i], dual_ends[mirror.tet().index()]);
+      if (is_restricted(f)) {
+        search_facet(f);
+      } else {
+        search_clear_facet(f, dual_ends[i], dual_ends[mirror.tet().index()]);
+      }
     }
   }
 }
@@ -63,14 +66,14 @@ void RestrictedDelaunay::forget_region() {
     rim_edges_.push_back({e, inside_is_begin, is_dual_to_surface(f)});
   }
   const std::span<const TetId> region = delaunay_.conflict_region();
-  for (std::size_t i = 0; i < region.size(); ++i) position_[region[i].index()] = static_cast<std::uint32_t>(i);
-  for (const TetId t : region) {
+  rim_faces_.assign(region.size(), 0);
+  for (const std::uint32_t from : delaunay_.rim_from_inside()) {
+    rim_faces_[from >> 2] = static_cast<std::uint8_t>(rim_faces_[from >> 2] | 1u << (from & 3u));
+  }
+  for (std::size_t i = 0; i < region.size(); ++i) {
     for (unsigned face = 0; face < 4; ++face) {
-      const FacetId f(t, face);
-      const FacetId mirror = delaunay_.mirror(f);
-      const std::uint32_t position = position_[mirror.tet().index()];
-      const bool inside = position < region.size() && region[position] == mirror.tet();
-      if (!inside || mirror < f) continue;
+      const FacetId f(region[i], face);
+      if ((rim_faces_[i] >> face & 1u) != 0 || delaunay_.mirror(f) < f) continue;
       if (is_dual_to_surface(f)) remove_restricted(f);
       if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
     }
@@ -79,24 +82,26 @@ void RestrictedDelaunay::forget_region() {
 
 RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
   const Vec3 p = dual_point(t);
-  return {p, isosurface_.place_of(p)};
+  const DualEnd end{p, isosurface_.place_of(p), !delaunay_.is_ghost(t)};
+  isosurface_.prefetch(end.place);
+  return end;
 }
 
 // After the cavity is filled: signs of the new tetrahedra, then their facets, the rim first.
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
-  edge_of_.resize(delaunay_.tet_slots());
-  position_.resize(delaunay_.tet_slots(), 0);
+  tets_.resize(delaunay_.tet_slots());
   touched_stamp_.resize(delaunay_.vertex_count(), 0);
   umbrellas_.resize(delaunay_.vertex_count());
   const std::span<const TetId> created = delaunay_.created();
   dual_ends_.resize(created.size());
   for (std::size_t i = 0; i < created.size(); ++i) {
-    const TetId t = created[i];
-    position_[t.index()] = static_cast<std::uint32_t>(i);
-    dual_ends_[i] = dual_end_of(t);
-    sign_[t.index()] = isosurface_.is_above(dual_ends_[i].point, dual_ends_[i].place) ? Sign::kAbove : Sign::kBelow;
-    edge_of_[t.index()].fill(DualEdgeId::none());
+    tets_[created[i].index()] = {{}, static_cast<std::uint32_t>(i)};
+    dual_ends_[i] = dual_end_of(created[i]);
+  }
+  for (std::size_t i = 0; i < created.size(); ++i) {
+    const bool is_above = isosurface_.is_above(dual_ends_[i].point, dual_ends_[i].place);
+    sign_[created[i].index()] = is_above ? Sign::kAbove : Sign::kBelow;
   }
   for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
   for (std::size_t i = 0; i < created.size(); ++i) {
@@ -104,8 +109,13 @@ void RestrictedDelaunay::renew_star() {
       const FacetId f(created[i], face);
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
-      if (is_dual_to_surface(f)) add_restricted(f);
-      search_facet_between(f, dual_ends_[i], dual_ends_[position_[mirror.tet().index()]]);
+      const bool restricted = sign_[created[i].index()] != sign_[mirror.tet().index()];
+      if (rule_ == FacetRule::kSigns ? restricted : is_dual_to_surface(f)) add_restricted(f);
+      if (restricted) {
+        search_facet(f);
+      } else {
+        search_clear_facet(f, dual_ends_[i], dual_ends_[tets_[mirror.tet().index()].position]);
+      }
     }
   }
   touch(last_vertex());
@@ -130,7 +140,7 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
 // whether their number changed; an edge without hits is released.
 bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
   DualEdge& edge = dual_edges_[rim.edge.index()];
-  edge_of_[f.tet().index()][f.face()] = rim.edge;
+  tets_[f.tet().index()].edges[f.face()] = rim.edge;
   if (rim.inside_is_begin) {
     edge.facet = f;
     edge.t_begin = std::min(dual_end(edge, f.tet(), -1), edge.t_end);
@@ -217,8 +227,8 @@ DualEdgeId RestrictedDelaunay::make_edge() {
 void RestrictedDelaunay::release_edge(DualEdgeId e) {
   DualEdge& edge = dual_edges_[e.index()];
   const FacetId mirror = delaunay_.mirror(edge.facet);
-  edge_of_[edge.facet.tet().index()][edge.facet.face()] = DualEdgeId::none();
-  edge_of_[mirror.tet().index()][mirror.face()] = DualEdgeId::none();
+  tets_[edge.facet.tet().index()].edges[edge.facet.face()] = DualEdgeId::none();
+  tets_[mirror.tet().index()].edges[mirror.face()] = DualEdgeId::none();
   edge.hits.clear();
   ++edge.generation;
   free_edges_.push_back(e);

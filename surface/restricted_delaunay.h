@@ -58,7 +58,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] bool is_alive(DualEdgeId e) const { return (dual_edges_[e.index()].generation & 1u) != 0; }
   [[nodiscard]] const DualEdge& dual_edge(DualEdgeId e) const { return dual_edges_[e.index()]; }
   // The dual edge of a facet, or none when it has no hit.
-  [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return edge_of_[f.tet().index()][f.face()]; }
+  [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return tets_[f.tet().index()].edges[f.face()]; }
 
   // Restricted by the rule. Facets with a virtual vertex have no dual edge: their signs tell.
   [[nodiscard]] bool is_dual_to_surface(FacetId f) const;
@@ -93,9 +93,10 @@ class RestrictedDelaunay : public SignedDelaunay {
   struct DualEnd {
     Vec3 point;
     Isosurface::Place place;
+    bool is_finite = false;
   };
   [[nodiscard]] DualEnd dual_end_of(TetId t) const;
-  void search_facet_between(FacetId f, const DualEnd& from, const DualEnd& to);
+  void search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to);
   [[nodiscard]] bool has_virtual_vertex(FacetId f) const;
   void add_restricted(FacetId f);
   void remove_restricted(FacetId f);
@@ -104,12 +105,15 @@ class RestrictedDelaunay : public SignedDelaunay {
   void release_edge(DualEdgeId e);
 
   FacetRule rule_;
-  LargeArray<std::array<DualEdgeId, 4>> edge_of_;  // of each facet of each tetrahedron
-  std::vector<std::uint32_t> touched_stamp_;       // of each vertex: the insertion that touched it last
+  struct TetRecord {
+    std::array<DualEdgeId, 4> edges;  // of its facets
+    std::uint32_t position = 0;       // in created(), if it is one of them
+  };
+  LargeArray<TetRecord> tets_;
+  std::vector<std::uint32_t> touched_stamp_;  // of each vertex: the insertion that touched it last
   std::uint32_t stamp_ = 0;
-  // Of each tetrahedron: its position in the conflict region or, later, in created(); right only if that agrees.
-  LargeArray<std::uint32_t> position_;
-  std::vector<DualEnd> dual_ends_;  // of created()
+  std::vector<DualEnd> dual_ends_;       // of created()
+  std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: bits of its faces on the rim
   // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
   struct Umbrella {
     std::uint32_t size = 0;

@@ -27,7 +27,7 @@ double radius_of(const SurfaceMesh& mesh, std::uint32_t t) {
   return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
 }
 
-// Triangles of many sizes.
+// Triangles of many sizes, and sides that lead anywhere: answers do not depend on them.
 SurfaceMesh soup(Rng& rng) {
   SurfaceMesh mesh;
   for (std::uint32_t t = 0; t < 60; ++t) {
@@ -37,6 +37,7 @@ SurfaceMesh soup(Rng& rng) {
       mesh.points.push_back(at + size * Vec3{rng.uniform(), rng.uniform(), rng.uniform()});
     }
     mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    mesh.neighbours.push_back({4 * ((7 * t + 1) % 60), kNoSide, 4 * ((t + 59) % 60)});
   }
   return mesh;
 }
