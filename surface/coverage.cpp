@@ -8,6 +8,7 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/constructions.h"
+#include "surface/blocks.h"
 #include "surface/build_triangle_mesh.h"
 #include "surface/surface_distance.h"
 
@@ -137,17 +138,20 @@ std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p) const {
 }
 
 std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                 const std::function<bool(std::uint32_t)>& takes) {
+                                 const std::function<bool(std::uint32_t)>& takes, int threads) {
   std::vector<bool> covered(points.size(), false);
   if (points.empty()) return covered;
   std::vector<Box3> boxes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) boxes[i].extend(points[i]);
   const BoxTree tree(boxes);
   const NearBlocks blocks(points);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  const auto append_if_near = [&](std::size_t i, std::vector<std::uint32_t>& near) {
+    const auto t = static_cast<std::uint32_t>(i);
     // A corner far from all points tells of a small triangle: sides and reach together stay within a block.
-    if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && is_small(mesh, t, blocks.reach() / 3)) continue;
-    if (!takes(t)) continue;
+    if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && is_small(mesh, t, blocks.reach() / 3)) return;
+    if (takes(t)) near.push_back(t);
+  };
+  for (const std::uint32_t t : collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, append_if_near)) {
     const auto& v = mesh.triangles[t];
     const double radius = circumradius(mesh, t);
     const double reach = std::isfinite(radius) ? std::max(kNear, kFewRadii * radius) : kNear;

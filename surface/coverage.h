@@ -36,10 +36,10 @@ class MeshCover {
   std::uint32_t last_ = 0;  // the triangle that covered the last point: a good guess for the next
 };
 
-// For a few points: which lie within 0.8 mesh-space units, or within half its circumradius, of a triangle t for which
-// takes(t) holds.
+// For a few points, on several threads: which lie within 0.8 mesh-space units, or within half its circumradius, of a
+// triangle t for which takes(t) holds.
 std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                 const std::function<bool(std::uint32_t)>& takes);
+                                 const std::function<bool(std::uint32_t)>& takes, int threads = 1);
 
 // Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
 // nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are

@@ -163,11 +163,13 @@ bool take_sides_of_facets(RestrictedDelaunay& restricted) {
 
 // The surface mesh that stage 2 starts from, with pole heights.
 SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const ScalarGrid& grid,
-                         const IsosurfaceTopology& topology, const Parameters& parameters, Controls& controls,
+                         const IsosurfaceTopology& topology, const MeshingOptions& options, Controls& controls,
                          MeshingResult& result) {
+  const Parameters& parameters = options.parameters;
   if (parameters.certify && parameters.repair.max_rounds > 0) {
     return timed(result.repair, [&] {
-      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, controls, result.repair);
+      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
+                    result.repair);
     });
   }
   if (!parameters.stage1.one_sign_per_tetrahedron) {
@@ -234,7 +236,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   result.recover.hits_against_signs = restricted->hits_against_signs();
 
   // The tetrahedra go as soon as the surface mesh stands.
-  SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, parameters, controls, result);
+  SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, options, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {

@@ -1,9 +1,10 @@
 #include "surface/evidence.h"
 
 #include <array>
-#include <cmath>
+#include <atomic>
 
 #include "delaunay/predicates.h"
+#include "surface/blocks.h"
 #include "surface/sample_locator.h"
 #include "volume/critical_points.h"
 #include "volume/exact_topology_cell.h"
@@ -15,18 +16,23 @@ namespace {
 // Segments are followed down to this length (mesh-space units); shorter passages through a tetrahedron may be missed.
 constexpr double kShortest = 1.0 / 64;
 
+// Cells that one thread takes at a time.
+constexpr std::size_t kCellsAtOnce = 2048;
+
 class Collector {
  public:
-  Collector(const SignedDelaunay& restricted, const ScalarGrid& grid)
+  Collector(const SignedDelaunay& restricted, const ScalarGrid& grid, std::vector<std::uint8_t>& sides)
       : restricted_(restricted),
         delaunay_(restricted.delaunay()),
         grid_(grid),
         locator_(restricted, grid),
-        sides_(delaunay_.tet_slots(), kNoEvidence),
+        sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
   void collect(const CellIndex& cell);
-  std::vector<std::uint8_t> take() { return std::move(sides_); }
+  // Whether the tetrahedra found for a cell do not depend on where the search for them begins, that is, on the cells
+  // before it; may say no.
+  [[nodiscard]] bool stands_alone(const CellIndex& cell);
 
  private:
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
@@ -35,6 +41,11 @@ class Collector {
   TetId note(const Vec3& p, std::uint8_t side);
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
   void note_located(const Vec3& p, std::uint8_t side);
+  // Several collectors may note at once; what is noted does not depend on the order.
+  void note_at(TetId t, std::uint8_t side) {
+    const std::atomic_ref<std::uint8_t> noted(sides_[t.index()]);
+    if ((noted.load(std::memory_order_relaxed) & side) == 0) noted.fetch_or(side, std::memory_order_relaxed);
+  }
   [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
     return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
   }
@@ -46,13 +57,31 @@ class Collector {
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
   SampleLocator locator_;
-  std::vector<std::uint8_t> sides_;
+  std::vector<std::uint8_t>& sides_;  // shared
   TetId hint_;
   std::vector<CriticalPoint> critical_;
 };
 
 Vec3 corner_place(unsigned corner) {
   return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
+}
+
+CellIndex corner_sample(const CellIndex& cell, unsigned corner) {
+  const auto bit = [corner](unsigned axis) { return static_cast<std::int32_t>(corner >> axis & 1u); };
+  return {cell[0] + bit(0), cell[1] + bit(1), cell[2] + bit(2)};
+}
+
+// The first sample that collect_edges asks for tells: all that follows depends on earlier cells through it alone.
+bool Collector::stands_alone(const CellIndex& cell) {
+  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    for (unsigned axis = 1; axis <= 4; axis *= 2) {
+      if ((corner & axis) != 0 || side_of(corners[corner]) != side_of(corners[corner | axis])) continue;
+      const CellIndex sample = corner_sample(cell, corner);
+      return locator_.is_settled(sample, locator_.locate(sample, hint_));
+    }
+  }
+  return false;
 }
 
 void Collector::collect(const CellIndex& cell) {
@@ -112,15 +141,14 @@ TetId Collector::note(const Vec3& p, std::uint8_t side) {
 }
 
 TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-  const auto bit = [corner](unsigned axis) { return static_cast<std::int32_t>(corner >> axis & 1u); };
-  hint_ = locator_.locate({cell[0] + bit(0), cell[1] + bit(1), cell[2] + bit(2)}, hint_);
+  hint_ = locator_.locate(corner_sample(cell, corner), hint_);
   note_located(place(cell, corner_place(corner)), side);
   return hint_;
 }
 
 // The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on.
 void Collector::note_located(const Vec3& p, std::uint8_t side) {
-  sides_[hint_.index()] |= side;
+  note_at(hint_, side);
   if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return;
   const auto& v = delaunay_.vertices(hint_);
   for (unsigned face = 0; face < 4; ++face) {
@@ -128,7 +156,7 @@ void Collector::note_located(const Vec3& p, std::uint8_t side) {
     if (delaunay_.is_ghost(across) == delaunay_.is_ghost(hint_)) continue;
     const auto& slots = kFacetSlots[face];
     if (orient3d(delaunay_.point(v[slots[0]]), delaunay_.point(v[slots[1]]), delaunay_.point(v[slots[2]]), p) == 0) {
-      sides_[across.index()] |= side;
+      note_at(across, side);
     }
   }
 }
@@ -136,10 +164,19 @@ void Collector::note_located(const Vec3& p, std::uint8_t side) {
 }  // namespace
 
 std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const RaisedCells& raised) {
-  Collector collector(restricted, grid);
-  for (const auto& [name, level] : raised.levels()) collector.collect(raised.cell(name));
-  return collector.take();
+                                      const RaisedCells& raised, int threads) {
+  std::vector<CellIndex> cells;
+  cells.reserve(raised.levels().size());
+  for (const auto& [name, level] : raised.levels()) cells.push_back(raised.cell(name));
+  std::vector<std::uint8_t> sides(restricted.delaunay().tet_slots(), kNoEvidence);
+  const auto collect = [&](std::size_t first, std::size_t last) {
+    Collector collector(restricted, grid, sides);
+    // From a cell that does not depend on the blocks before; to note again what they have noted does no harm.
+    while (first > 0 && !collector.stands_alone(cells[first])) --first;
+    for (std::size_t i = first; i < last; ++i) collector.collect(cells[i]);
+  };
+  for_each_block(cells.size(), threads, collect, kCellsAtOnce);
+  return sides;
 }
 
 }  // namespace deliso

@@ -18,7 +18,8 @@ namespace deliso {
 // Of each tetrahedron (by slot): which sides segments of the raised cells that cross it lie on.
 enum Evidence : std::uint8_t { kNoEvidence = 0, kAbove = 1, kBelow = 2, kConflict = 3 };
 
+// The same for any number of threads.
 std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const RaisedCells& raised);
+                                      const RaisedCells& raised, int threads = 1);
 
 }  // namespace deliso

@@ -1,16 +1,27 @@
 #include "surface/facet_pairing.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "delaunay/base/check.h"
 
 namespace deliso {
 
+namespace {
+
+// Counts of ways around edges, per facet; a facet has one edge and a half.
+constexpr std::size_t kCountsPerFacet = 8;
+
+}  // namespace
+
 FacetPairing::FacetPairing(const SignedDelaunay& restricted)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(restricted.signs()) {
   place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
   for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
+  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
+  // Guards may share an edge with two facets that are not ours.
+  if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides();
   pair_sides();
 }
 
@@ -68,6 +79,31 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
   facets_ = std::move(facets);
 }
 
+// Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
+// above will do. It is taken for all edges; those that seem to have more than one way are left for pair_sides. Edges
+// are counted by a hash: where two of them share it the only loss is time.
+void FacetPairing::pair_uncontested_sides() {
+  const std::size_t least = kCountsPerFacet * facets_.size() + 2;
+  const unsigned shift = 64u - static_cast<unsigned>(std::bit_width(least));
+  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge: 0, 1, 2 for more
+  const auto ways_around = [&](const PairedFacet& facet, unsigned side) -> std::uint8_t& {
+    const auto [low, high] = std::minmax(facet.vertices[(side + 1) % 3].value, facet.vertices[(side + 2) % 3].value);
+    const std::uint64_t edge = std::uint64_t{high} << 32 | low;
+    return ways[edge * std::uint64_t{0x9E3779B97F4A7C15} >> shift];
+  };
+  for (PairedFacet& facet : facets_) {
+    for (unsigned side = 0; side < 3; ++side) {
+      if (facet.known[side]) continue;
+      join(facet, side, next_restricted_facet(facet.facet, facet.vertices[side]), false);
+      std::uint8_t& count = ways_around(facet, side);
+      count = count == 0 ? 1 : 2;
+    }
+  }
+  for (PairedFacet& facet : facets_) {
+    for (unsigned side = 0; side < 3; ++side) facet.known[side] = ways_around(facet, side) < 2;
+  }
+}
+
 void FacetPairing::pair_sides() {
   for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
   for (PairedFacet& facet : facets_) {
@@ -84,23 +120,28 @@ void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
   const VertexId third = facet.vertices[side];
   const FacetId around_above = next_restricted_facet(facet.facet, third);
   const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(facet.facet), third));
-  FacetId partner = around_above;
-  facet.contested[side] = around_above != around_below;
-  if (facet.contested[side] && restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)))) {
-    partner = around_below;
-  }
+  const bool is_contested = around_above != around_below;
+  const bool goes_below =
+      is_contested && restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)));
+  join(facet, side, goes_below ? around_below : around_above, is_contested);
+}
+
+void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested) {
+  facet.contested[side] = is_contested;
   facet.known[side] = true;
   facet.across[side] = PairedFacet::kUnpaired;
   if (place_of(partner) == kNoPlace) return;
 
   // Our edge runs the other way over there.
+  const VertexId a = facet.vertices[(side + 1) % 3];
+  const VertexId b = facet.vertices[(side + 2) % 3];
   PairedFacet& there = facets_[place_of(partner)];
   unsigned i = 0;
   while (i < 3 && !(there.vertices[(i + 1) % 3] == b && there.vertices[(i + 2) % 3] == a)) ++i;
   DELISO_CHECK(i < 3, "paired facets must share an edge");
   facet.across[side] = 4 * there.facet.value + i;
   there.across[i] = 4 * facet.facet.value + side;
-  there.contested[i] = facet.contested[side];
+  there.contested[i] = is_contested;
   there.known[i] = true;
 }
 

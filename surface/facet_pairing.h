@@ -42,8 +42,10 @@ class FacetPairing {
  private:
   void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
   void renew_facets(std::span<const TetId> tets);
+  void pair_uncontested_sides();
   void pair_sides();
   void pair_side(PairedFacet& facet, unsigned side);
+  void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
   [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId third) const;
 
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;

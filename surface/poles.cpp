@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "delaunay/constructions.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -32,37 +34,44 @@ double pole_height(const std::array<double, 2>& squared, double most, PoleHeight
 }  // namespace
 
 std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule) {
-  return compute_poles(restricted, std::vector<bool>(restricted.delaunay().vertex_count(), true), rule);
+  return compute_poles(restricted, std::vector<bool>(restricted.delaunay().vertex_count(), true), rule, 1);
 }
 
-std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule) {
+std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule,
+                                  int threads) {
   const Tetrahedralization& delaunay = restricted.delaunay();
 
   // All four vertices of a tetrahedron are equally far from its Voronoi vertex; that of a ghost lies at infinity.
-  std::vector<std::array<double, 2>> farthest(delaunay.vertex_count(), {0, 0});  // squared, below and above
-  for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-    const TetId t(i);
-    if (!delaunay.is_live(t)) continue;
+  const auto is_wanted = [&](VertexId q) { return q != kInfiniteVertex && wanted[q.index()]; };
+  const auto squared_radius = [&](TetId t) {
+    if (delaunay.is_ghost(t)) return std::numeric_limits<double>::infinity();
     const auto& v = delaunay.vertices(t);
-    if (std::none_of(v.begin(), v.end(), [&](VertexId q) { return q != kInfiniteVertex && wanted[q.index()]; }))
-      continue;
-    double squared_radius = std::numeric_limits<double>::infinity();
-    if (!delaunay.is_ghost(t)) {
-      const Vec3 center =
-          circumcenter(delaunay.point(v[0]), delaunay.point(v[1]), delaunay.point(v[2]), delaunay.point(v[3]));
-      squared_radius = squared_distance(center, delaunay.point(v[0]));
-    }
-    for (const VertexId q : v) {
+    const Vec3 center =
+        circumcenter(delaunay.point(v[0]), delaunay.point(v[1]), delaunay.point(v[2]), delaunay.point(v[3]));
+    return squared_distance(center, delaunay.point(v[0]));
+  };
+  using Radius = std::pair<TetId, double>;  // squared
+  const std::vector<Radius> radii =
+      collect_in_blocks<Radius>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<Radius>& found) {
+        const TetId t(i);
+        if (!delaunay.is_live(t)) return;
+        const auto& v = delaunay.vertices(t);
+        if (std::any_of(v.begin(), v.end(), is_wanted)) found.emplace_back(t, squared_radius(t));
+      });
+
+  std::vector<std::array<double, 2>> farthest(delaunay.vertex_count(), {0, 0});  // squared, below and above
+  for (const auto& [t, squared] : radii) {
+    for (const VertexId q : delaunay.vertices(t)) {
       if (delaunay.is_ghost(t) && (q == kInfiniteVertex || restricted.is_on_box(q))) continue;
       double& side = farthest[q.index()][restricted.is_above(t) ? 1 : 0];
-      side = std::max(side, squared_radius);
+      side = std::max(side, squared);
     }
   }
 
   const double diagonal = restricted.isosurface().box().diagonal();
   std::vector<double> heights;
   heights.reserve(farthest.size());
-  for (const auto& squared : farthest) heights.push_back(pole_height(squared, diagonal, rule));
+  for (const auto& both : farthest) heights.push_back(pole_height(both, diagonal, rule));
   return heights;
 }
 

@@ -14,8 +14,8 @@ namespace deliso {
 // which the cell is unbounded counts as infinite (but for vertices on the box, whose cells always leave it); when both
 // are, the height is the diagonal of the box.
 std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule = PoleHeight::kNearer);
-// The same where only those of the wanted vertices matter; the others have any height.
-std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted,
-                                  PoleHeight rule = PoleHeight::kNearer);
+// The same where only those of the wanted vertices matter; the others have any height; on several threads.
+std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule,
+                                  int threads);
 
 }  // namespace deliso

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "volume/marching_cubes.h"
@@ -47,16 +48,21 @@ void link_sides(SurfaceMesh& mesh) {
 
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
                                        const IsosurfaceTopology& topology) {
-  const MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue());
+  const MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings);
   PolygonizedSurface surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
   std::vector<std::uint32_t>& component = surface.component;
   component.assign(cubes.points.size(), kNoSide);
   for (std::size_t v = 0; v < cubes.crossing_count; ++v) component[v] = topology.crossings[v].component;
+  std::vector<std::array<std::uint32_t, 3>> with_inner_point;
+  std::copy_if(cubes.triangles.begin(), cubes.triangles.end(), std::back_inserter(with_inner_point),
+               [&](const auto& v) {
+                 return std::max({v[0], v[1], v[2]}) >= cubes.crossing_count;
+               });
   for (bool changed = true; changed;) {
     changed = false;
-    for (const auto& v : cubes.triangles) {
+    for (const auto& v : with_inner_point) {
       const auto known = std::find_if(v.begin(), v.end(), [&](std::uint32_t q) { return component[q] != kNoSide; });
       if (known == v.end()) continue;
       for (const std::uint32_t q : v) {
@@ -70,9 +76,12 @@ PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface&
   const Vec3& step = isosurface.step();
   surface.mesh.points.reserve(cubes.points.size());
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
+    if (v < cubes.crossing_count) {
+      surface.mesh.points.push_back(scaled(crossing_position(grid, topology.crossings[v]), step));
+      continue;
+    }
     Vec3 p = cubes.points[v] - grid.origin();
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
-    if (v < cubes.crossing_count) p = scaled(crossing_position(grid, topology.crossings[v]), step);
     surface.mesh.points.push_back(p);
   }
   surface.mesh.pole_heights.assign(cubes.points.size(), 1);

@@ -35,14 +35,15 @@ constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRul
 class Repair {
  public:
   Repair(const ScalarGrid& grid, const IsosurfaceTopology& topology, std::unique_ptr<SignedDelaunay> restricted,
-         RepairStats& stats)
+         int threads, RepairStats& stats)
       : grid_(grid),
         isosurface_(restricted->isosurface()),
         topology_(topology),
+        threads_(threads),
         stats_(stats),
         lattice_(grid, isosurface_.isovalue(), topology),
         raised_(grid, isosurface_),
-        round_(std::in_place, grid, topology, raised_, std::move(restricted)),
+        round_(std::in_place, grid, topology, raised_, std::move(restricted), threads),
         done_(topology.components.size(), false),
         best_(topology.components.size(), Agreement::kNone) {}
 
@@ -80,6 +81,7 @@ class Repair {
   const ScalarGrid& grid_;
   const Isosurface& isosurface_;
   const IsosurfaceTopology& topology_;
+  int threads_;
   RepairStats& stats_;
   SampleLattice lattice_;
   RaisedCells raised_;
@@ -151,7 +153,7 @@ void Repair::triangulate() {
   for (const Sample& sample : samples_) points.push_back(sample.point);
   give_poles();
   round_.reset();
-  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points));
+  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points), threads_);
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
@@ -242,7 +244,7 @@ void Repair::give_poles() {
         wanted[built.vertex_of[v].index()] = true;
       }
     }
-    const std::vector<double> heights = compute_poles(round_->restricted(), wanted);
+    const std::vector<double> heights = compute_poles(round_->restricted(), wanted, PoleHeight::kNearer, threads_);
     for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   }
 }
@@ -284,9 +286,9 @@ SurfaceMesh Repair::assemble_kept() {
 }  // namespace
 
 SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
+                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, int threads, Controls& controls,
                    RepairStats& stats) {
-  return Repair(grid, topology, std::move(restricted), stats).run(max_rounds, controls);
+  return Repair(grid, topology, std::move(restricted), threads, stats).run(max_rounds, controls);
 }
 
 }  // namespace deliso

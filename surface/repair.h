@@ -31,9 +31,9 @@ struct RepairStats : StageStats {
 };
 
 // `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with
-// pole heights.
+// pole heights; the same for any number of threads.
 SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, Controls& controls,
+                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, int threads, Controls& controls,
                    RepairStats& stats);
 
 }  // namespace deliso

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "surface/blocks.h"
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
 #include "surface/coverage.h"
@@ -9,22 +10,25 @@
 namespace deliso {
 
 RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
-                         std::unique_ptr<SignedDelaunay> restricted)
+                         std::unique_ptr<SignedDelaunay> restricted, int threads)
     : grid_(grid),
       topology_(topology),
       raised_(raised),
+      threads_(threads),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
       component_of_vertex_(restricted_->delaunay().vertex_count(), 0),
       unfounded_(*restricted_, grid) {
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
-  for (std::size_t i = 0; i < component_of_vertex_.size(); ++i) {
-    if (restricted_->is_virtual(VertexId(i))) continue;
-    const Vec3& p = restricted_->delaunay().point(VertexId(i));
-    const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-    component_of_vertex_[i] = component_of(grid, isosurface.isovalue(), topology, index_point).value_or(0);
-  }
+  for_each_block(component_of_vertex_.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (restricted_->is_virtual(VertexId(i))) continue;
+      const Vec3& p = restricted_->delaunay().point(VertexId(i));
+      const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
+      component_of_vertex_[i] = component_of(grid, isosurface.isovalue(), topology, index_point).value_or(0);
+    }
+  });
 }
 
 void RepairRound::take_plain_signs() {
@@ -33,7 +37,7 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs(SignRule rule) {
-  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_);
+  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_, threads_);
   rules_->take_signs(rule, *restricted_);
   unfounded_.overturn(*restricted_);
 }
@@ -72,7 +76,8 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh) const {
     component.push_back(component_of_vertex_[i]);
   }
   const std::vector<bool> covered = covered_points(
-      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); });
+      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); },
+      threads_);
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     Agreement& agreement = match.agreement[component[i]];
     if (covered[i] || agreement == Agreement::kPartial) continue;

@@ -22,9 +22,10 @@ namespace deliso {
 
 class RepairRound {
  public:
-  // The signs of `restricted` are those of the circumcenters. Keeps references to the others.
+  // The signs of `restricted` are those of the circumcenters. Keeps references to the others. Nothing but the
+  // time depends on the number of threads.
   RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
-              std::unique_ptr<SignedDelaunay> restricted);
+              std::unique_ptr<SignedDelaunay> restricted, int threads);
 
   // Takes the signs of the circumcenters, less those without foundation.
   void take_plain_signs();
@@ -51,6 +52,7 @@ class RepairRound {
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& raised_;
+  int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
   std::vector<bool> at_circumcenters_;  // signs, by slot of the tetrahedron
   std::vector<std::uint32_t> component_of_vertex_;

@@ -14,9 +14,7 @@ TetId SampleLocator::locate(const std::array<std::int32_t, 3>& sample, TetId hin
   const std::size_t index = grid_.index(sample[0], sample[1], sample[2]);
   Known& known = known_[(index * std::uint64_t{0x9E3779B97F4A7C15}) >> (64 - kBits)];
   if (known.sample == index) return known.tet;
-  const Vec3 p =
-      scaled({static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])},
-             restricted_.isosurface().step());
+  const Vec3 p = place(sample);
   const TetId t = restricted_.locate(p, hint);
   if (is_strictly_inside(t, p)) known = {index, t};
   return t;

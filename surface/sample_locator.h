@@ -21,6 +21,10 @@ class SampleLocator {
 
   // The tetrahedron that SignedDelaunay::locate finds from `hint` for a sample of the grid.
   TetId locate(const std::array<std::int32_t, 3>& sample, TetId hint);
+  // Whether that is the same from every hint: the sample lies strictly inside tetrahedron t, where it was found.
+  [[nodiscard]] bool is_settled(const std::array<std::int32_t, 3>& sample, TetId t) const {
+    return is_strictly_inside(t, place(sample));
+  }
 
  private:
   static constexpr unsigned kBits = 15;
@@ -28,6 +32,10 @@ class SampleLocator {
     std::size_t sample = std::numeric_limits<std::size_t>::max();  // its index in the grid
     TetId tet;                                                     // it lies strictly inside
   };
+  [[nodiscard]] Vec3 place(const std::array<std::int32_t, 3>& sample) const {
+    return scaled({static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])},
+                  restricted_.isosurface().step());
+  }
   [[nodiscard]] bool is_strictly_inside(TetId t, const Vec3& p) const;
 
   const SignedDelaunay& restricted_;

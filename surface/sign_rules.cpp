@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/blocks.h"
 #include "surface/evidence.h"
 
 namespace deliso {
@@ -57,10 +58,11 @@ bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3
 }  // namespace
 
 SignRules::SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
-                     std::vector<bool> at_circumcenters)
+                     std::vector<bool> at_circumcenters, int threads)
     : raised_(raised),
+      threads_(threads),
       at_circumcenters_(std::move(at_circumcenters)),
-      evidence_(evidence_in(restricted, grid, raised)) {
+      evidence_(evidence_in(restricted, grid, raised, threads)) {
   for (std::size_t i = 0; i < evidence_.size(); ++i) {
     if (evidence_[i] != kAbove && evidence_[i] != kBelow) continue;
     if (shape_of(restricted, TetId(i)).is_small) overruled_.emplace_back(TetId(i), evidence_[i] == kAbove);
@@ -70,17 +72,18 @@ SignRules::SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, c
 void SignRules::find_candidates(const SignedDelaunay& restricted) {
   const auto zone = raised_.zone();
   const Tetrahedralization& delaunay = restricted.delaunay();
-  for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
+  const auto append_if_candidate = [&](std::size_t i, std::vector<Candidate>& candidates) {
     const TetId t(i);
-    if (!delaunay.is_live(t)) continue;
+    if (!delaunay.is_live(t)) return;
     const Shape shape = shape_of(restricted, t);
-    if (!shape.is_small) continue;
+    if (!shape.is_small) return;
     const auto at = zone.find(raised_.name(raised_.cell_of(shape.centroid)));
-    if (at == zone.end()) continue;
+    if (at == zone.end()) return;
     const bool in_ring = at->second == RaisedCells::Zone::kRing;
-    candidates_.push_back({t, in_ring, restricted.isosurface().is_above(shape.centroid),
-                           !in_ring && has_opposed_gradients(restricted, t, shape.centroid)});
-  }
+    candidates.push_back({t, in_ring, restricted.isosurface().is_above(shape.centroid),
+                          !in_ring && has_opposed_gradients(restricted, t, shape.centroid)});
+  };
+  candidates_ = collect_in_blocks<Candidate>(delaunay.tet_slots(), threads_, append_if_candidate);
   has_candidates_ = true;
 }
 

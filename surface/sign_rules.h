@@ -24,9 +24,10 @@ enum class SignRule {
 // The rules for one triangulation and the raised cells as they stand. What the rules have in common is found once.
 class SignRules {
  public:
-  // `at_circumcenters`: the signs that every rule starts from (SignedDelaunay::signs).
+  // `at_circumcenters`: the signs that every rule starts from (SignedDelaunay::signs). What is found does not depend
+  // on the number of threads.
   SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
-            std::vector<bool> at_circumcenters);
+            std::vector<bool> at_circumcenters, int threads);
 
   // Gives every tetrahedron its sign by a rule; then each small one that segments of known side cross takes their side:
   // evidence that no rule may overrule. `restricted` is the triangulation of the constructor.
@@ -45,6 +46,7 @@ class SignRules {
   void find_candidates(const SignedDelaunay& restricted);
 
   const RaisedCells& raised_;
+  int threads_;
   std::vector<bool> at_circumcenters_;
   std::vector<std::uint8_t> evidence_;
   std::vector<std::pair<TetId, bool>> overruled_;  // small tetrahedra with evidence of one side: whether it is above

@@ -151,18 +151,21 @@ void TroubleFinder::flag_critical_points() {
     if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
   };
   topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-    const auto component = open_component_in(cell);
-    if (!component) return;
+    // Few cells have critical points; of which component those are is asked last.
     const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
     saddles.clear();
     append_critical_points(corners, saddles);
+    unsigned critical = critical_corners(grid_, cell);
+    if (critical == 0 && saddles.empty()) return;
+    const auto component = open_component_in(cell);
+    if (!component) return;
     for (const CriticalPoint& saddle : saddles) {
       const int side = side_of_saddle(corners, isovalue, saddle);
       if (side == 0) continue;
       const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
       check(p, restricted_.locate(p, hint), side > 0, *component);
     }
-    for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
+    for (; critical != 0; critical &= critical - 1) {
       const auto corner = static_cast<unsigned>(std::countr_zero(critical));
       const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
                              cell[2] + static_cast<int>(corner >> 2)};

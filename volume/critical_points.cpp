@@ -19,12 +19,42 @@ constexpr double kRounding = 1e-11;
 
 bool is_inside(double x) { return x > 0 && x < 1; }
 
-// On a face g = f00 + (f10 - f00) x + (f01 - f00) y + k x y has its saddle where both partial derivatives vanish.
-void append_face_saddles(const CellCorners& corners, std::vector<CriticalPoint>& points) {
+// The four edges of a cell along each axis, bit l for the one whose ends have the bits of l along the two next axes:
+// which rise, and which fall. Comparisons are exact, and most cells have no critical point by them alone.
+struct EdgeSigns {
+  explicit EdgeSigns(const CellCorners& corners) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t line = 0; line < 4; ++line) {
+        const std::size_t low = ((line & 1u) << (axis + 1) % 3) | ((line >> 1) << (axis + 2) % 3);
+        const double change = corners[low | (std::size_t{1} << axis)] - corners[low];
+        rises[axis] |= change > 0 ? 1u << line : 0u;
+        falls[axis] |= change < 0 ? 1u << line : 0u;
+      }
+    }
+  }
+  // Whether of two edges along an axis one rises and the other falls.
+  [[nodiscard]] bool oppose(std::size_t axis, std::size_t a, std::size_t b) const {
+    return (((rises[axis] >> a & falls[axis] >> b) | (falls[axis] >> a & rises[axis] >> b)) & 1u) != 0;
+  }
+  // Whether some derivative has one strict sign in the whole cell: that of the four edges along its axis.
+  [[nodiscard]] bool are_monotone() const {
+    constexpr unsigned kAll = 0b1111u;
+    const auto all = [](unsigned edges) { return edges == kAll; };
+    return std::any_of(rises.begin(), rises.end(), all) || std::any_of(falls.begin(), falls.end(), all);
+  }
+
+  std::array<unsigned, 3> rises{};
+  std::array<unsigned, 3> falls{};
+};
+
+// On a face g = f00 + (f10 - f00) x + (f01 - f00) y + k x y has its saddle where both partial derivatives vanish. It
+// is inside if and only if opposite edges oppose each other.
+void append_face_saddles(const CellCorners& corners, const EdgeSigns& edges, std::vector<CriticalPoint>& points) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     for (std::size_t side = 0; side < 2; ++side) {
+      if (!edges.oppose(u, 2 * side, 2 * side + 1) || !edges.oppose(v, side, side + 2)) continue;
       const double f00 = corners[side << axis];
       const double f10 = corners[(side << axis) | (1u << u)];
       const double f01 = corners[(side << axis) | (1u << v)];
@@ -74,23 +104,18 @@ void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& point
   }
 }
 
-// The neighbours of a sample along the axes: bit 2 axis + direction.
-struct Neighbourhood {
-  std::array<unsigned, 2> sides{};  // those below it, those above
-
-  void add(std::size_t axis, unsigned direction, bool above) { sides[above ? 1 : 0] |= 1u << (2 * axis + direction); }
-  [[nodiscard]] bool is_critical() const {
-    return std::any_of(sides.begin(), sides.end(), [](unsigned side) {
-      return side == 0 || side == 0b11u || side == 0b1100u || side == 0b110000u;
-    });
-  }
-};
+// Sets of neighbours of a sample along the axes (bit 2 axis + direction) that make it critical when they are those
+// above it, or those below: bit s for the set s.
+constexpr std::uint64_t kCriticalSets =
+    std::uint64_t{1} | std::uint64_t{1} << 0b11u | std::uint64_t{1} << 0b1100u | std::uint64_t{1} << 0b110000u;
+constexpr unsigned kAllNeighbours = 0b111111u;
 
 }  // namespace
 
 void append_critical_points(const CellCorners& corners, std::vector<CriticalPoint>& points) {
-  append_face_saddles(corners, points);
-  append_body_saddles(corners, points);
+  const EdgeSigns edges(corners);
+  append_face_saddles(corners, edges, points);
+  if (!edges.are_monotone()) append_body_saddles(corners, points);
 }
 
 int side_of_saddle(const CellCorners& corners, double isovalue, const CriticalPoint& saddle) {
@@ -116,25 +141,36 @@ unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t,
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const std::size_t first = grid.index(cell[0], cell[1], cell[2]);
     const std::array<std::size_t, 3> strides = {1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
-    std::array<Neighbourhood, 8> corners;
+    std::array<unsigned, 8> there;  // neighbours that there are
+    there.fill(kAllNeighbours);
+    std::array<unsigned, 8> above{};  // those of them that lie above the corner
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t step = strides[axis];
       const std::size_t u = (axis + 1) % 3;
       const std::size_t v = (axis + 2) % 3;
+      const bool has_before = cell[axis] > 0;
+      const bool has_behind = cell[axis] + 2 < grid.dims()[axis];
+      const unsigned down = 1u << (2 * axis);
+      const unsigned up = 2u << (2 * axis);
       // Along each of four lines: a sample before the cell, two corners, a sample behind it.
       for (std::size_t line = 0; line < 4; ++line) {
         const std::size_t at = first + (line & 1u) * strides[u] + (line >> 1) * strides[v];
         const std::size_t near = ((line & 1u) << u) | ((line >> 1) << v);
         const std::size_t far = near | (std::size_t{1} << axis);
         const bool rises = samples[at] <= samples[at + step];
-        corners[near].add(axis, 1, rises);
-        corners[far].add(axis, 0, !rises);
-        if (cell[axis] > 0) corners[near].add(axis, 0, samples[at - step] > samples[at]);
-        if (cell[axis] + 2 < grid.dims()[axis]) corners[far].add(axis, 1, samples[at + step] <= samples[at + 2 * step]);
+        above[near] |= rises ? up : 0u;
+        above[far] |= rises ? 0u : down;
+        if (!has_before) there[near] &= ~down;
+        if (has_before && samples[at - step] > samples[at]) above[near] |= down;
+        if (!has_behind) there[far] &= ~up;
+        if (has_behind && samples[at + step] <= samples[at + 2 * step]) above[far] |= up;
       }
     }
     unsigned critical = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) critical |= corners[corner].is_critical() ? 1u << corner : 0u;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const unsigned below = there[corner] & ~above[corner];
+      critical |= static_cast<unsigned>((kCriticalSets >> above[corner] | kCriticalSets >> below) & 1u) << corner;
+    }
     return critical;
   });
 }

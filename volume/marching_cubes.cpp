@@ -32,12 +32,12 @@ unsigned faces_of_edge(int edge) {
 
 class MarchingCubes {
  public:
-  MarchingCubes(const ScalarGrid& grid, double isovalue) : grid_(grid), isovalue_(isovalue), index_(grid, isovalue) {}
+  MarchingCubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index)
+      : grid_(grid), isovalue_(isovalue), index_(index) {}
 
-  MarchingCubesMesh build() {
-    for (const EdgeCrossing& crossing : list_crossings(grid_, isovalue_, index_)) {
-      mesh_.points.push_back(crossing_position(grid_, crossing));
-    }
+  MarchingCubesMesh build(std::span<const EdgeCrossing> crossings) {
+    mesh_.points.reserve(crossings.size());
+    for (const EdgeCrossing& crossing : crossings) mesh_.points.push_back(crossing_position(grid_, crossing));
     mesh_.crossing_count = mesh_.points.size();
     mesh_.triangles.reserve(2 * mesh_.crossing_count);
     index_.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) { add_cell(cell, pattern); });
@@ -58,7 +58,7 @@ class MarchingCubes {
 
   const ScalarGrid& grid_;
   double isovalue_;
-  CrossingIndex index_;
+  const CrossingIndex& index_;
   MarchingCubesMesh mesh_;  // in index space until the end
 
   // The cell at hand.
@@ -247,7 +247,13 @@ std::uint32_t MarchingCubes::add_inner_point(const Vec3& near) {
 
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue) {
   DELISO_CHECK(std::isfinite(isovalue), "an isovalue is a finite number");
-  return MarchingCubes(grid, isovalue).build();
+  const CrossingIndex index(grid, isovalue);
+  return marching_cubes(grid, isovalue, index, list_crossings(grid, isovalue, index));
+}
+
+MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                 std::span<const EdgeCrossing> crossings) {
+  return MarchingCubes(grid, isovalue, index).build(crossings);
 }
 
 }  // namespace deliso

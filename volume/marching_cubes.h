@@ -8,9 +8,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "volume/exact_topology_crossings.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -26,5 +28,8 @@ struct MarchingCubesMesh {
 
 // Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue);
+// The same for callers that have the index of the crossings and their list (list_crossings).
+MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                 std::span<const EdgeCrossing> crossings);
 
 }  // namespace deliso

@@ -50,6 +50,7 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   MeshCover cover(mesh);
   const auto takes = [](std::uint32_t t) { return t % 3 != 0; };
   const std::vector<bool> few = covered_points(points, mesh, takes);
+  EXPECT_EQ(covered_points(points, mesh, takes, 3), few);
   int covered = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     double nearest = std::numeric_limits<double>::infinity();

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
 namespace {
 
+using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
 
@@ -54,6 +57,19 @@ TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
         }
       }
     }
+  }
+}
+
+// Enough cells for several blocks. In the symmetric field many samples lie on sides of tetrahedra, where the walk that
+// finds them decides.
+TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
+  for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
+    const SignedDelaunay signed_delaunay = dense(*scene);
+    const RaisedCells raised = everywhere(*scene);
+    EXPECT_GT(raised.levels().size(), 4096u);
+    const std::vector<std::uint8_t> one = evidence_in(signed_delaunay, scene->grid, raised);
+    EXPECT_GT(std::count(one.begin(), one.end(), kAbove), 1000) << scene->name;
+    EXPECT_EQ(evidence_in(signed_delaunay, scene->grid, raised, 3), one) << scene->name;
   }
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "delaunay/base/rng.h"
 #include "surface/founded_signs.h"
 #include "surface/sample_locator.h"
@@ -54,6 +58,37 @@ TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
       expect_same(pairing, FacetPairing(restricted), seed);
     }
   }
+}
+
+// Counts the restricted facets at every edge, those with virtual vertices included.
+TEST(FacetPairing, ContestedEdgesHaveMoreThanTwoRestrictedFacets) {
+  std::size_t contested = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({9, 8, 7}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    Rng rng(seed);
+    turn_some(restricted, 50, rng);
+    std::map<std::pair<VertexId, VertexId>, int> facets_at;
+    const auto edge = [](VertexId a, VertexId b) { return std::pair(std::min(a, b), std::max(a, b)); };
+    for (std::size_t i = 0; i < restricted.delaunay().tet_slots(); ++i) {
+      if (!restricted.delaunay().is_live(TetId(i)) || !restricted.is_above(TetId(i))) continue;
+      for (unsigned face = 0; face < 4; ++face) {
+        const FacetId f(TetId(i), face);
+        if (!restricted.is_restricted(f)) continue;
+        const auto v = restricted.delaunay().facet_vertices(f);
+        for (unsigned side = 0; side < 3; ++side) ++facets_at[edge(v[side], v[(side + 1) % 3])];
+      }
+    }
+    const FacetPairing pairing(restricted);
+    for (const PairedFacet& facet : pairing.facets()) {
+      for (unsigned side = 0; side < 3; ++side) {
+        const int facets = facets_at[edge(facet.vertices[(side + 1) % 3], facet.vertices[(side + 2) % 3])];
+        ASSERT_EQ(facet.contested[side], facets > 2) << "seed " << seed;
+        contested += facets > 2 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(contested, 100u);
 }
 
 TEST(FacetPairing, PairsSidesOfTheSameEdgeWithEachOther) {

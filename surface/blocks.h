@@ -1,0 +1,35 @@
+// Long rows of elements in blocks of one size, for several threads. The size never depends on how many threads there
+// are, and blocks are joined in order; so results do not depend on it either.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "delaunay/base/parallel.h"
+
+namespace deliso {
+
+inline constexpr std::size_t kBlockSize = 16384;
+
+// Calls body(first, last) for each block of the elements below `count`. A body writes to the places of its elements
+// only.
+template <class Body>
+void for_each_block(std::size_t count, int threads, Body&& body, std::size_t block_size = kBlockSize) {
+  run_tasks((count + block_size - 1) / block_size, threads,
+            [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
+}
+
+// What append(element, items) appends for the elements below `count`, in their order.
+template <class Item, class Append>
+std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& append) {
+  std::vector<std::vector<Item>> found((count + kBlockSize - 1) / kBlockSize);
+  for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) append(i, found[first / kBlockSize]);
+  });
+  std::vector<Item> items;
+  for (const std::vector<Item>& some : found) items.insert(items.end(), some.begin(), some.end());
+  return items;
+}
+
+}  // namespace deliso

@@ -1,0 +1,31 @@
+// Repair as a whole, on a field that keeps it busy.
+#include "surface/repair.h"
+
+#include <gtest/gtest.h>
+
+#include "surface/deliso.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+TEST(Repair, IsTheSameForAnyNumberOfThreads) {
+  const auto scene = testing::noise_scene({20, 19, 18}, 4);
+  const auto mesh = [&](int threads) {
+    MeshingOptions options;
+    options.threads = threads;
+    options.parameters.repair.max_rounds = 2;
+    options.keep_stage1_mesh = true;
+    return mesh_isosurface(scene->grid, scene->isovalue, options);
+  };
+  const MeshingResult one = mesh(1);
+  const MeshingResult three = mesh(3);
+  EXPECT_GE(one.repair.rounds, 1);
+  EXPECT_EQ(one.stage1_mesh->points, three.stage1_mesh->points);
+  EXPECT_EQ(one.stage1_mesh->triangles, three.stage1_mesh->triangles);
+  EXPECT_EQ(one.mesh.points, three.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+}
+
+}  // namespace
+}  // namespace deliso
