@@ -25,10 +25,10 @@ using AxisValues = std::array<double, 3>;
 // Stands for an infinite line parameter; a product with zero is still zero.
 inline constexpr double kNever = 1e300;
 
-// The extended cell that holds coordinate x on an axis of n samples. Precondition: x is not NaN. No branches: many
-// points are far outside.
+// The extended cell that holds coordinate x on an axis of n samples; the outermost one when x is not a number. No
+// branches: many points are far outside.
 inline std::int32_t extended_cell(double x, std::int32_t n) {
-  const double inside = std::min(std::max(x, 0.0), static_cast<double>(n - 1));
+  const double inside = std::min(std::max(0.0, x), static_cast<double>(n - 1));
   return static_cast<std::int32_t>(inside) + static_cast<std::int32_t>(x >= 0);
 }
 

@@ -23,7 +23,7 @@ class BoxTree {
       : BoxTree(
             boxes.size(), [boxes](std::size_t i) { return boxes[i]; }, threads) {}
 
-  // Of `count` things; box_of(i) gives the box of thing i, on any thread.
+  // Of `count` things; box_of(i) gives the box of thing i, always the same.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
     std::vector<Centre> centres(count);

@@ -17,8 +17,8 @@ namespace deliso {
 
 // What a caller may watch. Called now and then from the mesher's own thread.
 struct Progress {
-  std::string_view stage;     // "index", "initial", "recover", "poles", "build", "refine", "certify"
-  std::int64_t vertices = 0;  // so far
+  std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "certify"
+  std::int64_t vertices = 0;  // so far, of the whole mesh or of the part at hand
   std::int64_t queued = 0;    // violations still waiting
 };
 
@@ -27,15 +27,20 @@ class Controls {
   Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
       : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
 
-  // To be called once per insertion, before it. True when the run must end now; it stays true.
+  // To be called before each insertion that is tried. True when the run must end now; it stays true.
   bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {
     if (stopped_) return true;
     if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stopped_ = true;
     if ((calls_++ & 255u) != 0) return false;
-    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return stopped_ = true;
-    if (budget_.seconds && watch_.seconds() > *budget_.seconds) return stopped_ = true;
+    if (poll()) return true;
     report(stage, vertices, queued);
     return false;
+  }
+  // The same between larger pieces of work, which insert nothing: looks at the clock and the stop flag.
+  bool poll() {
+    stopped_ = stopped_ || (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
+               (budget_.seconds && watch_.seconds() > *budget_.seconds);
+    return stopped_;
   }
   void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
     if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});

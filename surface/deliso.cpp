@@ -129,13 +129,13 @@ void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const I
                  const Parameters& parameters, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
   const RecoverOptions stage1 = stage1_options(parameters, lengths);
   recover(restricted, stage1, controls, stats);
-  if (topology == nullptr || !parameters.stage1.coverage) return;
+  if (topology == nullptr || !parameters.stage1.coverage || controls.stopped()) return;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology);
   for (int i = 0; i < kCoverageRounds; ++i) {
     const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects);
-    if (inserted == 0) break;
     stats.insertions += inserted;
     stats.uncovered += inserted;
+    if (inserted == 0 || controls.poll()) break;
     recover(restricted, stage1, controls, stats);
   }
 }

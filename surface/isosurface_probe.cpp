@@ -36,7 +36,8 @@ IsosurfaceProbe::Place IsosurfaceProbe::place(const Vec3& p) const {
   Place result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t last = grid_.dims()[axis] - 2;
-    const double x = std::clamp(p[axis] / step_[axis], 0.0, static_cast<double>(last + 1));
+    // In this order what is not a number counts as 0: differences of huge samples may overflow on the way here.
+    const double x = std::min(std::max(0.0, p[axis] / step_[axis]), static_cast<double>(last + 1));
     cell[axis] = std::min(static_cast<std::int32_t>(x), last);
     result.uvw[axis] = x - cell[axis];
   }
@@ -64,7 +65,7 @@ std::optional<FootPoint> IsosurfaceProbe::along_line(const Vec3& p, double value
     return FootPoint{x, deliso::distance(p, x)};
   };
   double t0 = 0, f0 = value_at_p;
-  double t1 = std::min(std::max(first_step, 1e-14), reach), f1 = value(p + t1 * direction);
+  double t1 = std::min(std::max(1e-14, first_step), reach), f1 = value(p + t1 * direction);
   while ((f1 < 0) == (f0 < 0) && f1 != 0) {
     if (t1 >= reach) return std::nullopt;
     t0 = t1;
@@ -114,7 +115,7 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   // Keeps the foot in this direction when it is nearer; tells whether it is nearer by something worth another walk.
   const auto try_direction = [&](const Vec3& direction, double guess) {
     const double length = norm(direction);
-    if (!(length > 0)) return false;
+    if (!(length > 0) || !std::isfinite(length)) return false;
     const std::optional<FootPoint> found =
         along_line(p, f, direction / length, 1.0625 * std::min(guess, kFirstStep), std::min(kReach, best.distance));
     const bool is_progress = found && found->distance < 0.999 * best.distance;

@@ -20,7 +20,7 @@ namespace deliso {
 // Ranks by a number that is not negative: its bits as a float, which compare as it does.
 inline std::uint64_t plain_rank(double key) {
   constexpr double kMost = std::numeric_limits<float>::max();
-  return std::bit_cast<std::uint32_t>(static_cast<float>(std::min(std::max(key, 0.0), kMost)));
+  return std::bit_cast<std::uint32_t>(static_cast<float>(std::min(std::max(0.0, key), kMost)));
 }
 
 // Ranks by the number's power of two, then by the block of a point in mesh space, then by the number: of a float's bits
@@ -31,7 +31,7 @@ inline std::uint64_t block_rank(double key, const Vec3& where) {
   constexpr double kLast = 255;
   std::uint64_t block = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::uint32_t c = static_cast<std::uint32_t>(std::min(std::max(where[axis] / kSide, 0.0), kLast));
+    std::uint32_t c = static_cast<std::uint32_t>(std::min(std::max(0.0, where[axis] / kSide), kLast));
     c = (c | c << 8) & 0x0F00Fu;
     c = (c | c << 4) & 0xC30C3u;
     c = (c | c << 2) & 0x249249u;

@@ -60,11 +60,12 @@ class Repair {
     std::vector<bool> signs;  // that it was made with; empty once it has its pole heights
   };
 
+  SurfaceMesh as_it_is();
   void take_samples();
   void resample();
   void triangulate();
   bool try_rule(SignRule rule);
-  void try_rules();
+  void try_rules(Controls& controls);
   std::vector<Places> places_of_difference(std::int32_t round);
   const PolygonizedSurface& polygonized();
   void keep();
@@ -101,8 +102,9 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
+  if (controls.stopped()) return as_it_is();
   keep();
-  for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.stopped(); ++round) {
+  for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
@@ -110,13 +112,23 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
-    try_rules();
+    try_rules(controls);
     stats_.rounds = round;
   }
   give_poles();
   SurfaceMesh kept = assemble_kept();
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
+}
+
+// The first mesh, right or not, of a run that had to end before.
+SurfaceMesh Repair::as_it_is() {
+  BuiltMesh built = mesh_->built;
+  separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box());
+  const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
+  for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+  stats_.vertices_after = static_cast<std::int64_t>(built.mesh.points.size());
+  return std::move(built.mesh);
 }
 
 void Repair::take_samples() {
@@ -167,7 +179,7 @@ bool Repair::try_rule(SignRule rule) {
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
-void Repair::try_rules() {
+void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
   std::vector<bool> signs;
   for (const SignRule rule : kRules) {
@@ -175,6 +187,7 @@ void Repair::try_rules() {
     if (best && mesh_->match.error >= best->match.error) continue;
     best = mesh_;
     signs = round_->restricted().signs();
+    if (controls.poll()) break;
   }
   mesh_ = std::move(best);
   round_->set_signs(signs);

@@ -28,6 +28,21 @@ class SampleArray {
   SampleArray(std::shared_ptr<const void> mapping, std::span<const Sample> samples)
       : samples_(samples), memory_(std::move(mapping)), is_mapped_(true) {}
 
+  SampleArray(const SampleArray&) = default;
+  SampleArray& operator=(const SampleArray&) = default;
+  SampleArray(SampleArray&& other) noexcept { swap(other); }  // which is empty afterwards
+  SampleArray& operator=(SampleArray&& other) noexcept {
+    SampleArray(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~SampleArray() = default;
+
+  void swap(SampleArray& other) noexcept {
+    std::swap(samples_, other.samples_);
+    std::swap(memory_, other.memory_);
+    std::swap(is_mapped_, other.is_mapped_);
+  }
+
   [[nodiscard]] const Sample* data() const { return samples_.data(); }
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] const Sample* begin() const { return samples_.data(); }

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -27,15 +26,16 @@ void run_tasks(std::size_t count, int threads, Body&& body) {
       }
     }
   };
-  std::vector<std::thread> helpers;
-  const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
-  try {
-    while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
-  } catch (const std::system_error&) {
-    // No more threads to be had: those there are do the work.
+  {
+    std::vector<std::jthread> helpers;  // joined at the end of this block, whatever happens
+    const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+    try {
+      while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
+    } catch (const std::exception&) {
+      // No more threads to be had: those there are do the work.
+    }
+    work();
   }
-  work();
-  for (std::thread& helper : helpers) helper.join();
   const auto first = std::find_if(errors.begin(), errors.end(), [](const auto& error) { return error != nullptr; });
   if (first != errors.end()) std::rethrow_exception(*first);
 }

@@ -201,6 +201,18 @@ TEST(Deliso, TheStopFlagAndBudgetsLeaveAValidPartialMesh) {
   EXPECT_TRUE(mesh_isosurface(grid, isovalue, hurried).stopped_early);
 }
 
+// Noise needs much repair, and repair adds many points: none of it when the budget is spent before.
+TEST(Deliso, ASpentBudgetLeavesNothingToRepair) {
+  const ScalarGrid grid = generate_field("noise", 16);
+  const double isovalue = find_analytic_field("noise").isovalue;
+  MeshingOptions options;
+  options.parameters.budget.max_vertices = 300;
+  const MeshingResult result = mesh_isosurface(grid, isovalue, options);
+  EXPECT_TRUE(result.stopped_early);
+  EXPECT_EQ(result.repair.rounds, 0);
+  EXPECT_LT(result.mesh.points.size(), 1000u);
+}
+
 TEST(Deliso, TheStage1MeshIsKeptWhenAskedFor) {
   MeshingOptions options;
   options.keep_stage1_mesh = true;

@@ -7,6 +7,7 @@
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
 #include "surface/self_intersection.h"
+#include "surface/verification.h"
 #include "tests/support/surface_fields.h"
 #include "volume/critical_points.h"
 #include "volume/io/volume_file.h"
@@ -24,6 +25,15 @@ TEST(Regression, SamplesOfAllMagnitudesMeshWithoutACrash) {
     EXPECT_FALSE(result.mesh.triangles.empty());
     for (const Vec3& p : result.mesh.points) EXPECT_TRUE(is_finite(p));
   }
+}
+
+// Values and gradients between such samples are infinite or no numbers; the check of a mesh looked beyond the volume.
+TEST(Regression, OverflowingDifferencesAreCheckedWithoutACrash) {
+  const ScalarGrid grid = read_volume(kInputs / "overflowing_differences.nrrd");
+  const MeshingResult result = mesh_isosurface(grid, 0.5, {});
+  ASSERT_FALSE(result.mesh.triangles.empty());
+  const Verification verification = verify_mesh(result.mesh, grid, 0.5);
+  EXPECT_EQ(verification.topology.verdict, result.certificate.verdict);
 }
 
 // An isovalue that is the value of a saddle but for rounding: two sheets, or two arms of one, come within 1e-8 voxels.
