@@ -203,14 +203,15 @@ TEST(Deliso, TheStopFlagAndBudgetsLeaveAValidPartialMesh) {
 
 // Noise needs much repair, and repair adds many points: none of it when the budget is spent before.
 TEST(Deliso, ASpentBudgetLeavesNothingToRepair) {
-  const ScalarGrid grid = generate_field("noise", 16);
+  const ScalarGrid grid = generate_field("noise", 10);
   const double isovalue = find_analytic_field("noise").isovalue;
   MeshingOptions options;
   options.parameters.budget.max_vertices = 300;
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
   EXPECT_TRUE(result.stopped_early);
   EXPECT_EQ(result.repair.rounds, 0);
-  EXPECT_LT(result.mesh.points.size(), 1000u);
+  EXPECT_EQ(result.repair.components_polygonized, 0);
+  EXPECT_EQ(result.refine.insertions, 0);
 }
 
 TEST(Deliso, TheStage1MeshIsKeptWhenAskedFor) {
