@@ -51,7 +51,7 @@ TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
     FacetPairing pairing(restricted);
     EXPECT_FALSE(pairing.update());
     Rng rng(seed);
-    for (const std::uint64_t count : {1, 3, 30, 300, 2}) {
+    for (const std::uint64_t count : {1u, 3u, 30u, 300u, 2u}) {
       const std::vector<bool> before = restricted.signs();
       turn_some(restricted, count, rng);
       EXPECT_EQ(pairing.update(), restricted.signs() != before) << "seed " << seed;
@@ -126,7 +126,7 @@ TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
     UnfoundedPockets pockets(restricted, scene->grid);
     pockets.update();
     Rng rng(seed);
-    for (const std::uint64_t count : {1, 3, 30, 300, 2}) {
+    for (const std::uint64_t count : {1u, 3u, 30u, 300u, 2u}) {
       turn_some(restricted, count, rng);
       pockets.update();
       UnfoundedPockets anew(restricted, scene->grid);
