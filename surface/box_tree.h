@@ -83,10 +83,6 @@ class BoxTree {
     std::uint32_t count = 0;  // leaf: number of things; inner node: 0
   };
 
-  static bool touch(const Box3& a, const Box3& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-           a.low.z <= b.high.z && b.low.z <= a.high.z;
-  }
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
   struct Centre {
@@ -110,7 +106,7 @@ class BoxTree {
   void pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const;
   template <class Visit>
   void report(std::uint32_t place_a, std::uint32_t place_b, Visit&& visit) const {
-    if (!touch(boxes_[place_a], boxes_[place_b])) return;
+    if (!boxes_[place_a].meets(boxes_[place_b])) return;
     const auto [i, j] = std::minmax(things_[place_a], things_[place_b]);
     visit(i, j);
   }
@@ -137,7 +133,7 @@ void BoxTree::pairs_within(std::uint32_t node, Visit&& visit) const {
 template <class Visit>
 void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const {
   const Node &na = nodes_[a], &nb = nodes_[b];
-  if (!touch(na.box, nb.box)) return;
+  if (!na.box.meets(nb.box)) return;
   if (na.count == 0 && (nb.count != 0 || squared_norm(na.box.size()) >= squared_norm(nb.box.size()))) {
     pairs_between(a + 1, b, visit);
     pairs_between(na.first, b, visit);
@@ -159,14 +155,14 @@ void BoxTree::for_each_meeting(const Box3& box, Visit&& visit) const {
   while (depth > 0) {
     const std::uint32_t node = stack[--depth];
     const Node& n = nodes_[node];
-    if (!touch(n.box, box)) continue;
+    if (!n.box.meets(box)) continue;
     if (n.count == 0) {
       stack[depth++] = n.first;
       stack[depth++] = node + 1;
       continue;
     }
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-      if (touch(boxes_[i], box)) visit(things_[i]);
+      if (boxes_[i].meets(box)) visit(things_[i]);
     }
   }
 }

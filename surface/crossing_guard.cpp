@@ -71,11 +71,6 @@ Box3 box_of(const std::array<Vec3, 3>& points) {
   return box;
 }
 
-bool do_meet(const Box3& a, const Box3& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(points[0], points[1], points[2]); }
 
 // No clearance at the reached vertices; from there on the bound falls off by distance along edges.
@@ -138,7 +133,7 @@ CrossingGuard::StarTriangle CrossingGuard::star_triangle(const Vec3& p, const Ri
 }
 
 bool CrossingGuard::meets(const StarTriangle& s, const StarTriangle& t) {
-  return do_meet(s.box, t.box) && has_area(t.points) &&
+  return s.box.meets(t.box) && has_area(t.points) &&
          triangle_contact(s.corners, s.points, t.corners, t.points) != TriangleContact::kNone;
 }
 

@@ -27,6 +27,7 @@ void Refinement::measure_all() {
 }
 
 void Refinement::run(Controls& controls) {
+  guard_.emplace(mesh_);
   const std::uint32_t first = part_ == nullptr ? 0 : part_->frozen;
   for (std::uint32_t t = first; t < mesh_.triangles.size(); ++t) queue_if_bad(t, measured(t));
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
@@ -127,7 +128,7 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const double moved = disk_.distance_to(p);
   if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
-  if (guard_.crosses(p, moved, disk_)) return Refusal::kCrossingTriangle;
+  if (guard_->crosses(p, moved, disk_)) return Refusal::kCrossingTriangle;
   star_pole_height_ = inherited_pole_height(p, closed);
   star_.clear();
   for (const RimEdge& edge : disk_.rim()) {
@@ -197,8 +198,8 @@ void Refinement::replace_disk(const Candidate& candidate) {
   const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
   const std::span<const std::uint32_t> old = disk_.triangles();
   const std::span<const RimEdge> rim = disk_.rim();
-  for (const std::uint32_t t : old) guard_.forget(t);
-  mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_.new_clearance()});
+  for (const std::uint32_t t : old) guard_->forget(t);
+  mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
   const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());
   mesh_.triangles.resize(first_new + rim.size());
   const auto slot = [&](std::size_t i) { return i < old.size() ? old[i] : first_new + static_cast<std::uint32_t>(i); };
@@ -215,7 +216,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
     if (edge.outer != kNoSide) mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
     triangle.renew();
     triangle.set_ball(star_[i].ball, star_[i].has_hit);
-    guard_.learn(t);
+    guard_->learn(t);
     queue_if_bad(t, star_[i]);
   }
 }

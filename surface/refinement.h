@@ -20,15 +20,14 @@ class Refinement {
  public:
   // Of a mesh whose vertices have clearances.
   Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh), guard_(mesh) {}
+      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh) {}
   Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
       : mesh_(part.mesh),
         part_(&part),
         isosurface_(isosurface),
         options_(options),
         stats_(stats),
-        disk_(part.mesh, part.frozen),
-        guard_(part.mesh) {}
+        disk_(part.mesh, part.frozen) {}
 
   // Finds the balls of all triangles.
   void measure_all();
@@ -73,8 +72,8 @@ class Refinement {
   const RefineOptions& options_;
   RefineStats& stats_;
   RankedQueue queue_;
-  RefinementDisk disk_;  // E
-  CrossingGuard guard_;
+  RefinementDisk disk_;                 // E
+  std::optional<CrossingGuard> guard_;  // once run begins
   std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   double star_pole_height_ = 0;

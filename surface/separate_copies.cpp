@@ -23,12 +23,6 @@ constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
 constexpr int kSweeps = 3;
 
-// Whether two closed boxes have a point in common.
-bool meet(const Box3& a, const Box3& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 class Separation {
  public:
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
@@ -239,7 +233,7 @@ int Separation::conflicts(std::uint32_t copy) {
     }
     const Box3 box = box_of(s);
     for (const Surrounding& t : surroundings_) {
-      if (s == t.triangle || !meet(box, t.box) || !t.has_area) continue;
+      if (s == t.triangle || !box.meets(t.box) || !t.has_area) continue;
       const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t.triangle]);
       if (contact == TriangleContact::kTouching) ++count;
       if (contact == TriangleContact::kCrossing) count += kCrossingWeight;

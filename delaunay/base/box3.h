@@ -25,6 +25,11 @@ struct Box3 {
   [[nodiscard]] bool contains(const Vec3& p) const {
     return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
   }
+  // Whether the boxes have a point in common, faces included.
+  [[nodiscard]] bool meets(const Box3& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
+           b.low.z <= high.z;
+  }
   // The point of the box nearest to p.
   [[nodiscard]] Vec3 clamp(const Vec3& p) const {
     return {std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), std::clamp(p.z, low.z, high.z)};

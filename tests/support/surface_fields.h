@@ -12,6 +12,7 @@
 #include "raycast/isosurface.h"
 #include "surface/boundary_curves.h"
 #include "surface/component_seeds.h"
+#include "surface/signed_delaunay.h"
 #include "tests/support/raycast_fields.h"
 #include "volume/analytic_fields.h"
 #include "volume/exact_topology.h"
@@ -44,6 +45,13 @@ struct Scene {
     return points;
   }
 };
+
+// A triangulation of every crossing of the isosurface with a grid edge.
+inline SignedDelaunay dense(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
+  return {*scene.isosurface, points};
+}
 
 inline std::unique_ptr<Scene> field_scene(const std::string& name, std::int32_t size, std::uint64_t seed = 1) {
   return std::make_unique<Scene>(name + " " + std::to_string(size) + " seed " + std::to_string(seed),

@@ -9,15 +9,10 @@
 namespace deliso {
 namespace {
 
+using testing::dense;
 using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
-
-SignedDelaunay dense(const Scene& scene) {
-  std::vector<Vec3> points;
-  for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
-  return {*scene.isosurface, points};
-}
 
 RaisedCells everywhere(const Scene& scene) {
   RaisedCells raised(scene.grid, *scene.isosurface);

@@ -14,14 +14,9 @@
 namespace deliso {
 namespace {
 
+using testing::dense;
 using testing::noise_scene;
 using testing::Scene;
-
-SignedDelaunay dense(const Scene& scene) {
-  std::vector<Vec3> points;
-  for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
-  return {*scene.isosurface, points};
-}
 
 // Turns over a few tetrahedra at random, or back those turned over before.
 void turn_some(SignedDelaunay& restricted, std::uint64_t count, Rng& rng) {

@@ -10,15 +10,10 @@
 namespace deliso {
 namespace {
 
+using testing::dense;
 using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
-
-SignedDelaunay dense(const Scene& scene) {
-  std::vector<Vec3> points;
-  for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
-  return {*scene.isosurface, points};
-}
 
 // Whether barycentric coordinates in long doubles are all at least -slack.
 bool holds(const std::array<Vec3, 4>& tet, const Vec3& p, double slack) {
