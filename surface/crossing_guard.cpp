@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -75,15 +76,23 @@ bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(point
 
 // No clearance at the reached vertices; from there on the bound falls off by distance along edges.
 void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) {
+  if (reached.empty()) return;
   auto& vertices = mesh.vertices;
   for (const std::uint32_t v : reached) vertices[v].clearance = 0;
-  std::vector<std::vector<std::uint32_t>> around(vertices.size());
+  // The vertices that come after v in its triangles: after[first[v]] to after[first[v + 1]].
+  std::vector<std::uint32_t> first(vertices.size() + 1, 0);
   for (const RefinementMesh::Triangle& t : mesh.triangles) {
-    for (unsigned i = 0; i < 3; ++i) around[t.corners[i]].push_back(t.corners[(i + 1) % 3]);
+    for (const std::uint32_t v : t.corners) ++first[v];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> after(3 * mesh.triangles.size());
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
+    for (unsigned i = 0; i < 3; ++i) after[--first[t.corners[i]]] = t.corners[(i + 1) % 3];
   }
   for (std::size_t at = 0; at < reached.size(); ++at) {
     const std::uint32_t v = reached[at];
-    for (const std::uint32_t w : around[v]) {
+    for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
+      const std::uint32_t w = after[i];
       const float bound = vertices[v].clearance + static_cast<float>(distance(vertices[v].point, vertices[w].point));
       if (bound >= vertices[w].clearance) continue;
       vertices[w].clearance = bound;
@@ -94,17 +103,22 @@ void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) 
 
 }  // namespace
 
-void set_clearances(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+void set_clearances(RefinementMesh& mesh) {
   for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = static_cast<float>(v.pole_height);
-  std::vector<std::uint32_t> reached = doubled_vertices(mesh);
-  for (std::uint32_t t = 0; t < mesh.triangles.size() && !suspects.empty(); ++t) {
-    const Box3 box = box_of(mesh.corner_points(mesh.triangles[t].corners));
+  bound_clearances(mesh, doubled_vertices(mesh));
+}
+
+void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+  if (suspects.empty()) return;
+  std::vector<std::uint32_t> reached;
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
+    const Box3 box = box_of(mesh.corner_points(t.corners));
     if (std::any_of(suspects.begin(), suspects.end(),
                     [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
-      reached.insert(reached.end(), mesh.triangles[t].corners.begin(), mesh.triangles[t].corners.end());
+      reached.insert(reached.end(), t.corners.begin(), t.corners.end());
     }
   }
-  if (!reached.empty()) bound_clearances(mesh, std::move(reached));
+  bound_clearances(mesh, std::move(reached));
 }
 
 CrossingGuard::CrossingGuard(const RefinementMesh& mesh) : mesh_(mesh) {

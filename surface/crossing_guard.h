@@ -20,8 +20,10 @@
 
 namespace deliso {
 
-// Sets the clearance of every vertex. Near `suspects` no pole height is trusted.
-void set_clearances(RefinementMesh& mesh, std::span<const Vec3> suspects);
+// Sets the clearance of every vertex.
+void set_clearances(RefinementMesh& mesh);
+// Takes clearances away near places where triangles came to meet.
+void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
 
 class CrossingGuard {
  public:

@@ -1,77 +1,116 @@
 #include "surface/refine.h"
 
-#include <span>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/parallel.h"
 #include "surface/crossing_guard.h"
 #include "surface/refinement.h"
+#include "surface/refinement_crossings.h"
 #include "surface/refinement_slabs.h"
-#include "surface/self_intersection.h"
 
 namespace deliso {
 
 namespace {
 
-// Starts again at most this often, with at most so many new suspects of a kind.
+// Starts again at most this often.
 constexpr std::int64_t kMostRestarts = 3;
-constexpr std::size_t kMostSuspects = 1000;
 
-// Refines the slabs apart from each other. Of their counters those of insertions count; what they refused is tried
-// again in the whole.
+std::int64_t count_of(const SelfIntersections& found) { return found.crossing_pairs + found.touching_pairs; }
+
+void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
+  for (const auto* pairs : {&found.crossing, &found.touching}) {
+    for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+  }
+}
+
+// Refines a part; again from where it began, with no trust around them, when more triangles of the result meet than
+// before. What has the fewest such pairs stays; returns their number.
+std::int64_t refine_part(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options,
+                         Controls& controls, RefineStats& stats) {
+  const auto run = [&](RefineStats& counted) { Refinement(part, isosurface, options, counted).run(controls); };
+  const RefinementMesh start = options.restart_at_crossings ? part.mesh : RefinementMesh();
+  run(stats);
+  if (!options.restart_at_crossings) return 0;
+  SelfIntersections found = meeting_pairs(part.mesh, 1);
+  std::int64_t fewest = count_of(found);
+  if (fewest == 0) return 0;
+  const std::int64_t before = count_of(meeting_pairs(start, 1));
+  std::vector<Vec3> suspects;
+  for (std::int64_t restarts = 1; restarts <= kMostRestarts && fewest > before && !controls.poll(); ++restarts) {
+    add_places(found, suspects);
+    RefinementMesh least = std::exchange(part.mesh, start);
+    distrust(part.mesh, suspects);
+    RefineStats counted;
+    run(counted);
+    found = meeting_pairs(part.mesh, 1);
+    counted.search += stats.search;
+    // A restart that had to stop half-way is worth less than what was finished before.
+    if (count_of(found) < fewest && !controls.stopped()) {
+      fewest = count_of(found);
+      stats = counted;
+    } else {
+      stats.search = counted.search;
+      part.mesh = std::move(least);
+    }
+    stats.restarts = restarts;
+  }
+  return fewest;
+}
+
+// Refines in the whole what the slabs refused. Where that makes more triangles meet than `before`, it is taken back and
+// done again with no trust around them.
+void refine_rest(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, std::int64_t before,
+                 Controls& controls, RefineStats& stats) {
+  for (std::int64_t restarts = 0;; ++restarts) {
+    RefineStats counted;
+    Refinement rest(mesh, isosurface, options, counted);
+    rest.run_on_trial(controls);
+    stats.search += counted.search;
+    SelfIntersections found;
+    if (options.restart_at_crossings) found = meeting_pairs_of_renewed(mesh, options.threads);
+    if (count_of(found) <= before || restarts == kMostRestarts || controls.poll()) {
+      stats.add_insertions(counted);
+      stats.refused = counted.refused;
+      stats.restarts += restarts;
+      return;
+    }
+    std::vector<Vec3> suspects;
+    add_places(found, suspects);
+    rest.take_back();
+    distrust(mesh, suspects);
+  }
+}
+
+// Refines the slabs apart from each other, then the rest. Of the counters of slabs those of insertions count.
 void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
                   RefineStats& stats) {
   RefinementSlabs slabs(mesh, options.slab_triangles);
   std::vector<RefinementPart>& parts = slabs.parts();
-  if (parts.empty()) return;
   std::vector<RefineStats> counted(parts.size());
+  std::vector<std::int64_t> meeting(parts.size());
   std::vector<Controls> limits;
   for (const RefinementPart& part : parts) {
     const std::size_t vertices = mesh.vertices.size();
     limits.push_back(controls.for_part(1.0 / static_cast<double>(parts.size()), vertices, part.mesh.vertices.size()));
   }
   run_tasks(parts.size(), options.threads,
-            [&](std::size_t k) { Refinement(parts[k], isosurface, options, counted[k]).run(limits[k]); });
+            [&](std::size_t k) { meeting[k] = refine_part(parts[k], isosurface, options, limits[k], counted[k]); });
   slabs.join(mesh);
   controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) {
-    stats.insertions += part.insertions;
-    stats.boundary_splits += part.boundary_splits;
-    stats.halvings += part.halvings;
+    stats.add_insertions(part);
+    stats.restarts += part.restarts;
     stats.search += part.search;
   }
-}
-
-// Adds the places where triangles of the mesh cross or touch; false when there are none.
-bool add_crossings(const SurfaceMesh& mesh, int threads, std::vector<Vec3>& suspects) {
-  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostSuspects, threads);
-  for (const auto* pairs : {&found.crossing, &found.touching}) {
-    for (const TrianglePair& pair : *pairs) suspects.push_back(pair.position);
+  if (counted.size() == 1) {
+    stats.refused = counted.front().refused;
+  } else {
+    refine_rest(mesh, isosurface, options, std::accumulate(meeting.begin(), meeting.end(), std::int64_t{0}), controls,
+                stats);
   }
-  return !found.crossing.empty() || !found.touching.empty();
-}
-
-struct Refined {
-  SurfaceMesh mesh;
-  std::vector<SurfaceDelaunayBall> balls;
-  RefineStats stats;
-};
-
-// Refines from the start, with no trust near the suspects.
-Refined refined_once(const SurfaceMesh& start, const Isosurface& isosurface, const RefineOptions& options,
-                     std::span<const Vec3> suspects, Controls& controls, bool with_balls) {
-  Refined result;
-  RefinementMesh mesh(start);
-  set_clearances(mesh, suspects);
-  Refinement(mesh, isosurface, options, result.stats).measure_all();
-  refine_slabs(mesh, isosurface, options, controls, result.stats);
-  Refinement rest(mesh, isosurface, options, result.stats);
-  rest.run(controls);
-  rest.count_stopped();
-  for (std::size_t t = 0; with_balls && t < mesh.triangles.size(); ++t) result.balls.push_back(mesh.triangles[t].ball);
-  mesh.move_to(result.mesh);
-  return result;
 }
 
 }  // namespace
@@ -79,24 +118,16 @@ Refined refined_once(const SurfaceMesh& start, const Isosurface& isosurface, con
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
   if (controls.stopped()) return;
-  std::vector<Vec3> suspects;
-  SearchCounters searches;
-  Refined last;
-  for (std::int64_t restarts = 0;; ++restarts) {
-    Refined refined = refined_once(mesh, isosurface, options, suspects, controls, balls != nullptr);
-    searches += refined.stats.search;
-    refined.stats.restarts = restarts;
-    // A restart that had to stop half-way is worth less than what was finished before.
-    if (restarts == 0 || !controls.stopped()) last = std::move(refined);
-    const bool may_restart = options.restart_at_crossings && restarts < kMostRestarts && !controls.poll();
-    if (!may_restart || !add_crossings(last.mesh, options.threads, suspects)) break;
+  RefinementMesh refined(mesh);
+  set_clearances(refined);
+  Refinement(refined, isosurface, options, stats).measure_all();
+  refine_slabs(refined, isosurface, options, controls, stats);
+  Refinement(refined, isosurface, options, stats).count_stopped();
+  if (balls != nullptr) {
+    balls->clear();
+    for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
   }
-  mesh = std::move(last.mesh);
-  if (balls != nullptr) *balls = std::move(last.balls);
-  last.stats.seconds = stats.seconds;
-  last.stats.search = stats.search;
-  last.stats.search += searches;
-  stats = last.stats;
+  refined.move_to(mesh);
 }
 
 }  // namespace deliso

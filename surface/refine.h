@@ -26,7 +26,7 @@ struct RefineOptions {
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
   QueueOrder order = QueueOrder::kWorstFirst;
-  bool restart_at_crossings = true;  // when triangles of the result cross, start again with more care around them
+  bool restart_at_crossings = true;  // where triangles came to meet, begin again with more care around them
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
@@ -54,12 +54,18 @@ struct RefineStats : StageStats {
   std::int64_t halvings = 0;         // of them on the longest edge of a coarse triangle, x_sigma having been refused
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
-  std::int64_t restarts = 0;
+  std::int64_t restarts = 0;          // of a slab, or of what is done in the whole
   SearchCounters search;
+
+  void add_insertions(const RefineStats& part) {
+    insertions += part.insertions;
+    boundary_splits += part.boundary_splits;
+    halvings += part.halvings;
+  }
 };
 
-// Counters are those of the last start, but for the searches and the seconds. When `balls` is given, it gets
-// B_sigma of each triangle.
+// Counters are those of what stayed, but searches count whatever was done. When `balls` is given, it gets B_sigma of
+// each triangle.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
 

@@ -38,6 +38,20 @@ void Refinement::run(Controls& controls) {
   }
 }
 
+void Refinement::run_on_trial(Controls& controls) {
+  before_ = {{}, mesh_.triangles.size(), mesh_.vertices.size()};
+  run(controls);
+}
+
+void Refinement::take_back() {
+  for (auto at = before_->triangles.rbegin(); at != before_->triangles.rend(); ++at) {
+    mesh_.triangles[at->first] = at->second;
+  }
+  mesh_.triangles.resize(before_->triangle_count);
+  mesh_.vertices.resize(before_->vertex_count);
+  mesh_.forget_attempts();
+}
+
 void Refinement::count_stopped() {
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     const NewTriangle now = measured(t);
@@ -198,6 +212,12 @@ void Refinement::replace_disk(const Candidate& candidate) {
   const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
   const std::span<const std::uint32_t> old = disk_.triangles();
   const std::span<const RimEdge> rim = disk_.rim();
+  if (before_) {
+    for (const std::uint32_t t : old) before_->triangles.emplace_back(t, mesh_.triangles[t]);
+    for (const RimEdge& edge : rim) {
+      if (edge.outer != kNoSide) before_->triangles.emplace_back(edge.outer >> 2, mesh_.triangles[edge.outer >> 2]);
+    }
+  }
   for (const std::uint32_t t : old) guard_->forget(t);
   mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
   const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());

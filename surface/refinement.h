@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -33,6 +34,9 @@ class Refinement {
   void measure_all();
   // Refines what has balls.
   void run(Controls& controls);
+  // The same, and remembers what it replaces, so that all of it can be taken back.
+  void run_on_trial(Controls& controls);
+  void take_back();
   // Counts the triangles that only r_min kept as they are.
   void count_stopped();
 
@@ -76,6 +80,13 @@ class Refinement {
   std::optional<CrossingGuard> guard_;  // once run begins
   std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
+  // Triangles as they were before run_on_trial replaced them or what lies beside them, and how much there was.
+  struct Before {
+    std::vector<std::pair<std::uint32_t, RefinementMesh::Triangle>> triangles;
+    std::size_t triangle_count = 0;
+    std::size_t vertex_count = 0;
+  };
+  std::optional<Before> before_;
   double star_pole_height_ = 0;
   bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, the whole mesh decides
   std::int64_t insertions_at_retry_ = 0;

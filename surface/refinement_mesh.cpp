@@ -14,6 +14,14 @@ RefinementMesh::RefinementMesh(const SurfaceMesh& mesh)
   }
 }
 
+void RefinementMesh::forget_attempts() {
+  for (Vertex& v : vertices) v.attempt = 0;
+  for (Triangle& t : triangles) {
+    t.state &= Triangle::kNoHit;
+    t.attempt = 0;
+  }
+}
+
 // What is not needed any more goes at once: the peak of a whole run may lie here.
 void RefinementMesh::move_to(SurfaceMesh& mesh) {
   mesh = {};

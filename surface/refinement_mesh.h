@@ -42,6 +42,8 @@ struct RefinementMesh {
       ball = its_ball;
       state = its_hit ? state & ~kNoHit : state | kNoHit;
     }
+    // Whether the slot has been taken anew since the mesh was made or joined.
+    [[nodiscard]] bool is_renewed() const { return state > (kRefused | kNoHit); }
     // The slot is taken anew.
     void renew() { state = (state | kRefused | kNoHit) + 1; }
   };
@@ -60,6 +62,8 @@ struct RefinementMesh {
     return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
   }
 
+  // Clears what a refinement that is over has noted: attempts, refusals and generations.
+  void forget_attempts();
   // Writes points, pole heights, triangles and neighbours to `mesh`; this mesh is empty afterwards.
   void move_to(SurfaceMesh& mesh);
 };

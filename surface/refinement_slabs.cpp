@@ -13,9 +13,7 @@ constexpr std::size_t kMostParts = 8;
 }  // namespace
 
 RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles) {
-  const std::size_t count = std::min(whole.triangles.size() / slab_triangles, kMostParts);
-  if (count < 2) return;
-  parts_.resize(count);
+  parts_.resize(std::clamp<std::size_t>(whole.triangles.size() / slab_triangles, 1, kMostParts));
   choose_planes(whole);
   assign(whole);
   for (std::uint32_t k = 0; k < parts_.size(); ++k) fill(whole, k);
@@ -141,12 +139,8 @@ void RefinementSlabs::join(RefinementMesh& whole) {
     }
     part = {};
   }
-  for (RefinementMesh::Vertex& v : whole.vertices) v.attempt = 0;
-  for (RefinementMesh::Triangle& t : triangles) {
-    t.state &= RefinementMesh::Triangle::kNoHit;
-    t.attempt = 0;
-  }
   whole.triangles = std::move(triangles);
+  whole.forget_attempts();
 }
 
 }  // namespace deliso

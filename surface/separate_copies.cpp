@@ -13,8 +13,9 @@ namespace deliso {
 
 namespace {
 
-// Distances tried, in mesh-space units, and the largest fraction of the shortest edge at the copy.
-constexpr std::array<double, 3> kDistances = {2e-4, 4e-5, 8e-6};
+// Distances tried, in mesh-space units, the last one for stubborn cases, and the largest fraction of the shortest edge
+// at the copy.
+constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
 constexpr double kEdgeFraction = 0.05;
 // A direction is good when it makes at least this sine with every triangle of the fan.
 constexpr double kLeastSine = 0.05;
@@ -39,7 +40,7 @@ class Separation {
         for (const Copy& copy : group) {
           const Vec3 before = mesh_.points[copy.vertex];
           const int now = sweep == 0 ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
-          if (now > 0) move(copy, now);
+          if (now > 0) move(copy, now, sweep > 0);
           moved |= mesh_.points[copy.vertex] != before;
         }
       }
@@ -57,8 +58,8 @@ class Separation {
   void find_fans();
   void find_surroundings(const CopyGroup& group);
   void look_again_at(std::uint32_t copy);
-  void move(const Copy& copy, int fewest);
-  [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy) const;
+  void move(const Copy& copy, int fewest, bool is_stubborn);
+  [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy, bool is_stubborn) const;
   [[nodiscard]] Vec3 within_box_face(const Vec3& at, Vec3 d) const;
   [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
   [[nodiscard]] int conflicts(std::uint32_t copy);
@@ -146,7 +147,7 @@ double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
 }
 
 // Takes the trial that leaves the fewest conflicts, the first of equals, if these are fewer than `fewest`.
-void Separation::move(const Copy& copy, int fewest) {
+void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   const std::uint32_t v = copy.vertex;
   Vec3 best = mesh_.points[v];
   std::vector<Vec3> homes = copy.other_homes;
@@ -154,7 +155,7 @@ void Separation::move(const Copy& copy, int fewest) {
   for (const Vec3& home : homes) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
-    for (const Vec3& towards : directions(v)) {
+    for (const Vec3& towards : directions(v, is_stubborn)) {
       for (const double length : kDistances) {
         if (fewest == 0) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
@@ -170,13 +171,13 @@ void Separation::move(const Copy& copy, int fewest) {
 }
 
 // Directions to try, the most promising first: towards either side of the whole fan; then, for a fan that no direction
-// sees as a whole, a few all around.
-std::vector<Vec3> Separation::directions(std::uint32_t copy) const {
+// sees as a whole or where these did not help, a few all around.
+std::vector<Vec3> Separation::directions(std::uint32_t copy, bool is_stubborn) const {
   std::vector<Vec3> directions;
   for (const double side : {1.0, -1.0}) {
     if (const auto d = direction(copy, side)) directions.push_back(*d);
   }
-  if (directions.size() == 2) return directions;
+  if (directions.size() == 2 && !is_stubborn) return directions;
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {

@@ -70,7 +70,7 @@ TEST(CrossingGuard, SaysTheSameAsTestsOfAllTriangles) {
     const SurfaceMesh sheets = two_sheets(6, 0.2, rng);
     RefinementMesh mesh(sheets);
     RefinementDisk disk(mesh);
-    set_clearances(mesh, {});
+    set_clearances(mesh);
     CrossingGuard guard(mesh);
     // One triangle of the lower sheet is split at a point up to twice the gap above it.
     const auto seed = static_cast<std::uint32_t>(rng.below(72));
@@ -89,7 +89,7 @@ TEST(CrossingGuard, ForgetsTrianglesThatAreGone) {
   const SurfaceMesh sheets = two_sheets(4, 0.2, rng);
   RefinementMesh mesh(sheets);
   RefinementDisk disk(mesh);
-  set_clearances(mesh, {});
+  set_clearances(mesh);
   CrossingGuard guard(mesh);
   const std::uint32_t seed = 12;
   const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, 0.5};
@@ -107,7 +107,7 @@ TEST(CrossingGuard, KeepsTrianglesOfAnySize) {
     for (Vec3& p : sheets.points) p = {stretch * p.x, stretch * p.y, p.z};
     RefinementMesh mesh(sheets);
     RefinementDisk disk(mesh);
-    set_clearances(mesh, {});
+    set_clearances(mesh);
     CrossingGuard guard(mesh);
     const Vec3 p = centroid_of(sheets, 12) + Vec3{0, 0, 0.5};
     const bool before = guard_crosses(disk, guard, p, 0.5, 12);
@@ -128,10 +128,10 @@ TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
   const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, 0.5};
   RefinementMesh mesh(sheets);
   RefinementDisk disk(mesh);
-  set_clearances(mesh, {});
+  set_clearances(mesh);
   CrossingGuard trusting(mesh);
   EXPECT_FALSE(guard_crosses(disk, trusting, p, 0.5, seed));
-  set_clearances(mesh, std::vector<Vec3>{p});
+  distrust(mesh, std::vector<Vec3>{p});
   CrossingGuard suspicious(mesh);
   EXPECT_TRUE(guard_crosses(disk, suspicious, p, 0.5, seed));
 }
@@ -148,7 +148,7 @@ TEST(CrossingGuard, SeesFoldsOverNeighbours) {
     scene.neighbours = {{kNoSide, 4 + 2, kNoSide}, {kNoSide, kNoSide, 0 + 1}};
     RefinementMesh mesh(scene);
     RefinementDisk disk(mesh);
-    set_clearances(mesh, {});
+    set_clearances(mesh);
     CrossingGuard guard(mesh);
     const Vec3 p{rng.uniform(0.2, 0.8), rng.uniform(-0.5, 0.5), rng.uniform(-0.3, 0.6)};
     const bool crosses = crosses_by_brute_force(scene, p, 0);

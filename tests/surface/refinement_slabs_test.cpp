@@ -106,9 +106,12 @@ TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   EXPECT_TRUE(std::equal(mesh.points.begin(), mesh.points.end(), joined.points.begin()));
 }
 
-TEST(RefinementSlabs, SmallMeshesStayWhole) {
+TEST(RefinementSlabs, SmallMeshesAreOnePart) {
   RefinementMesh whole(wavy_square(20));
-  EXPECT_TRUE(RefinementSlabs(whole, 8192).parts().empty());
+  RefinementSlabs slabs(whole, 8192);
+  ASSERT_EQ(slabs.parts().size(), 1u);
+  EXPECT_EQ(slabs.parts()[0].frozen, 0u);
+  EXPECT_EQ(slabs.parts()[0].mesh.triangles.size(), whole.triangles.size());
 }
 
 TEST(RunTasks, RunsEachTaskOnceAndThrowsTheFirstError) {
