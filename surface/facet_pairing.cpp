@@ -13,7 +13,35 @@ namespace {
 // Counts of ways around edges, per facet; a facet has one edge and a half.
 constexpr std::size_t kCountsPerFacet = 8;
 
+// From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
+// next restricted facet; both are seen from inside that sector.
+FacetId next_restricted_facet(const SignedDelaunay& restricted, FacetId f, VertexId third) {
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  const bool is_above = restricted.is_above(f.tet());
+  for (;;) {
+    const auto& v = delaunay.vertices(f.tet());
+    const FacetId g(f.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
+    const FacetId beyond = delaunay.mirror(g);
+    if (restricted.is_above(beyond.tet()) != is_above) return g;
+    third = v[f.face()];
+    f = beyond;
+  }
+}
+
 }  // namespace
+
+PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, VertexId third) {
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  const FacetId around_above = next_restricted_facet(restricted, facet, third);
+  const FacetId around_below = delaunay.mirror(next_restricted_facet(restricted, delaunay.mirror(facet), third));
+  if (around_above == around_below) return {around_above, false};
+  // The other two vertices are the ends of the edge.
+  Vec3 sum;
+  for (const VertexId v : delaunay.facet_vertices(facet)) {
+    if (v != third) sum += delaunay.point(v);
+  }
+  return {restricted.isosurface().is_above(0.5 * sum) ? around_below : around_above, true};
+}
 
 FacetPairing::FacetPairing(const SignedDelaunay& restricted)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(restricted.signs()) {
@@ -94,7 +122,7 @@ void FacetPairing::pair_uncontested_sides() {
   for (PairedFacet& facet : facets_) {
     for (unsigned side = 0; side < 3; ++side) {
       if (facet.known[side]) continue;
-      join(facet, side, next_restricted_facet(facet.facet, facet.vertices[side]), false);
+      join(facet, side, next_restricted_facet(restricted_, facet.facet, facet.vertices[side]), false);
       std::uint8_t& count = ways_around(facet, side);
       count = count == 0 ? 1 : 2;
     }
@@ -115,15 +143,8 @@ void FacetPairing::pair_sides() {
 
 // Pairs a side with another one, which thereby is paired, too.
 void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
-  const VertexId a = facet.vertices[(side + 1) % 3];
-  const VertexId b = facet.vertices[(side + 2) % 3];
-  const VertexId third = facet.vertices[side];
-  const FacetId around_above = next_restricted_facet(facet.facet, third);
-  const FacetId around_below = delaunay_.mirror(next_restricted_facet(delaunay_.mirror(facet.facet), third));
-  const bool is_contested = around_above != around_below;
-  const bool goes_below =
-      is_contested && restricted_.isosurface().is_above(0.5 * (delaunay_.point(a) + delaunay_.point(b)));
-  join(facet, side, goes_below ? around_below : around_above, is_contested);
+  const PairingAcross across = paired_across(restricted_, facet.facet, facet.vertices[side]);
+  join(facet, side, across.partner, across.is_contested);
 }
 
 void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested) {
@@ -143,20 +164,6 @@ void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool
   there.across[i] = 4 * facet.facet.value + side;
   there.contested[i] = is_contested;
   there.known[i] = true;
-}
-
-// From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
-// next restricted facet; both are seen from inside that sector.
-FacetId FacetPairing::next_restricted_facet(FacetId f, VertexId third) const {
-  const bool is_above = restricted_.is_above(f.tet());
-  for (;;) {
-    const auto& v = delaunay_.vertices(f.tet());
-    const FacetId g(f.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
-    const FacetId beyond = delaunay_.mirror(g);
-    if (restricted_.is_above(beyond.tet()) != is_above) return g;
-    third = v[f.face()];
-    f = beyond;
-  }
 }
 
 }  // namespace deliso

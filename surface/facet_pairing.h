@@ -25,6 +25,14 @@ struct PairedFacet {
   static constexpr std::uint32_t kUnpaired = 0xFFFFFFFFu;
 };
 
+// The facet that a restricted facet is paired with across its edge opposite `third`; both seen from the tetrahedron
+// above.
+struct PairingAcross {
+  FacetId partner;
+  bool is_contested = false;  // the edge has more than two restricted facets
+};
+PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, VertexId third);
+
 class FacetPairing {
  public:
   // Keeps a reference.
@@ -46,7 +54,6 @@ class FacetPairing {
   void pair_sides();
   void pair_side(PairedFacet& facet, unsigned side);
   void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
-  [[nodiscard]] FacetId next_restricted_facet(FacetId f, VertexId third) const;
 
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 

@@ -16,6 +16,7 @@
 #include "surface/sample_lattice.h"
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
+#include "surface/sign_trials.h"
 #include "surface/sweep_difference.h"
 #include "surface/trouble.h"
 
@@ -66,7 +67,8 @@ class Repair {
   void triangulate();
   bool try_rule(SignRule rule);
   void try_rules(Controls& controls);
-  std::vector<Places> places_of_difference(std::int32_t round);
+  void try_signs(Controls& controls);
+  const std::vector<Places>& places_of_difference(std::size_t most);
   const PolygonizedSurface& polygonized();
   void keep();
   void drop_outdone();
@@ -88,9 +90,12 @@ class Repair {
   RaisedCells raised_;
   std::optional<RepairRound> round_;
   std::vector<Sample> samples_;
-  std::shared_ptr<MatchedMesh> mesh_;  // the latest
-  std::vector<bool> done_;             // of each exact component: needs no more work
-  std::vector<Agreement> best_;        // of each: the best, kWithStrays at most, reached by some mesh in history_
+  std::shared_ptr<MatchedMesh> mesh_;     // the latest
+  std::vector<bool> done_;                // of each exact component: needs no more work
+  std::vector<Agreement> best_;           // of each: the best, kWithStrays at most, reached by some mesh in history_
+  std::vector<Places> places_;            // of difference, as last found
+  std::weak_ptr<MatchedMesh> places_of_;  // in this mesh,
+  std::size_t most_places_ = 0;           // of each component if they were no more
   std::optional<PolygonizedSurface> polygonized_;  // made when first needed
   std::vector<KeptMesh> history_;                  // meshes that brought a component further
 };
@@ -108,11 +113,12 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round), round_->evidence()}));
+                          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence()}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
     try_rules(controls);
+    try_signs(controls);
     stats_.rounds = round;
   }
   give_poles();
@@ -193,20 +199,38 @@ void Repair::try_rules(Controls& controls) {
   round_->set_signs(signs);
 }
 
-// Where sweeps along the axes see main pieces part from their components.
-std::vector<Places> Repair::places_of_difference(std::int32_t round) {
-  std::vector<Places> places(done_.size());
+// Single signs near the places where a component is wrong.
+void Repair::try_signs(Controls& controls) {
+  if (is_done() || controls.poll()) return;
+  const std::vector<Places> places = places_of_difference(kMostPlaces);
+  for (std::uint32_t c = 0; c < done_.size(); ++c) {
+    if (done_[c] || places[c].empty()) continue;
+    const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
+      mesh_ = std::move(mesh);
+      keep();
+      return static_cast<bool>(done_[c]);
+    };
+    SignTrials(*round_, topology_, raised_, kRules).mend(c, places[c], mesh_, improved, controls);
+  }
+}
+
+// Where sweeps along the axes see main pieces part from their components: at so many places at most.
+const std::vector<Places>& Repair::places_of_difference(std::size_t most) {
+  if (places_of_.lock() == mesh_ && most_places_ == most) return places_;
+  places_of_ = mesh_;
+  most_places_ = most;
+  places_.assign(done_.size(), {});
   const ComponentMatch& match = mesh_->match;
   for (std::uint32_t c = 0; c < done_.size(); ++c) {
     const std::uint32_t main = match.main_piece[c];
     if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
-    auto& layers = places[c].layers;
+    auto& layers = places_[c].layers;
     layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
                            {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
                            isosurface_.step(), grid_.dims());
-    if (places[c].count() > (round == 1 ? kFewPlaces : kMostPlaces)) places[c] = {};
+    if (places_[c].count() > most) places_[c] = {};
   }
-  return places;
+  return places_;
 }
 
 const PolygonizedSurface& Repair::polygonized() {

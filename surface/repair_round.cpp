@@ -42,6 +42,11 @@ void RepairRound::take_signs(SignRule rule) {
   unfounded_.overturn(*restricted_);
 }
 
+void RepairRound::overturn(std::span<const TetId> tets) {
+  for (const TetId t : tets) restricted_->overturn_sign(t);
+  unfounded_.overturn(*restricted_);
+}
+
 std::optional<MatchedMesh> RepairRound::assemble() {
   if (!pairing_) {
     pairing_.emplace(*restricted_);

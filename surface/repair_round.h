@@ -12,6 +12,7 @@
 
 #include "surface/facet_pairing.h"
 #include "surface/founded_signs.h"
+#include "surface/local_characteristic.h"
 #include "surface/raised_cells.h"
 #include "surface/sign_rules.h"
 #include "surface/signed_delaunay.h"
@@ -33,6 +34,12 @@ class RepairRound {
   // foundation.
   void take_signs(SignRule rule);
   void set_signs(const std::vector<bool>& signs) { restricted_->set_signs(signs); }
+  // Turns some signs over; then those without foundation.
+  void overturn(std::span<const TetId> tets);
+  // What that would change (local_characteristic.h).
+  [[nodiscard]] std::int64_t change_of_characteristic(std::span<const TetId> tets) {
+    return deliso::change_of_characteristic(*restricted_, tets);
+  }
 
   // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
   // as the last time.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "surface/evidence.h"
@@ -11,14 +12,14 @@
 
 namespace deliso {
 
-bool Places::near(const CellIndex& cell, std::int32_t reach) const {
+std::int32_t Places::distance(const CellIndex& cell) const {
+  std::int32_t farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::none_of(layers[axis].begin(), layers[axis].end(),
-                     [&](std::int32_t layer) { return std::abs(cell[axis] - layer) <= reach; })) {
-      return false;
-    }
+    std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
+    for (const std::int32_t layer : layers[axis]) nearest = std::min(nearest, std::abs(cell[axis] - layer));
+    farthest = std::max(farthest, nearest);
   }
-  return true;
+  return farthest;
 }
 
 namespace {

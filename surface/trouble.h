@@ -28,7 +28,9 @@ struct Places {
 
   [[nodiscard]] std::size_t count() const { return layers[0].size() * layers[1].size() * layers[2].size(); }
   [[nodiscard]] bool empty() const { return count() == 0; }
-  [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const;
+  // How many layers a cell is away, along the axis along which it is farthest.
+  [[nodiscard]] std::int32_t distance(const CellIndex& cell) const;
+  [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const { return distance(cell) <= reach; }
 };
 
 // What trouble is looked for in. References must outlive the search.

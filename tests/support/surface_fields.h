@@ -46,12 +46,15 @@ struct Scene {
   }
 };
 
-// A triangulation of every crossing of the isosurface with a grid edge.
-inline SignedDelaunay dense(const Scene& scene) {
+// The isosurface's points on grid edges.
+inline std::vector<Vec3> crossing_points(const Scene& scene) {
   std::vector<Vec3> points;
   for (const EdgeCrossing& c : scene.topology.crossings) points.push_back(crossing_position(scene.grid, c));
-  return {*scene.isosurface, points};
+  return points;
 }
+
+// A triangulation of every crossing of the isosurface with a grid edge.
+inline SignedDelaunay dense(const Scene& scene) { return {*scene.isosurface, crossing_points(scene)}; }
 
 inline std::unique_ptr<Scene> field_scene(const std::string& name, std::int32_t size, std::uint64_t seed = 1) {
   return std::make_unique<Scene>(name + " " + std::to_string(size) + " seed " + std::to_string(seed),

@@ -1,0 +1,46 @@
+// Mends the topology of a component by turning over signs on which the rules disagree.
+//
+// A rule that is right nearly everywhere leaves a few handles too many or too few, and sampling more finely does not
+// always help there. Sweeps tell about where they are, and each is a matter of a few tetrahedra. So clusters of
+// tetrahedra near those places are turned over one after the other, but only those that change the Euler characteristic
+// the right way: nearly all do not, which is seen without building a mesh.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "surface/controls.h"
+#include "surface/disputed_signs.h"
+#include "surface/raised_cells.h"
+#include "surface/repair_round.h"
+#include "surface/trouble.h"
+
+namespace deliso {
+
+class SignTrials {
+ public:
+  // Keeps references.
+  SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
+             std::span<const SignRule> rules)
+      : round_(round), topology_(topology), cells_(cells), rules_(rules) {}
+
+  // Tries near the places at which the main piece of a component parts from it. `mesh` is the mesh of the round's
+  // signs. Each mesh that is better than the one before goes to improved(), the round's signs being its own; trials end
+  // when that returns true. Afterwards the signs are those of the best mesh.
+  void mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh,
+            const std::function<bool(std::shared_ptr<MatchedMesh>)>& improved, Controls& controls);
+
+ private:
+  [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
+  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places);
+
+  RepairRound& round_;
+  const IsosurfaceTopology& topology_;
+  const RaisedCells& cells_;
+  std::span<const SignRule> rules_;
+};
+
+}  // namespace deliso
