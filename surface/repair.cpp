@@ -203,14 +203,16 @@ void Repair::try_rules(Controls& controls) {
 void Repair::try_signs(Controls& controls) {
   if (is_done() || controls.poll()) return;
   const std::vector<Places> places = places_of_difference(kMostPlaces);
+  std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < done_.size(); ++c) {
     if (done_[c] || places[c].empty()) continue;
+    if (!trials) trials.emplace(*round_, topology_, raised_, kRules);
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       keep();
       return static_cast<bool>(done_[c]);
     };
-    SignTrials(*round_, topology_, raised_, kRules).mend(c, places[c], mesh_, improved, controls);
+    trials->mend(c, places[c], mesh_, improved, controls);
   }
 }
 

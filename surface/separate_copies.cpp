@@ -13,8 +13,8 @@ namespace deliso {
 
 namespace {
 
-// Distances tried, in mesh-space units, the last one for stubborn cases, and the largest fraction of the shortest edge
-// at the copy.
+// Distances tried, in mesh-space units, the last one in stubborn sweeps only; and the largest fraction of the shortest
+// edge at the copy.
 constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
 constexpr double kEdgeFraction = 0.05;
 // A direction is good when it makes at least this sine with every triangle of the fan.
@@ -23,6 +23,8 @@ constexpr int kSteps = 200;
 constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
 constexpr int kSweeps = 3;
+// Further sweeps with more directions and a larger distance, where conflicts are left.
+constexpr int kStubbornSweeps = 2;
 
 class Separation {
  public:
@@ -33,17 +35,9 @@ class Separation {
 
   void run() {
     bool moved = true;
-    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
-      moved = false;
-      for (const CopyGroup& group : groups_) {
-        find_surroundings(group);
-        for (const Copy& copy : group) {
-          const Vec3 before = mesh_.points[copy.vertex];
-          const int now = sweep == 0 ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
-          if (now > 0) move(copy, now, sweep > 0);
-          moved |= mesh_.points[copy.vertex] != before;
-        }
-      }
+    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) moved = sweep_over_groups(sweep == 0, false);
+    for (int sweep = 0; sweep < kStubbornSweeps && (sweep == 0 || moved); ++sweep) {
+      moved = sweep_over_groups(false, true);
     }
   }
 
@@ -55,6 +49,7 @@ class Separation {
     bool has_area = false;
   };
 
+  bool sweep_over_groups(bool all, bool is_stubborn);
   void find_fans();
   void find_surroundings(const CopyGroup& group);
   void look_again_at(std::uint32_t copy);
@@ -87,6 +82,21 @@ class Separation {
   std::vector<Surrounding> surroundings_;                             // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
 };
+
+// Moves all copies, or those with conflicts; true when one has moved.
+bool Separation::sweep_over_groups(bool all, bool is_stubborn) {
+  bool moved = false;
+  for (const CopyGroup& group : groups_) {
+    find_surroundings(group);
+    for (const Copy& copy : group) {
+      const Vec3 before = mesh_.points[copy.vertex];
+      const int now = all ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
+      if (now > 0) move(copy, now, is_stubborn);
+      moved |= mesh_.points[copy.vertex] != before;
+    }
+  }
+  return moved;
+}
 
 // The triangles at all vertices that stand beside a copy.
 void Separation::find_fans() {
@@ -156,7 +166,7 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
     for (const Vec3& towards : directions(v, is_stubborn)) {
-      for (const double length : kDistances) {
+      for (const double length : std::span(kDistances).first(is_stubborn ? 4 : 3)) {
         if (fewest == 0) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
         const int left = conflicts(v);

@@ -32,6 +32,17 @@ std::int64_t amount(const ComponentTopology& missing) {
 
 }  // namespace
 
+SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
+                       std::span<const SignRule> rules)
+    : round_(round), topology_(topology), cells_(cells) {
+  const std::vector<bool> signs = round_.restricted().signs();
+  for (const SignRule rule : rules) {
+    round_.take_signs(rule);
+    signs_by_rule_.push_back(round_.restricted().signs());
+  }
+  round_.set_signs(signs);
+}
+
 // What the component has more than its main piece.
 ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t component) const {
   ComponentTopology missing = topology_.components[component];
@@ -43,21 +54,18 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 }
 
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
-std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) {
+std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const auto distance = [&](TetId t) {
     const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
   };
-  const std::vector<bool> signs = restricted.signs();
   std::vector<DisputedCluster> clusters;
-  for (const SignRule rule : rules_) {
-    round_.take_signs(rule);
+  for (const std::vector<bool>& signs : signs_by_rule_) {
     for (DisputedCluster& cluster : disputed_clusters(restricted, signs, distance)) {
       clusters.push_back(std::move(cluster));
     }
   }
-  round_.set_signs(signs);
   std::stable_sort(clusters.begin(), clusters.end(),
                    [](const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; });
   return clusters;

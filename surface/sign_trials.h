@@ -24,8 +24,7 @@ class SignTrials {
  public:
   // Keeps references.
   SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
-             std::span<const SignRule> rules)
-      : round_(round), topology_(topology), cells_(cells), rules_(rules) {}
+             std::span<const SignRule> rules);
 
   // Tries near the places at which the main piece of a component parts from it. `mesh` is the mesh of the round's
   // signs. Each mesh that is better than the one before goes to improved(), the round's signs being its own; trials end
@@ -35,12 +34,12 @@ class SignTrials {
 
  private:
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
-  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places);
+  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places) const;
 
   RepairRound& round_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& cells_;
-  std::span<const SignRule> rules_;
+  std::vector<std::vector<bool>> signs_by_rule_;  // by slot of the tetrahedron
 };
 
 }  // namespace deliso
