@@ -126,13 +126,14 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
 // have got samples.
 void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
-                 const Parameters& parameters, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
+                 const Parameters& parameters, const Lengths& lengths, int threads, Controls& controls,
+                 RecoverStats& stats) {
   const RecoverOptions stage1 = stage1_options(parameters, lengths);
   recover(restricted, stage1, controls, stats);
   if (topology == nullptr || !parameters.stage1.coverage || controls.stopped()) return;
-  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology);
+  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
-    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects);
+    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects, threads);
     stats.insertions += inserted;
     stats.uncovered += inserted;
     if (inserted == 0 || controls.poll()) break;
@@ -204,7 +205,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.report("index", 0, 0);
   const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
   const RegularTopology regular = timed(result.topology, [&] {
-    return needs_topology ? regular_topology(grid, isovalue) : RegularTopology{regular_isovalue(grid, isovalue), {}};
+    return needs_topology ? regular_topology(grid, isovalue, options.threads)
+                          : RegularTopology{regular_isovalue(grid, isovalue), {}};
   });
   const IsosurfaceTopology& topology = regular.topology;
   result.isovalue_used = regular.isovalue;
@@ -223,7 +225,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
 
   timed(result.recover, [&] {
-    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, parameters, lengths, controls, result.recover);
+    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, parameters, lengths, options.threads, controls,
+                result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -248,7 +251,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
     result.mesh = to_world(surface, grid, isosurface->step());
-    if (parameters.certify) result.certificate = certify(result.mesh, topology);
+    if (parameters.certify) result.certificate = certify(result.mesh, topology, options.threads);
     if (!result.build.bounds_a_solid) refute_facets(result.certificate);
   });
 }

@@ -23,8 +23,9 @@ struct MeshEdge {
 // sorted by the higher. So edges are in lexicographic order and the half-edges of an edge ascend.
 class MeshConnectivity {
  public:
-  // Keeps a reference to the mesh. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
-  explicit MeshConnectivity(const TriangleMesh& mesh);
+  // Keeps a reference to the mesh. Precondition: every index is below mesh.points.size() (see first_bad_triangle). The
+  // same for any number of threads.
+  explicit MeshConnectivity(const TriangleMesh& mesh, int threads = 1);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
@@ -81,7 +82,8 @@ struct MeshTopology {
   [[nodiscard]] bool is_oriented() const { return is_manifold() && misoriented_edges == 0; }
 };
 
-MeshTopology mesh_topology(const MeshConnectivity& connectivity);
+// The same for any number of threads.
+MeshTopology mesh_topology(const MeshConnectivity& connectivity, int threads = 1);
 
 // The first triangle that names a vertex out of range; mesh.triangles.size() when there is none.
 std::size_t first_bad_triangle(const TriangleMesh& mesh);

@@ -11,12 +11,13 @@
 
 namespace deliso {
 
-// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
+// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex. The
+// same for any number of threads.
 struct PolygonizedSurface {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
 };
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
-                                       const IsosurfaceTopology& topology);
+                                       const IsosurfaceTopology& topology, int threads = 1);
 
 }  // namespace deliso

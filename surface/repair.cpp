@@ -108,7 +108,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round), round_->evidence()}));
+                          places_of_difference(round), round_->evidence()},
+                         threads_));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -203,14 +204,14 @@ std::vector<Places> Repair::places_of_difference(std::int32_t round) {
     auto& layers = places[c].layers;
     layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
                            {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
-                           isosurface_.step(), grid_.dims());
+                           isosurface_.step(), grid_.dims(), threads_);
     if (places[c].count() > (round == 1 ? kFewPlaces : kMostPlaces)) places[c] = {};
   }
   return places;
 }
 
 const PolygonizedSurface& Repair::polygonized() {
-  if (!polygonized_) polygonized_ = polygonized_surface(grid_, isosurface_, topology_);
+  if (!polygonized_) polygonized_ = polygonized_surface(grid_, isosurface_, topology_, threads_);
   return *polygonized_;
 }
 

@@ -1,9 +1,14 @@
 #include "surface/sweep_difference.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
+#include <numeric>
+
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -14,30 +19,77 @@ constexpr std::int64_t kLasting = 6;
 // Levels looked at beyond those of the start and the end.
 constexpr std::int64_t kSlack = 1;
 
-// The Euler characteristic of what lies below each layer: V - E + F of the simplices whose vertices all do.
-std::vector<std::int64_t> swept_characteristic(const MeshPart& part, std::size_t axis, double step,
-                                               std::size_t layers) {
-  std::vector<std::int64_t> change(layers, 0);
+// The layers of samples along each axis: layer 0 of y is offset[1].
+struct Layers {
+  std::array<std::size_t, 4> offset{};
+  Vec3 step;
+
+  Layers(const std::array<std::int32_t, 3>& dims, const Vec3& voxel) : step(voxel) {
+    for (std::size_t axis = 0; axis < 3; ++axis) offset[axis + 1] = offset[axis] + static_cast<std::size_t>(dims[axis]);
+  }
+  // The first layer not below x, or the last one.
+  [[nodiscard]] std::size_t at(std::size_t axis, double x) const {
+    const auto last = static_cast<double>(offset[axis + 1] - offset[axis] - 1);
+    return offset[axis] + static_cast<std::size_t>(std::clamp(std::ceil(x / step[axis]), 0.0, last));
+  }
+};
+
+// What one thread has counted, and the vertices that all of them have seen.
+using Changes = std::vector<std::int64_t>;
+using Seen = std::vector<std::uint8_t>;
+
+// Adds edges and triangles of some triangles to the layers where they lie below for the first time; marks the vertices.
+void add_triangles(const MeshPart& part, const Layers& layers, std::size_t first, std::size_t last, Seen& seen,
+                   Changes& change) {
   const SurfaceMesh& mesh = part.mesh;
-  const auto layer = [&](double x) {
-    return static_cast<std::size_t>(std::clamp(std::ceil(x / step), 0.0, static_cast<double>(layers - 1)));
-  };
-  std::vector<bool> seen(mesh.points.size(), false);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = first; t < last; ++t) {
     const auto& v = mesh.triangles[t];
     if (!part.counts(v[0])) continue;
-    std::array<double, 3> x{};
-    for (unsigned i = 0; i < 3; ++i) x[i] = mesh.points[v[i]][axis];
+    std::array<bool, 3> counts_edge{};  // each edge from the larger of its two sides
     for (unsigned i = 0; i < 3; ++i) {
-      if (!seen[v[i]]) ++change[layer(x[i])];
-      seen[v[i]] = true;
+      std::atomic_ref<std::uint8_t>(seen[v[i]]).store(1, std::memory_order_relaxed);
       const TriangleSide across = mesh.neighbours[t][i];
-      if (across == kNoSide || across < 4 * t + i) --change[layer(std::max(x[(i + 1) % 3], x[(i + 2) % 3]))];
+      counts_edge[i] = across == kNoSide || across < 4 * t + i;
     }
-    ++change[layer(std::max({x[0], x[1], x[2]}))];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<std::size_t, 3> at{};
+      for (unsigned i = 0; i < 3; ++i) at[i] = layers.at(axis, mesh.points[v[i]][axis]);
+      for (unsigned i = 0; i < 3; ++i) {
+        if (counts_edge[i]) --change[std::max(at[(i + 1) % 3], at[(i + 2) % 3])];
+      }
+      ++change[std::max({at[0], at[1], at[2]})];
+    }
   }
-  for (std::size_t i = 1; i < change.size(); ++i) change[i] += change[i - 1];
-  return change;
+}
+
+// The Euler characteristic of what lies below each layer: V - E + F of the simplices whose vertices all do.
+Changes swept_characteristic(const MeshPart& part, const Layers& layers, int threads) {
+  const SurfaceMesh& mesh = part.mesh;
+  Seen seen(mesh.points.size(), 0);
+  Changes sum(layers.offset[3], 0);
+  std::mutex mutex;
+  const auto add = [&](const Changes& change) {
+    const std::scoped_lock lock(mutex);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += change[i];
+  };
+  Shares(mesh.triangles.size(), threads).for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    Changes change(sum.size(), 0);
+    add_triangles(part, layers, first, last, seen, change);
+    add(change);
+  });
+  Shares(mesh.points.size(), threads).for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    Changes change(sum.size(), 0);
+    for (std::size_t v = first; v < last; ++v) {
+      for (std::size_t axis = 0; seen[v] != 0 && axis < 3; ++axis) ++change[layers.at(axis, mesh.points[v][axis])];
+    }
+    add(change);
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::partial_sum(sum.begin() + static_cast<std::ptrdiff_t>(layers.offset[axis]),
+                     sum.begin() + static_cast<std::ptrdiff_t>(layers.offset[axis + 1]),
+                     sum.begin() + static_cast<std::ptrdiff_t>(layers.offset[axis]));
+  }
+  return sum;
 }
 
 // Where the piecewise constant function from 0 to the last value that fits `gap` best jumps: dynamic programming over
@@ -75,13 +127,14 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
 }  // namespace
 
 std::array<std::vector<std::int32_t>, 3> jumps_between(const MeshPart& mesh, const MeshPart& exact, const Vec3& step,
-                                                       const std::array<std::int32_t, 3>& dims) {
+                                                       const std::array<std::int32_t, 3>& dims, int threads) {
+  const Layers layers(dims, step);
+  const Changes ours = swept_characteristic(mesh, layers, threads);
+  const Changes right = swept_characteristic(exact, layers, threads);
   std::array<std::vector<std::int32_t>, 3> jumps;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto layers = static_cast<std::size_t>(dims[axis]);
-    std::vector<std::int64_t> gap = swept_characteristic(mesh, axis, step[axis], layers);
-    const std::vector<std::int64_t> right = swept_characteristic(exact, axis, step[axis], layers);
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= right[i];
+    std::vector<std::int64_t> gap;
+    for (std::size_t i = layers.offset[axis]; i < layers.offset[axis + 1]; ++i) gap.push_back(ours[i] - right[i]);
     jumps[axis] = lasting_jumps(gap);
   }
   return jumps;

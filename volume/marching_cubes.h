@@ -28,8 +28,9 @@ struct MarchingCubesMesh {
 
 // Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue);
-// The same for callers that have the index of the crossings and their list (list_crossings).
+// The same for callers that have the index of the crossings and their list (list_crossings); the same for any number of
+// threads.
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                 std::span<const EdgeCrossing> crossings);
+                                 std::span<const EdgeCrossing> crossings, int threads = 1);
 
 }  // namespace deliso

@@ -47,7 +47,8 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   const SurfaceMesh mesh = soup(rng);
   std::vector<Vec3> points(2000);
   for (Vec3& p : points) p = {20 * rng.uniform(), 20 * rng.uniform(), 20 * rng.uniform()};
-  MeshCover cover(mesh);
+  const MeshCover cover(mesh);
+  std::uint32_t guess = 0;
   const auto takes = [](std::uint32_t t) { return t % 3 != 0; };
   const std::vector<bool> few = covered_points(points, mesh, takes);
   EXPECT_EQ(covered_points(points, mesh, takes, 3), few);
@@ -63,7 +64,7 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
       by_some |= takes(t) && d <= std::max(0.8, 0.5 * radius_of(mesh, t));
     }
     const bool expected = nearest < 0.8 || nearest <= 0.3 * radius_of(mesh, triangle);
-    EXPECT_EQ(cover.covers(points[i]), expected);
+    EXPECT_EQ(cover.covers(points[i], guess), expected);
     EXPECT_EQ(few[i], by_some);
     covered += expected ? 1 : 0;
   }
