@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/sides_of_facets.h"
+#include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
@@ -141,13 +143,15 @@ void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const I
   }
 }
 
+bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
+
 // Combinations of parameters that contradict each other.
 void check_parameters(const Parameters& parameters) {
-  const bool repairs = parameters.certify && parameters.repair.max_rounds > 0;
-  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs) {
+  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs(parameters)) {
     throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
   }
-  if (!parameters.stage1.one_sign_per_tetrahedron && (repairs || parameters.stage1.coverage || !parameters.certify)) {
+  if (!parameters.stage1.one_sign_per_tetrahedron &&
+      (repairs(parameters) || parameters.stage1.coverage || !parameters.certify)) {
     throw InputError(
         "stage1.one_sign_per_tetrahedron: false gives facets that only the certificate can judge; it needs certify = "
         "true, stage1.coverage = false and repair.max_rounds = 0");
@@ -163,13 +167,12 @@ bool take_sides_of_facets(RestrictedDelaunay& restricted) {
 }
 
 // The surface mesh that stage 2 starts from, with pole heights.
-SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const ScalarGrid& grid,
-                         const IsosurfaceTopology& topology, const MeshingOptions& options, Controls& controls,
-                         MeshingResult& result) {
+SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const SurfaceFacts& facts,
+                         const MeshingOptions& options, Controls& controls, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
-  if (parameters.certify && parameters.repair.max_rounds > 0) {
+  if (repairs(parameters)) {
     return timed(result.repair, [&] {
-      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
+      return repair(facts, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
                     result.repair);
     });
   }
@@ -217,6 +220,10 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
 
+  // What repair will want to know is found beside stage 1, which takes one thread.
+  std::optional<SurfaceFacts> facts;
+  facts.emplace(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
+
   controls.report("initial", 0, 0);
   auto restricted = timed(result.initial, [&] {
     const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
@@ -238,8 +245,9 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   result.recover.restricted_seconds = restricted->restricted_seconds();
   result.recover.hits_against_signs = restricted->hits_against_signs();
 
-  // The tetrahedra go as soon as the surface mesh stands.
-  SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, options, controls, result);
+  // The tetrahedra and the facts go as soon as the surface mesh stands.
+  SurfaceMesh surface = surface_from(std::move(restricted), *facts, options, controls, result);
+  facts.reset();
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {

@@ -11,13 +11,12 @@
 
 namespace deliso {
 
-// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex. The
-// same for any number of threads.
+// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
 struct PolygonizedSurface {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
 };
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
-                                       const IsosurfaceTopology& topology, int threads = 1);
+                                       const IsosurfaceTopology& topology);
 
 }  // namespace deliso

@@ -22,8 +22,8 @@ struct MeshPart {
 };
 
 // Along each axis the sample layers (ascending) at which the two part for good or meet again. `step` is the size of a
-// voxel in mesh space, `dims` the number of samples. The same for any number of threads, on which `counts` is asked.
+// voxel in mesh space, `dims` the number of samples.
 std::array<std::vector<std::int32_t>, 3> jumps_between(const MeshPart& mesh, const MeshPart& exact, const Vec3& step,
-                                                       const std::array<std::int32_t, 3>& dims, int threads = 1);
+                                                       const std::array<std::int32_t, 3>& dims);
 
 }  // namespace deliso

@@ -26,14 +26,12 @@ namespace {
 // How many layers from a place trouble is looked for, and how many all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::int32_t kLayersAtOnce = 128;  // of cells, whose critical points are kept
-constexpr std::size_t kFewPlaces = 8;        // at most so many, for some are where jumps along the axes cross by chance
+constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where jumps along the axes cross by chance
 
 class TroubleFinder {
  public:
-  TroubleFinder(const TroubleContext& context, int threads)
-      : threads_(threads),
-        grid_(context.grid),
+  explicit TroubleFinder(const TroubleContext& context)
+      : grid_(context.grid),
         topology_(context.topology),
         restricted_(context.restricted),
         mesh_(context.mesh),
@@ -41,6 +39,7 @@ class TroubleFinder {
         component_of_vertex_(context.component_of_vertex),
         done_(context.done),
         places_(context.places),
+        critical_cells_(context.critical_cells),
         evidence_(context.evidence),
         has_sign_(context.done.size(), false) {}
 
@@ -76,18 +75,6 @@ class TroubleFinder {
     cells_.append_cells_of(p, found_);
   }
 
-  // A saddle, or a sample that is critical, in or at an active cell of an open component.
-  struct CriticalPlace {
-    Vec3 point;  // in mesh space
-    std::uint32_t component = 0;
-    bool is_above = false;
-    bool is_sample = false;
-    CellIndex sample{};
-  };
-  void append_critical_places(const CellIndex& cell, std::vector<CriticalPoint>& saddles,
-                              std::vector<CriticalPlace>& found) const;
-
-  int threads_;
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const SignedDelaunay& restricted_;
@@ -96,6 +83,7 @@ class TroubleFinder {
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
+  const std::vector<CellIndex>& critical_cells_;
   std::span<const std::uint8_t> evidence_;
   std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
@@ -153,53 +141,35 @@ void TroubleFinder::flag_unused_vertices() {
   }
 }
 
-// Few cells have critical points; of which component those are is asked last.
-void TroubleFinder::append_critical_places(const CellIndex& cell, std::vector<CriticalPoint>& saddles,
-                                           std::vector<CriticalPlace>& found) const {
-  const double isovalue = restricted_.isosurface().isovalue();
-  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
-  saddles.clear();
-  append_critical_points(corners, saddles);
-  unsigned critical = critical_corners(grid_, cell);
-  if (critical == 0 && saddles.empty()) return;
-  const auto component = open_component_in(cell);
-  if (!component) return;
-  for (const CriticalPoint& saddle : saddles) {
-    const int side = side_of_saddle(corners, isovalue, saddle);
-    if (side == 0) continue;
-    const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
-    found.push_back({p, *component, side > 0, false, {}});
-  }
-  for (; critical != 0; critical &= critical - 1) {
-    const auto corner = static_cast<unsigned>(std::countr_zero(critical));
-    const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
-                           cell[2] + static_cast<int>(corner >> 2)};
-    const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
-    found.push_back({to_mesh_space(p), *component, corners[corner] > isovalue, true, sample});
-  }
-}
-
 // Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
 // way.
 void TroubleFinder::flag_critical_points() {
+  const double isovalue = restricted_.isosurface().isovalue();
+  std::vector<CriticalPoint> saddles;
   TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
   SampleLocator locator(restricted_, grid_);
-  const std::int32_t layers = topology_.index.cell_layers();
-  for (std::int32_t begin = 0; begin < layers; begin += kLayersAtOnce) {
-    const std::int32_t count = std::min(kLayersAtOnce, layers - begin);
-    std::vector<std::vector<CriticalPlace>> found(slab_count(count));
-    for_each_slab(count, threads_, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
-      std::vector<CriticalPoint> saddles;
-      topology_.index.for_each_active_cell(begin + first, begin + last, [&](const CellIndex& cell, unsigned) {
-        append_critical_places(cell, saddles, found[slab]);
-      });
-    });
-    // Where a place lies on a facet, the tetrahedron depends on where the search begins: so one after the other.
-    for (const std::vector<CriticalPlace>& places : found) {
-      for (const CriticalPlace& place : places) {
-        hint = place.is_sample ? locator.locate(place.sample, hint) : restricted_.locate(place.point, hint);
-        if (restricted_.is_above(hint) != place.is_above) flag(place.point, place.component, Tells::kTopology);
-      }
+  const auto check = [&](const Vec3& p, TetId holds_p, bool above, std::uint32_t component) {
+    hint = holds_p;
+    if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
+  };
+  for (const CellIndex& cell : critical_cells_) {
+    const auto component = open_component_in(cell);
+    if (!component) continue;
+    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+    saddles.clear();
+    append_critical_points(corners, saddles);
+    for (const CriticalPoint& saddle : saddles) {
+      const int side = side_of_saddle(corners, isovalue, saddle);
+      if (side == 0) continue;
+      const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
+      check(p, restricted_.locate(p, hint), side > 0, *component);
+    }
+    for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
+      const auto corner = static_cast<unsigned>(std::countr_zero(critical));
+      const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
+                             cell[2] + static_cast<int>(corner >> 2)};
+      const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
+      check(to_mesh_space(p), locator.locate(sample, hint), corners[corner] > isovalue, *component);
     }
   }
 }
@@ -233,8 +203,6 @@ std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& c
 
 }  // namespace
 
-std::vector<CellName> cells_in_trouble(const TroubleContext& context, int threads) {
-  return TroubleFinder(context, threads).find();
-}
+std::vector<CellName> cells_in_trouble(const TroubleContext& context) { return TroubleFinder(context).find(); }
 
 }  // namespace deliso

@@ -30,19 +30,18 @@ unsigned faces_of_edge(int edge) {
   return faces;
 }
 
-// The triangles of a slab of cells. Inner points are numbered from the crossings on.
 class MarchingCubes {
  public:
-  // `crossing_points` in index space.
-  MarchingCubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                std::span<const Vec3> crossing_points)
-      : grid_(grid), isovalue_(isovalue), index_(index), crossing_points_(crossing_points) {}
+  MarchingCubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index)
+      : grid_(grid), isovalue_(isovalue), index_(index) {}
 
-  MarchingCubesMesh build(std::int32_t first_layer, std::int32_t last_layer) {
-    const std::size_t crossings = index_.first_number(0, 0, last_layer) - index_.first_number(0, 0, first_layer);
-    mesh_.triangles.reserve(2 * crossings + crossings / 4);
-    index_.for_each_active_cell(first_layer, last_layer,
-                                [&](const CellIndex& cell, std::uint8_t pattern) { add_cell(cell, pattern); });
+  MarchingCubesMesh build(std::span<const EdgeCrossing> crossings) {
+    mesh_.points.reserve(crossings.size());
+    for (const EdgeCrossing& crossing : crossings) mesh_.points.push_back(crossing_position(grid_, crossing));
+    mesh_.crossing_count = mesh_.points.size();
+    mesh_.triangles.reserve(2 * mesh_.crossing_count);
+    index_.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) { add_cell(cell, pattern); });
+    for (Vec3& point : mesh_.points) point = grid_.origin() + scaled(point, grid_.spacing());
     return std::move(mesh_);
   }
 
@@ -54,14 +53,13 @@ class MarchingCubes {
   std::uint32_t add_inner_point(const Vec3& near);
 
   [[nodiscard]] std::uint32_t vertex(int edge) const { return vertices_[static_cast<std::size_t>(edge)]; }
-  [[nodiscard]] const Vec3& point(int edge) const { return crossing_points_[vertex(edge)]; }
+  [[nodiscard]] const Vec3& point(int edge) const { return mesh_.points[vertex(edge)]; }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh_.triangles.push_back({a, b, c}); }
 
   const ScalarGrid& grid_;
   double isovalue_;
   const CrossingIndex& index_;
-  std::span<const Vec3> crossing_points_;
-  MarchingCubesMesh mesh_;  // inner points alone, in index space
+  MarchingCubesMesh mesh_;  // in index space until the end
 
   // The cell at hand.
   CellIndex cell_{};
@@ -242,31 +240,7 @@ std::uint32_t MarchingCubes::add_inner_point(const Vec3& near) {
     best_residual = residual;
   }
   mesh_.points.push_back(base + best);
-  return static_cast<std::uint32_t>(crossing_points_.size() + mesh_.points.size() - 1);
-}
-
-// What the slabs have, in order, appended to a mesh that has the crossings.
-void append_slabs(std::vector<MarchingCubesMesh>& slabs, int threads, MarchingCubesMesh& mesh) {
-  struct Place {
-    std::size_t triangles = 0;
-    std::size_t inner_points = 0;
-  };
-  std::vector<Place> first(slabs.size() + 1);
-  for (std::size_t i = 0; i < slabs.size(); ++i) {
-    first[i + 1] = {first[i].triangles + slabs[i].triangles.size(), first[i].inner_points + slabs[i].points.size()};
-    mesh.points.insert(mesh.points.end(), slabs[i].points.begin(), slabs[i].points.end());
-  }
-  mesh.triangles.resize(first.back().triangles);
-  run_tasks(slabs.size(), threads, [&](std::size_t i) {
-    auto to = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first[i].triangles);
-    for (std::array<std::uint32_t, 3> triangle : slabs[i].triangles) {
-      for (std::uint32_t& v : triangle) {
-        if (v >= mesh.crossing_count) v += static_cast<std::uint32_t>(first[i].inner_points);
-      }
-      *to++ = triangle;
-    }
-    slabs[i] = {};
-  });
+  return static_cast<std::uint32_t>(mesh_.points.size() - 1);
 }
 
 }  // namespace
@@ -278,27 +252,8 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue) {
 }
 
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                 std::span<const EdgeCrossing> crossings, int threads) {
-  // Points by slabs of samples.
-  MarchingCubesMesh mesh;
-  mesh.crossing_count = crossings.size();
-  mesh.points.resize(crossings.size());
-  for_each_slab(grid.dims()[2], threads, [&](std::size_t, std::int32_t first, std::int32_t last) {
-    const std::size_t end = last < grid.dims()[2] ? index.first_number(0, 0, last) : crossings.size();
-    for (std::size_t i = index.first_number(0, 0, first); i < end; ++i) {
-      mesh.points[i] = crossing_position(grid, crossings[i]);
-    }
-  });
-
-  // Triangles by slabs of cells.
-  std::vector<MarchingCubesMesh> slabs(slab_count(index.cell_layers()));
-  for_each_slab(index.cell_layers(), threads, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
-    slabs[slab] = MarchingCubes(grid, isovalue, index, mesh.points).build(first, last);
-  });
-  append_slabs(slabs, threads, mesh);
-
-  for (Vec3& point : mesh.points) point = grid.origin() + scaled(point, grid.spacing());
-  return mesh;
+                                 std::span<const EdgeCrossing> crossings) {
+  return MarchingCubes(grid, isovalue, index).build(crossings);
 }
 
 }  // namespace deliso

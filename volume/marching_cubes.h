@@ -28,9 +28,8 @@ struct MarchingCubesMesh {
 
 // Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue);
-// The same for callers that have the index of the crossings and their list (list_crossings); the same for any number of
-// threads.
+// The same for callers that have the index of the crossings and their list (list_crossings).
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                 std::span<const EdgeCrossing> crossings, int threads = 1);
+                                 std::span<const EdgeCrossing> crossings);
 
 }  // namespace deliso
