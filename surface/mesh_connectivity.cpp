@@ -163,7 +163,6 @@ MeshConnectivity::MeshConnectivity(const TriangleMesh& mesh, int threads) : mesh
   std::partial_sum(edges_before.begin(), edges_before.end(), edges_before.begin());
 
   half_edges_.resize(keys.size());
-  edge_of_.resize(keys.size());
   edges_.resize(edges_before.back());
   first_.resize(edges_before.back() + 1);
   first_.back() = static_cast<std::uint32_t>(keys.size());
@@ -176,7 +175,6 @@ MeshConnectivity::MeshConnectivity(const TriangleMesh& mesh, int threads) : mesh
           first_[next++] = k;
         }
         half_edges_[k] = static_cast<std::uint32_t>(keys[k]);
-        edge_of_[half_edges_[k]] = static_cast<std::uint32_t>(next - 1);
       }
     }
   });

@@ -34,7 +34,6 @@ class MeshConnectivity {
   [[nodiscard]] std::span<const std::uint32_t> half_edges(std::size_t e) const {
     return {half_edges_.data() + first_[e], first_[e + 1] - first_[e]};
   }
-  [[nodiscard]] std::uint32_t edge_of(std::uint32_t half_edge) const { return edge_of_[half_edge]; }
   [[nodiscard]] bool is_boundary(std::size_t e) const { return first_[e + 1] - first_[e] == 1; }
 
   // Where a half-edge starts and ends.
@@ -50,7 +49,6 @@ class MeshConnectivity {
   std::vector<MeshEdge> edges_;
   std::vector<std::uint32_t> first_;       // of each edge, its place in half_edges_; one more at the end
   std::vector<std::uint32_t> half_edges_;  // grouped by edge
-  std::vector<std::uint32_t> edge_of_;     // of each half-edge
 };
 
 // A connected piece of the mesh: triangles joined through shared vertices.

@@ -106,7 +106,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round), facts_.critical_cells(), round_->evidence()}));
+                          places_of_difference(round), facts_.critical_cells(), round_->evidence()},
+                         threads_));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -163,7 +164,7 @@ void Repair::triangulate() {
   for (const Sample& sample : samples_) points.push_back(sample.point);
   give_poles();
   round_.reset();
-  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points), threads_);
+  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points, threads_), threads_);
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
