@@ -10,7 +10,7 @@ namespace deliso {
 namespace {
 
 TEST(Repair, IsTheSameForAnyNumberOfThreads) {
-  const auto scene = testing::noise_scene({14, 13, 12}, 4);
+  const auto scene = testing::noise_scene({10, 9, 8}, 4);
   const auto mesh = [&](int threads) {
     MeshingOptions options;
     options.threads = threads;
