@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -128,19 +127,25 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
 // have got samples.
 void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
-                 const Parameters& parameters, const Lengths& lengths, int threads, Controls& controls,
-                 RecoverStats& stats) {
-  const RecoverOptions stage1 = stage1_options(parameters, lengths);
+                 const MeshingOptions& options, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
+  const RecoverOptions stage1 = stage1_options(options.parameters, lengths);
   recover(restricted, stage1, controls, stats);
-  if (topology == nullptr || !parameters.stage1.coverage || controls.stopped()) return;
-  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, threads);
+  if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return;
+  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
-    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects, threads);
+    const std::int64_t inserted =
+        insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects, options.threads);
     stats.insertions += inserted;
     stats.uncovered += inserted;
     if (inserted == 0 || controls.poll()) break;
     recover(restricted, stage1, controls, stats);
   }
+}
+
+void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
+  stats.search += restricted.counters();
+  stats.restricted_seconds = restricted.restricted_seconds();
+  stats.hits_against_signs = restricted.hits_against_signs();
 }
 
 bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
@@ -167,12 +172,12 @@ bool take_sides_of_facets(RestrictedDelaunay& restricted) {
 }
 
 // The surface mesh that stage 2 starts from, with pole heights.
-SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const SurfaceFacts& facts,
+SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::unique_ptr<SurfaceFacts> facts,
                          const MeshingOptions& options, Controls& controls, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
   if (repairs(parameters)) {
     return timed(result.repair, [&] {
-      return repair(facts, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
+      return repair(*facts, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
                     result.repair);
     });
   }
@@ -221,8 +226,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   result.r_min_voxels = lengths.r_min_stage2;
 
   // What repair will want to know is found beside stage 1, which takes one thread.
-  std::optional<SurfaceFacts> facts;
-  facts.emplace(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
+  auto facts = std::make_unique<SurfaceFacts>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
 
   controls.report("initial", 0, 0);
   auto restricted = timed(result.initial, [&] {
@@ -232,8 +236,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
 
   timed(result.recover, [&] {
-    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, parameters, lengths, options.threads, controls,
-                result.recover);
+    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls, result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -241,13 +244,10 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     timed(result.recover,
           [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
   }
-  result.recover.search += restricted->counters();
-  result.recover.restricted_seconds = restricted->restricted_seconds();
-  result.recover.hits_against_signs = restricted->hits_against_signs();
+  take_counters(*restricted, result.recover);
 
   // The tetrahedra and the facts go as soon as the surface mesh stands.
-  SurfaceMesh surface = surface_from(std::move(restricted), *facts, options, controls, result);
-  facts.reset();
+  SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
