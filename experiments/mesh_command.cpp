@@ -75,7 +75,7 @@ void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const 
   if (!options.report.empty()) write_text(report, options.report);
 }
 
-void print_summary(const MeshingResult& result) {
+void print_summary(const MeshingResult& result, int threads) {
   const TopologySum topology = sum_of(mesh_topology(result));
   TextTable table;
   table.row({"vertices", std::to_string(result.mesh.points.size())})
@@ -84,7 +84,7 @@ void print_summary(const MeshingResult& result) {
       .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
       .row({"boundary loops", std::to_string(topology.boundary_loops)})
       .row({"verdict", verdict_name(result.certificate.verdict)})
-      .row({"min angle (degrees)", number_text(measure_quality(result.mesh).min_angle_degrees)})
+      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, threads).min_angle_degrees)})
       .row({"seconds", number_text(result.total_seconds)});
   table.print(std::cout);
 }
@@ -134,7 +134,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   }();
 
   write_outputs(options, run, result);
-  print_summary(result);
+  print_summary(result, meshing.threads);
   if (!options.quiet) print_remarks(run, result);
   return exit_code_of(meshing, result);
 }

@@ -210,7 +210,7 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
               {"peak_memory_bytes", peak_memory_bytes()},
               {"stages", stages_json(result)},
               {"certificate", certificate_json(result.certificate)},
-              {"quality", quality_json(measure_quality(result.mesh))}};
+              {"quality", quality_json(measure_quality(result.mesh, run.options.threads))}};
 }
 
 }  // namespace deliso

@@ -20,6 +20,27 @@ void for_each_block(std::size_t count, int threads, Body&& body, std::size_t blo
             [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
 }
 
+// One share of a row of elements per thread, of kBlockSize elements or more: for work whose cost depends on where the
+// row is cut, but whose result does not.
+class Shares {
+ public:
+  Shares(std::size_t elements, int threads)
+      : elements_(elements),
+        count_(std::clamp(elements / kBlockSize, std::size_t{1}, static_cast<std::size_t>(std::max(threads, 1)))) {}
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t begin(std::size_t share) const { return share * elements_ / count_; }  // share <= count()
+
+  // Calls body(share, first, last) for each share. A body writes to the places of its elements only.
+  template <class Body>
+  void for_each(int threads, Body&& body) const {
+    run_tasks(count_, threads, [&](std::size_t share) { body(share, begin(share), begin(share + 1)); });
+  }
+
+ private:
+  std::size_t elements_;
+  std::size_t count_;
+};
+
 // What append(element, items) appends for the elements below `count`, in their order.
 template <class Item, class Append>
 std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& append) {

@@ -80,7 +80,7 @@ std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh) {
   return sorted_components(mesh_topology(MeshConnectivity(mesh)));
 }
 
-Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface) {
+Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads) {
   Certificate certificate;
   certificate.verdict = Verdict::kDifferent;
   std::vector<ComponentTopology> sorted = isosurface;
@@ -94,7 +94,7 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
     return certificate;
   }
 
-  const MeshTopology topology = mesh_topology(MeshConnectivity(mesh));
+  const MeshTopology topology = mesh_topology(MeshConnectivity(mesh, threads), threads);
   certificate.manifold = topology.is_manifold();
   certificate.oriented = topology.is_oriented();
   certificate.mesh = counted(sorted_components(topology));
@@ -104,8 +104,8 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
   return certificate;
 }
 
-Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface) {
-  Certificate certificate = certify(mesh, isosurface.components);
+Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface, int threads) {
+  Certificate certificate = certify(mesh, isosurface.components, threads);
   if (!isosurface.singular_cells.empty()) {
     const CellIndex& cell = isosurface.singular_cells.front();
     certificate.verdict = Verdict::kSingularIsovalue;

@@ -32,10 +32,10 @@ std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh);
 // kHomeomorphic when the mesh is an oriented manifold and its components match the isosurface's one to one: orientable
 // surfaces with equal Euler characteristics and equal numbers of boundary loops are homeomorphic. Else kDifferent, and
 // `differences` says why. The counts of a mesh that is no manifold are V - E + F all the same; those of a mesh with an
-// index out of range are left empty.
-Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface);
+// index out of range are left empty. The same for any number of threads.
+Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads = 1);
 
 // The same; kSingularIsovalue when the isosurface has singular points (IsosurfaceTopology::singular_cells).
-Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface);
+Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface, int threads = 1);
 
 }  // namespace deliso

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "delaunay/base/box3.h"
@@ -24,12 +25,10 @@ constexpr int kLongestWalk = 16;   // triangles
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
 
-std::vector<Box3> boxes_of(const SurfaceMesh& mesh) {
-  std::vector<Box3> boxes(mesh.triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
-  }
-  return boxes;
+Box3 box_of(const SurfaceMesh& mesh, std::size_t t) {
+  Box3 box;
+  for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
+  return box;
 }
 
 // Whether a triangle's corners lie within `length` of each other and its circumradius is below twice that; may say no.
@@ -97,34 +96,37 @@ double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
 
 }  // namespace
 
-MeshCover::MeshCover(const SurfaceMesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
+MeshCover::MeshCover(const SurfaceMesh& mesh, int threads)
+    : mesh_(mesh),
+      tree_(
+          mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, t); }, threads) {}
 
 double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
   const auto& v = mesh_.triangles[triangle];
   return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
 }
 
-bool MeshCover::covers(const Vec3& p) {
+bool MeshCover::covers(const Vec3& p, std::uint32_t& guess) const {
   if (mesh_.triangles.empty()) return false;
   // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
-  const auto [guess, squared_guess] = walk_towards(p);
-  if (squared_guess < kNear * kNear) {
-    last_ = guess;
+  const auto [reached, squared_reached] = walk_towards(p, guess);
+  if (squared_reached < kNear * kNear) {
+    guess = reached;
     return true;
   }
-  // The nearest of all is no farther than the guess; a little more, so that the guess itself is found as well.
+  // The nearest of all is no farther than that; a little more, so that the one reached is found as well.
   const auto [nearest, squared] =
-      tree_.nearest(p, 1.001 * squared_guess, [&](std::uint32_t t) { return squared_distance_to(p, t); });
+      tree_.nearest(p, 1.001 * squared_reached, [&](std::uint32_t t) { return squared_distance_to(p, t); });
   if (squared < kNear * kNear) {
-    last_ = nearest;
+    guess = nearest;
     return true;
   }
   const double reach = kRadiusFraction * circumradius(mesh_, nearest);
   return squared <= reach * reach;
 }
 
-std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p) const {
-  std::pair<std::uint32_t, double> best = {last_, squared_distance_to(p, last_)};
+std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
+  std::pair<std::uint32_t, double> best = {start, squared_distance_to(p, start)};
   for (int step = 0; step < kLongestWalk && best.second >= kNear * kNear; ++step) {
     const std::uint32_t from = best.first;
     for (const TriangleSide side : mesh_.neighbours[from]) {
@@ -169,30 +171,45 @@ std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceM
   return covered;
 }
 
-std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology) {
-  std::vector<std::pair<std::size_t, std::uint32_t>> order;  // (brick, crossing)
-  order.reserve(topology.crossings.size());
-  const auto brick = [](double x) { return static_cast<std::int32_t>(x) / kBrick; };
-  for (std::uint32_t i = 0; i < topology.crossings.size(); ++i) {
-    const Vec3 p = crossing_position(grid, topology.crossings[i]);
-    order.emplace_back(grid.index(brick(p.x), brick(p.y), brick(p.z)), i);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint32_t> crossings;
-  crossings.reserve(order.size());
-  for (const auto& [ignored, crossing] : order) crossings.push_back(crossing);
+std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads) {
+  const std::vector<EdgeCrossing>& all = topology.crossings;
+  std::array<std::size_t, 3> bricks{};  // along each axis
+  for (std::size_t axis = 0; axis < 3; ++axis) bricks[axis] = static_cast<std::size_t>(grid.dims()[axis] / kBrick) + 1;
+  std::vector<std::uint32_t> brick_of(all.size());
+  for_each_block(all.size(), threads, [&](std::size_t first, std::size_t last) {
+    const auto brick = [](double x) { return static_cast<std::size_t>(x) / kBrick; };
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 p = crossing_position(grid, all[i]);
+      brick_of[i] = static_cast<std::uint32_t>(brick(p.x) + bricks[0] * (brick(p.y) + bricks[1] * brick(p.z)));
+    }
+  });
+  // Sorted by counting; those of one brick stay in order.
+  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // place of each brick's next crossing
+  for (const std::uint32_t brick : brick_of) ++next[brick + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> crossings(all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) crossings[next[brick_of[i]]++] = i;
   return crossings;
 }
 
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects) {
+                              std::vector<std::uint32_t>& suspects, int threads) {
   const SurfaceMesh mesh = build_triangle_mesh(restricted).mesh;
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };
-  MeshCover cover(mesh);
-  std::erase_if(suspects, [&](std::uint32_t i) { return cover.covers(position(i)); });
+  const MeshCover cover(mesh, threads);
+  const std::vector<std::uint32_t> asked = std::move(suspects);
+  std::vector<std::uint8_t> is_covered(asked.size());
+  for_each_block(asked.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::uint32_t guess = 0;
+    for (std::size_t i = first; i < last; ++i) is_covered[i] = cover.covers(position(asked[i]), guess) ? 1 : 0;
+  });
+  suspects.clear();
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (is_covered[i] == 0) suspects.push_back(asked[i]);
+  }
   std::int64_t inserted = 0;
   for (const std::uint32_t i : suspects) {
     const TetId start = restricted.delaunay().incident_tet(restricted.last_vertex());

@@ -20,20 +20,20 @@ namespace deliso {
 class MeshCover {
  public:
   // Keeps a reference to the mesh, which has neighbours.
-  explicit MeshCover(const SurfaceMesh& mesh);
+  explicit MeshCover(const SurfaceMesh& mesh, int threads = 1);
 
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse
-  // triangle may well be that far off the surface that it approximates.
-  [[nodiscard]] bool covers(const Vec3& p);
+  // triangle may well be that far off the surface that it approximates. The search begins at the triangle `guess`,
+  // which becomes the one that covers p, if any: a good guess for a point nearby. The answer does not depend on it.
+  [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const;
 
  private:
   [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
   // Where a walk over the mesh that comes ever nearer to p ends, or was given up; and its squared distance.
-  [[nodiscard]] std::pair<std::uint32_t, double> walk_towards(const Vec3& p) const;
+  [[nodiscard]] std::pair<std::uint32_t, double> walk_towards(const Vec3& p, std::uint32_t start) const;
 
   const SurfaceMesh& mesh_;
   BoxTree tree_;
-  std::uint32_t last_ = 0;  // the triangle that covered the last point: a good guess for the next
 };
 
 // For a few points, on several threads: which lie within 0.8 mesh-space units, or within half its circumradius, of a
@@ -43,12 +43,12 @@ std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceM
 
 // Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
 // nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are
-// not covered stay in it. Returns how many went in; stage 1 has to go on then.
+// not covered stay in it. Returns how many went in; stage 1 has to go on then. The same for any number of threads.
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects);
+                              std::vector<std::uint32_t>& suspects, int threads = 1);
 
 // All crossings, in an order that keeps neighbours together.
-std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology);
+std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads = 1);
 
 }  // namespace deliso

@@ -18,6 +18,7 @@
 #include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/sides_of_facets.h"
+#include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
@@ -126,13 +127,14 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
 // have got samples.
 void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
-                 const Parameters& parameters, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
-  const RecoverOptions stage1 = stage1_options(parameters, lengths);
+                 const MeshingOptions& options, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
+  const RecoverOptions stage1 = stage1_options(options.parameters, lengths);
   recover(restricted, stage1, controls, stats);
-  if (topology == nullptr || !parameters.stage1.coverage || controls.stopped()) return;
-  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology);
+  if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return;
+  std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
-    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects);
+    const std::int64_t inserted =
+        insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects, options.threads);
     stats.insertions += inserted;
     stats.uncovered += inserted;
     if (inserted == 0 || controls.poll()) break;
@@ -140,13 +142,21 @@ void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const I
   }
 }
 
+void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
+  stats.search += restricted.counters();
+  stats.restricted_seconds = restricted.restricted_seconds();
+  stats.hits_against_signs = restricted.hits_against_signs();
+}
+
+bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
+
 // Combinations of parameters that contradict each other.
 void check_parameters(const Parameters& parameters) {
-  const bool repairs = parameters.certify && parameters.repair.max_rounds > 0;
-  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs) {
+  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs(parameters)) {
     throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
   }
-  if (!parameters.stage1.one_sign_per_tetrahedron && (repairs || parameters.stage1.coverage || !parameters.certify)) {
+  if (!parameters.stage1.one_sign_per_tetrahedron &&
+      (repairs(parameters) || parameters.stage1.coverage || !parameters.certify)) {
     throw InputError(
         "stage1.one_sign_per_tetrahedron: false gives facets that only the certificate can judge; it needs certify = "
         "true, stage1.coverage = false and repair.max_rounds = 0");
@@ -162,13 +172,12 @@ bool take_sides_of_facets(RestrictedDelaunay& restricted) {
 }
 
 // The surface mesh that stage 2 starts from, with pole heights.
-SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, const ScalarGrid& grid,
-                         const IsosurfaceTopology& topology, const MeshingOptions& options, Controls& controls,
-                         MeshingResult& result) {
+SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::unique_ptr<SurfaceFacts> facts,
+                         const MeshingOptions& options, Controls& controls, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
-  if (parameters.certify && parameters.repair.max_rounds > 0) {
+  if (repairs(parameters)) {
     return timed(result.repair, [&] {
-      return repair(grid, topology, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
+      return repair(*facts, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
                     result.repair);
     });
   }
@@ -204,7 +213,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.report("index", 0, 0);
   const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
   const RegularTopology regular = timed(result.topology, [&] {
-    return needs_topology ? regular_topology(grid, isovalue) : RegularTopology{regular_isovalue(grid, isovalue), {}};
+    return needs_topology ? regular_topology(grid, isovalue, options.threads)
+                          : RegularTopology{regular_isovalue(grid, isovalue), {}};
   });
   const IsosurfaceTopology& topology = regular.topology;
   result.isovalue_used = regular.isovalue;
@@ -215,6 +225,9 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
 
+  // What repair will want to know is found beside stage 1, which takes one thread.
+  auto facts = std::make_unique<SurfaceFacts>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
+
   controls.report("initial", 0, 0);
   auto restricted = timed(result.initial, [&] {
     const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
@@ -223,7 +236,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
 
   timed(result.recover, [&] {
-    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, parameters, lengths, controls, result.recover);
+    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls, result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -231,12 +244,10 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     timed(result.recover,
           [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
   }
-  result.recover.search += restricted->counters();
-  result.recover.restricted_seconds = restricted->restricted_seconds();
-  result.recover.hits_against_signs = restricted->hits_against_signs();
+  take_counters(*restricted, result.recover);
 
-  // The tetrahedra go as soon as the surface mesh stands.
-  SurfaceMesh surface = surface_from(std::move(restricted), grid, topology, options, controls, result);
+  // The tetrahedra and the facts go as soon as the surface mesh stands.
+  SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
@@ -248,7 +259,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
     result.mesh = to_world(surface, grid, isosurface->step());
-    if (parameters.certify) result.certificate = certify(result.mesh, topology);
+    if (parameters.certify) result.certificate = certify(result.mesh, topology, options.threads);
     if (!result.build.bounds_a_solid) refute_facets(result.certificate);
   });
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "delaunay/base/check.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -32,57 +33,53 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-// The half-edges of all triangles as (higher vertex, half-edge), bucketed by lower vertex and sorted in each bucket.
-// starts[v] is where the bucket of v begins.
-std::vector<std::uint64_t> sorted_half_edges(const TriangleMesh& mesh, std::vector<std::uint32_t>& starts) {
-  starts.assign(mesh.points.size() + 1, 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    ++starts[std::min(a, b) + 1];
-    ++starts[std::min(b, c) + 1];
-    ++starts[std::min(c, a) + 1];
-  }
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-
-  std::vector<std::uint64_t> keys(3 * mesh.triangles.size());
-  std::vector<std::uint32_t> fill(starts.begin(), starts.end() - 1);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t u = mesh.triangles[t][i], v = mesh.triangles[t][i == 2 ? 0 : i + 1];
-      keys[fill[std::min(u, v)]++] = (static_cast<std::uint64_t>(std::max(u, v)) << 32) | (3 * t + i);
+// Calls visit(half-edge, lower vertex, higher vertex) for the half-edges whose lower vertex is one from `first` to
+// `last` - 1.
+template <class Visit>
+void for_each_half_edge(const TriangleMesh& mesh, std::size_t first, std::size_t last, const Visit& visit) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][i == 2 ? 0 : i + 1]);
+      if (first <= low && low < last) visit(3 * t + i, low, high);
     }
   }
-  for (std::size_t v = 0; v + 1 < starts.size(); ++v) {
-    std::sort(keys.begin() + starts[v], keys.begin() + starts[v + 1]);
-  }
-  return keys;
 }
 
-// Umbrellas per vertex: the corners at a vertex, joined when their triangles share an edge there.
-std::int64_t count_non_manifold_vertices(const MeshConnectivity& connectivity) {
+// A key tells the higher vertex, then the half-edge.
+std::uint64_t key_of(std::uint32_t high, std::uint32_t half_edge) { return std::uint64_t{high} << 32 | half_edge; }
+std::uint32_t high_of(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
+
+// The corners that a half-edge of an edge has at its lower and its higher vertex. Corner 3 t + i is where half-edge
+// 3 t + i starts.
+std::array<std::uint32_t, 2> corners_of(const MeshConnectivity& connectivity, std::uint32_t h, std::uint32_t low) {
+  const std::uint32_t next = h - h % 3 + (h + 1) % 3;
+  if (connectivity.tail(h) == low) return {h, next};
+  return {next, h};
+}
+
+// Counts, up to two, the umbrellas at the vertices from `first` to `last` - 1: their corners, joined when their
+// triangles share an edge there. Touches only the corners at these vertices.
+void count_umbrellas(const MeshConnectivity& connectivity, std::size_t first, std::size_t last, DisjointSets& corners,
+                     std::vector<std::uint8_t>& umbrellas) {
   const TriangleMesh& mesh = connectivity.mesh();
-  DisjointSets corners(3 * mesh.triangles.size());
   for (std::size_t e = 0; e < connectivity.edge_count(); ++e) {
+    const MeshEdge& edge = connectivity.edge(e);
+    const bool has_low = first <= edge.low && edge.low < last;
+    const bool has_high = first <= edge.high && edge.high < last;
+    if (!has_low && !has_high) continue;
     const auto half_edges = connectivity.half_edges(e);
-    const std::uint32_t low = connectivity.edge(e).low;
-    // Corner 3 t + i is where half-edge 3 t + i starts.
-    const auto corner_at_low = [&](std::uint32_t h) {
-      return connectivity.tail(h) == low ? h : h - h % 3 + (h + 1) % 3;
-    };
-    const auto corner_at_high = [&](std::uint32_t h) {
-      return connectivity.tail(h) == low ? h - h % 3 + (h + 1) % 3 : h;
-    };
+    const auto [at_low, at_high] = corners_of(connectivity, half_edges[0], edge.low);
     for (std::size_t k = 1; k < half_edges.size(); ++k) {
-      corners.join(corner_at_low(half_edges[0]), corner_at_low(half_edges[k]));
-      corners.join(corner_at_high(half_edges[0]), corner_at_high(half_edges[k]));
+      const auto [other_at_low, other_at_high] = corners_of(connectivity, half_edges[k], edge.low);
+      if (has_low) corners.join(at_low, other_at_low);
+      if (has_high) corners.join(at_high, other_at_high);
     }
   }
-  std::vector<std::uint8_t> umbrellas(mesh.points.size(), 0);
   for (std::uint32_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    if (corners.find(c) != c) continue;
-    std::uint8_t& count = umbrellas[mesh.triangles[c / 3][c % 3]];
-    count = static_cast<std::uint8_t>(std::min(count + 1, 2));
+    const std::uint32_t v = mesh.triangles[c / 3][c % 3];
+    if (v < first || v >= last || corners.find(c) != c) continue;
+    umbrellas[v] = static_cast<std::uint8_t>(std::min(umbrellas[v] + 1, 2));
   }
-  return std::count(umbrellas.begin(), umbrellas.end(), std::uint8_t{2});
 }
 
 // Numbers the pieces and counts their vertices and triangles.
@@ -139,37 +136,66 @@ void count_edges(const MeshConnectivity& connectivity, MeshTopology& topology) {
 
 }  // namespace
 
-MeshConnectivity::MeshConnectivity(const TriangleMesh& mesh) : mesh_(mesh) {
+MeshConnectivity::MeshConnectivity(const TriangleMesh& mesh, int threads) : mesh_(mesh) {
   DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "half-edges have 32-bit ids");
-  std::vector<std::uint32_t> starts;
-  const std::vector<std::uint64_t> keys = sorted_half_edges(mesh, starts);
+  // Buckets by lower vertex, each sorted by key; starts[v] is where the bucket of v begins. A thread reads all
+  // triangles, for its share of the vertices.
+  const Shares vertices(mesh.points.size(), threads);
+  std::vector<std::uint32_t> starts(mesh.points.size() + 1, 0);
+  vertices.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for_each_half_edge(mesh, first, last, [&](std::uint32_t, std::uint32_t low, std::uint32_t) { ++starts[low + 1]; });
+  });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint64_t> keys(3 * mesh.triangles.size());
+  std::vector<std::uint32_t> fill(starts.begin(), starts.end() - 1);
+  std::vector<std::size_t> edges_before(vertices.count() + 1, 0);  // each share
+  vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    for_each_half_edge(mesh, first, last, [&](std::uint32_t h, std::uint32_t low, std::uint32_t high) {
+      keys[fill[low]++] = key_of(high, h);
+    });
+    for (std::size_t v = first; v < last; ++v) {
+      std::sort(keys.begin() + starts[v], keys.begin() + starts[v + 1]);
+      for (std::uint32_t k = starts[v]; k < starts[v + 1]; ++k) {
+        if (k == starts[v] || high_of(keys[k]) != high_of(keys[k - 1])) ++edges_before[share + 1];
+      }
+    }
+  });
+  std::partial_sum(edges_before.begin(), edges_before.end(), edges_before.begin());
 
   half_edges_.resize(keys.size());
-  edge_of_.resize(keys.size());
-  edges_.reserve(keys.size() / 2 + 1);
-  first_.reserve(keys.size() / 2 + 2);
-  for (std::uint32_t low = 0; low + 1 < starts.size(); ++low) {
-    for (std::uint32_t k = starts[low]; k < starts[low + 1]; ++k) {
-      const auto high = static_cast<std::uint32_t>(keys[k] >> 32);
-      if (k == starts[low] || high != edges_.back().high) {
-        edges_.push_back({low, high});
-        first_.push_back(k);
+  edges_.resize(edges_before.back());
+  first_.resize(edges_before.back() + 1);
+  first_.back() = static_cast<std::uint32_t>(keys.size());
+  vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    std::size_t next = edges_before[share];
+    for (std::size_t low = first; low < last; ++low) {
+      for (std::uint32_t k = starts[low]; k < starts[low + 1]; ++k) {
+        if (k == starts[low] || high_of(keys[k]) != high_of(keys[k - 1])) {
+          edges_[next] = {static_cast<std::uint32_t>(low), high_of(keys[k])};
+          first_[next++] = k;
+        }
+        half_edges_[k] = static_cast<std::uint32_t>(keys[k]);
       }
-      half_edges_[k] = static_cast<std::uint32_t>(keys[k]);
-      edge_of_[half_edges_[k]] = static_cast<std::uint32_t>(edges_.size() - 1);
     }
-  }
-  first_.push_back(static_cast<std::uint32_t>(keys.size()));
+  });
 }
 
-MeshTopology mesh_topology(const MeshConnectivity& connectivity) {
+MeshTopology mesh_topology(const MeshConnectivity& connectivity, int threads) {
+  const TriangleMesh& mesh = connectivity.mesh();
   MeshTopology topology;
-  find_components(connectivity.mesh(), topology);
+  // Components beside umbrellas.
+  const Shares vertices(mesh.points.size(), threads);
+  DisjointSets corners(3 * mesh.triangles.size());
+  std::vector<std::uint8_t> umbrellas(mesh.points.size(), 0);
+  run_tasks(vertices.count() + 1, threads, [&](std::size_t i) {
+    if (i == 0) return find_components(mesh, topology);
+    count_umbrellas(connectivity, vertices.begin(i - 1), vertices.begin(i), corners, umbrellas);
+  });
+  topology.non_manifold_vertices = std::count(umbrellas.begin(), umbrellas.end(), std::uint8_t{2});
   count_edges(connectivity, topology);
-  topology.non_manifold_vertices = count_non_manifold_vertices(connectivity);
-  topology.repeated_vertices =
-      std::count_if(connectivity.mesh().triangles.begin(), connectivity.mesh().triangles.end(),
-                    [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  topology.repeated_vertices = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [](const auto& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
   return topology;
 }
 

@@ -23,8 +23,9 @@ struct MeshEdge {
 // sorted by the higher. So edges are in lexicographic order and the half-edges of an edge ascend.
 class MeshConnectivity {
  public:
-  // Keeps a reference to the mesh. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
-  explicit MeshConnectivity(const TriangleMesh& mesh);
+  // Keeps a reference to the mesh. Precondition: every index is below mesh.points.size() (see first_bad_triangle). The
+  // same for any number of threads.
+  explicit MeshConnectivity(const TriangleMesh& mesh, int threads = 1);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
@@ -33,7 +34,6 @@ class MeshConnectivity {
   [[nodiscard]] std::span<const std::uint32_t> half_edges(std::size_t e) const {
     return {half_edges_.data() + first_[e], first_[e + 1] - first_[e]};
   }
-  [[nodiscard]] std::uint32_t edge_of(std::uint32_t half_edge) const { return edge_of_[half_edge]; }
   [[nodiscard]] bool is_boundary(std::size_t e) const { return first_[e + 1] - first_[e] == 1; }
 
   // Where a half-edge starts and ends.
@@ -49,7 +49,6 @@ class MeshConnectivity {
   std::vector<MeshEdge> edges_;
   std::vector<std::uint32_t> first_;       // of each edge, its place in half_edges_; one more at the end
   std::vector<std::uint32_t> half_edges_;  // grouped by edge
-  std::vector<std::uint32_t> edge_of_;     // of each half-edge
 };
 
 // A connected piece of the mesh: triangles joined through shared vertices.
@@ -81,7 +80,8 @@ struct MeshTopology {
   [[nodiscard]] bool is_oriented() const { return is_manifold() && misoriented_edges == 0; }
 };
 
-MeshTopology mesh_topology(const MeshConnectivity& connectivity);
+// The same for any number of threads.
+MeshTopology mesh_topology(const MeshConnectivity& connectivity, int threads = 1);
 
 // The first triangle that names a vertex out of range; mesh.triangles.size() when there is none.
 std::size_t first_bad_triangle(const TriangleMesh& mesh);

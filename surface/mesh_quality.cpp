@@ -1,8 +1,12 @@
 #include "surface/mesh_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
+
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -56,29 +60,59 @@ TriangleShape shape_of(Vec3 a, Vec3 b, Vec3 c) {
   return shape;
 }
 
-}  // namespace
-
-MeshQuality measure_quality(const TriangleMesh& mesh) {
-  MeshQuality quality;
-  if (mesh.triangles.empty()) return quality;
-  quality.min_angle_degrees = 180;
-  std::vector<double> radius_edges;
-  radius_edges.reserve(mesh.triangles.size());
+// Figures of some triangles.
+struct Figures {
+  double min_angle = 180;
+  double max_angle = 0;
   double sum_of_min_angles = 0;
   std::int64_t below_30 = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const TriangleShape shape = shape_of(mesh.points[a], mesh.points[b], mesh.points[c]);
-    quality.min_angle_degrees = std::min(quality.min_angle_degrees, shape.min_angle);
-    quality.max_angle_degrees = std::max(quality.max_angle_degrees, shape.max_angle);
+  std::int64_t degenerate = 0;
+  std::array<std::int64_t, 12> histogram{};
+
+  void add(const TriangleShape& shape) {
+    min_angle = std::min(min_angle, shape.min_angle);
+    max_angle = std::max(max_angle, shape.max_angle);
     sum_of_min_angles += shape.min_angle;
     below_30 += shape.min_angle < 30 ? 1 : 0;
-    quality.degenerate_triangles += shape.is_degenerate ? 1 : 0;
-    ++quality.min_angle_histogram[std::min<std::size_t>(11, static_cast<std::size_t>(shape.min_angle / 5))];
-    radius_edges.push_back(shape.radius_edge);
+    degenerate += shape.is_degenerate ? 1 : 0;
+    ++histogram[std::min<std::size_t>(histogram.size() - 1, static_cast<std::size_t>(shape.min_angle / 5))];
   }
+  void add(const Figures& other) {
+    min_angle = std::min(min_angle, other.min_angle);
+    max_angle = std::max(max_angle, other.max_angle);
+    sum_of_min_angles += other.sum_of_min_angles;
+    below_30 += other.below_30;
+    degenerate += other.degenerate;
+    for (std::size_t i = 0; i < histogram.size(); ++i) histogram[i] += other.histogram[i];
+  }
+};
+
+}  // namespace
+
+MeshQuality measure_quality(const TriangleMesh& mesh, int threads) {
+  if (mesh.triangles.empty()) return {};
+  // By blocks, which are added in order.
+  std::vector<double> radius_edges(mesh.triangles.size());
+  std::vector<Figures> blocks((mesh.triangles.size() + kBlockSize - 1) / kBlockSize);
+  for_each_block(mesh.triangles.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto [a, b, c] = mesh.triangles[t];
+      const TriangleShape shape = shape_of(mesh.points[a], mesh.points[b], mesh.points[c]);
+      blocks[first / kBlockSize].add(shape);
+      radius_edges[t] = shape.radius_edge;
+    }
+  });
+  Figures sum;
+  for (const Figures& block : blocks) sum.add(block);
+
+  MeshQuality quality;
+  quality.min_angle_degrees = sum.min_angle;
+  quality.max_angle_degrees = sum.max_angle;
+  quality.degenerate_triangles = sum.degenerate;
+  quality.min_angle_histogram = sum.histogram;
   const auto count = static_cast<double>(mesh.triangles.size());
-  quality.mean_min_angle_degrees = sum_of_min_angles / count;
-  quality.fraction_min_angle_below_30 = static_cast<double>(below_30) / count;
+  quality.mean_min_angle_degrees = sum.sum_of_min_angles / count;
+  quality.fraction_min_angle_below_30 = static_cast<double>(sum.below_30) / count;
   // The 99th percentile: the smallest value that at least 99 % do not exceed.
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
   std::nth_element(radius_edges.begin(), radius_edges.begin() + rank, radius_edges.end());

@@ -26,6 +26,7 @@ struct MeshQuality {
   std::array<std::int64_t, 12> min_angle_histogram{};
 };
 
-MeshQuality measure_quality(const TriangleMesh& mesh);
+// The same for any number of threads.
+MeshQuality measure_quality(const TriangleMesh& mesh, int threads = 1);
 
 }  // namespace deliso

@@ -10,7 +10,6 @@
 
 #include "surface/component_match.h"
 #include "surface/poles.h"
-#include "surface/polygonized_components.h"
 #include "surface/raised_cells.h"
 #include "surface/repair_round.h"
 #include "surface/sample_lattice.h"
@@ -35,18 +34,18 @@ constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRul
 
 class Repair {
  public:
-  Repair(const ScalarGrid& grid, const IsosurfaceTopology& topology, std::unique_ptr<SignedDelaunay> restricted,
-         int threads, RepairStats& stats)
-      : grid_(grid),
+  Repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
+      : facts_(facts),
+        grid_(facts.grid()),
         isosurface_(restricted->isosurface()),
-        topology_(topology),
+        topology_(facts.topology()),
         threads_(threads),
         stats_(stats),
-        lattice_(grid, isosurface_.isovalue(), topology),
-        raised_(grid, isosurface_),
-        round_(std::in_place, grid, topology, raised_, std::move(restricted), threads),
-        done_(topology.components.size(), false),
-        best_(topology.components.size(), Agreement::kNone) {}
+        lattice_(grid_, isosurface_.isovalue(), topology_),
+        raised_(grid_, isosurface_),
+        round_(std::in_place, grid_, topology_, raised_, std::move(restricted), threads),
+        done_(topology_.components.size(), false),
+        best_(topology_.components.size(), Agreement::kNone) {}
 
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
@@ -69,7 +68,6 @@ class Repair {
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
   const std::vector<Places>& places_of_difference(std::size_t most);
-  const PolygonizedSurface& polygonized();
   void keep();
   void drop_outdone();
   void give_poles();
@@ -81,6 +79,7 @@ class Repair {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
 
+  const SurfaceFacts& facts_;
   const ScalarGrid& grid_;
   const Isosurface& isosurface_;
   const IsosurfaceTopology& topology_;
@@ -96,8 +95,7 @@ class Repair {
   std::vector<Places> places_;            // of difference, as last found
   std::weak_ptr<MatchedMesh> places_of_;  // in this mesh,
   std::size_t most_places_ = 0;           // of each component if they were no more
-  std::optional<PolygonizedSurface> polygonized_;  // made when first needed
-  std::vector<KeptMesh> history_;                  // meshes that brought a component further
+  std::vector<KeptMesh> history_;         // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -111,9 +109,10 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep();
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
-    raised_.raise(
-        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence()}));
+    raised_.raise(cells_in_trouble(
+        {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
+         places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), facts_.critical_cells(), round_->evidence()},
+        threads_));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     triangulate();
@@ -171,7 +170,7 @@ void Repair::triangulate() {
   for (const Sample& sample : samples_) points.push_back(sample.point);
   give_poles();
   round_.reset();
-  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points), threads_);
+  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points, threads_), threads_);
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
@@ -227,17 +226,13 @@ const std::vector<Places>& Repair::places_of_difference(std::size_t most) {
     const std::uint32_t main = match.main_piece[c];
     if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
     auto& layers = places_[c].layers;
+    const PolygonizedSurface& exact = facts_.polygonized();
     layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
-                           {polygonized().mesh, [&](std::uint32_t v) { return polygonized().component[v] == c; }},
-                           isosurface_.step(), grid_.dims());
+                           {exact.mesh, [&](std::uint32_t v) { return exact.component[v] == c; }}, isosurface_.step(),
+                           grid_.dims());
     if (places_[c].count() > most) places_[c] = {};
   }
   return places_;
-}
-
-const PolygonizedSurface& Repair::polygonized() {
-  if (!polygonized_) polygonized_ = polygonized_surface(grid_, isosurface_, topology_);
-  return *polygonized_;
 }
 
 // Keeps the latest mesh when some component agrees with it that agreed with no earlier one.
@@ -318,16 +313,15 @@ SurfaceMesh Repair::assemble_kept() {
     stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
   }
   taken.flip();
-  append_pieces(polygonized().mesh, polygonized().component, taken, kept);
+  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
   return kept;
 }
 
 }  // namespace
 
-SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, int threads, Controls& controls,
-                   RepairStats& stats) {
-  return Repair(grid, topology, std::move(restricted), threads, stats).run(max_rounds, controls);
+SurfaceMesh repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+                   int threads, Controls& controls, RepairStats& stats) {
+  return Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
 }
 
 }  // namespace deliso

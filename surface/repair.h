@@ -14,8 +14,8 @@
 #include "surface/controls.h"
 #include "surface/recover.h"
 #include "surface/signed_delaunay.h"
+#include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
-#include "volume/exact_topology.h"
 
 namespace deliso {
 
@@ -30,10 +30,9 @@ struct RepairStats : StageStats {
   std::int64_t vertices_after = 0;
 };
 
-// `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with
-// pole heights; the same for any number of threads.
-SurfaceMesh repair(const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                   std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds, int threads, Controls& controls,
-                   RepairStats& stats);
+// `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with pole heights; the same for any
+// number of threads.
+SurfaceMesh repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+                   int threads, Controls& controls, RepairStats& stats);
 
 }  // namespace deliso

@@ -20,7 +20,18 @@ class SampleLocator {
   SampleLocator(const SignedDelaunay& restricted, const ScalarGrid& grid);
 
   // The tetrahedron that SignedDelaunay::locate finds from `hint` for a sample of the grid.
-  TetId locate(const std::array<std::int32_t, 3>& sample, TetId hint);
+  TetId locate(const std::array<std::int32_t, 3>& sample, TetId hint) { return locate_settled(sample, hint).tet; }
+  // The same, and whether it is the same from every hint: the sample lies strictly inside the tetrahedron.
+  struct Located {
+    TetId tet;
+    bool is_settled = false;
+  };
+  Located locate_settled(const std::array<std::int32_t, 3>& sample, TetId hint);
+  // For any point.
+  [[nodiscard]] Located locate_settled(const Vec3& p, TetId hint) const {
+    const TetId t = restricted_.locate(p, hint);
+    return {t, is_strictly_inside(t, p)};
+  }
   // Whether that is the same from every hint: the sample lies strictly inside tetrahedron t, where it was found.
   [[nodiscard]] bool is_settled(const std::array<std::int32_t, 3>& sample, TetId t) const {
     return is_strictly_inside(t, place(sample));

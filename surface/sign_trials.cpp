@@ -5,14 +5,18 @@
 #include <optional>
 #include <utility>
 
+#include "surface/evidence.h"
+
 namespace deliso {
 
 namespace {
 
-// How many layers from the places tetrahedra are tried.
+// How many layers from the places tetrahedra are tried: disputed ones, and others one by one.
 constexpr std::int32_t kReach = 6;
-// Meshes built for one component at most.
+constexpr std::int32_t kReachOfSingles = 3;
+// Meshes built for one component at most, for the ones and the others.
 constexpr int kMostTrials = 64;
+constexpr int kMostTrialsOfSingles = 16;
 
 Vec3 centre_of(const SignedDelaunay& restricted, TetId t) {
   Vec3 sum;
@@ -24,6 +28,18 @@ Vec3 centre_of(const SignedDelaunay& restricted, TetId t) {
   }
   return sum / count;
 }
+
+// Whether some neighbour has the sign that the tetrahedra would take: otherwise they would be but a pocket.
+bool has_neighbour_of_other_sign(const SignedDelaunay& restricted, std::span<const TetId> tets) {
+  return std::any_of(tets.begin(), tets.end(), [&](TetId t) {
+    for (unsigned face = 0; face < 4; ++face) {
+      if (restricted.is_restricted(FacetId(t, face))) return true;
+    }
+    return false;
+  });
+}
+
+bool is_nearer(const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; }
 
 // How much is missing or too much in all.
 std::int64_t amount(const ComponentTopology& missing) {
@@ -66,18 +82,42 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
       clusters.push_back(std::move(cluster));
     }
   }
-  std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; });
+  std::stable_sort(clusters.begin(), clusters.end(), is_nearer);
   return clusters;
 }
 
+// Tetrahedra very near of whose side nothing is known, the nearest first.
+std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) const {
+  const SignedDelaunay& restricted = round_.restricted();
+  const std::span<const std::uint8_t> evidence = round_.evidence();
+  std::vector<DisputedCluster> singles;
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const TetId t(i);
+    const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
+    if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) continue;
+    const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
+    if (layers <= kReachOfSingles) singles.push_back({{t}, layers});
+  }
+  std::stable_sort(singles.begin(), singles.end(), is_nearer);
+  return singles;
+}
+
 void SignTrials::mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh,
-                      const std::function<bool(std::shared_ptr<MatchedMesh>)>& improved, Controls& controls) {
+                      const Improved& improved, Controls& controls) {
+  if (!try_all(clusters_near(places), kMostTrials, component, mesh, improved, controls)) return;
+  try_all(undecided_near(places), kMostTrialsOfSingles, component, mesh, improved, controls);
+}
+
+// Returns whether there is still something to mend.
+bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
+                         std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls) {
   std::vector<bool> signs = round_.restricted().signs();
   int trials = 0;
-  for (const DisputedCluster& cluster : clusters_near(places)) {
+  for (const DisputedCluster& cluster : clusters) {
     const ComponentTopology lacks = missing(*mesh, component);
-    if (lacks.euler_characteristic == 0 || trials == kMostTrials || controls.poll()) return;
+    if (lacks.euler_characteristic == 0 || controls.poll()) return false;
+    if (trials == most) break;
+    if (!has_neighbour_of_other_sign(round_.restricted(), cluster.tets)) continue;
     const std::int64_t change = round_.change_of_characteristic(cluster.tets);
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;
     ++trials;
@@ -86,11 +126,12 @@ void SignTrials::mend(std::uint32_t component, const Places& places, std::shared
     if (trial && amount(missing(*trial, component)) < amount(lacks) && trial->match.error <= mesh->match.error) {
       mesh = std::make_shared<MatchedMesh>(*std::move(trial));
       signs = round_.restricted().signs();
-      if (improved(mesh)) return;
+      if (improved(mesh)) return false;
     } else {
       round_.set_signs(signs);
     }
   }
+  return missing(*mesh, component).euler_characteristic != 0;
 }
 
 }  // namespace deliso

@@ -26,13 +26,18 @@ class SignTrials {
   SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
              std::span<const SignRule> rules);
 
-  // Tries near the places at which the main piece of a component parts from it. `mesh` is the mesh of the round's
-  // signs. Each mesh that is better than the one before goes to improved(), the round's signs being its own; trials end
-  // when that returns true. Afterwards the signs are those of the best mesh.
-  void mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh,
-            const std::function<bool(std::shared_ptr<MatchedMesh>)>& improved, Controls& controls);
+  // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
+  using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
+  // Tries near the places at which the main piece of a component parts from it: disputed clusters, then single
+  // tetrahedra of whose side nothing is known. `mesh` is the mesh of the round's signs; afterwards the signs are those
+  // of the best mesh.
+  void mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
+            Controls& controls);
 
  private:
+  bool try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
+               std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls);
+  [[nodiscard]] std::vector<DisputedCluster> undecided_near(const Places& places) const;
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
   [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places) const;
 

@@ -4,6 +4,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -55,7 +56,7 @@ Vec3 SignedDelaunay::snapped(const Vec3& p) {
   return {snap(p.x), snap(p.y), snap(p.z)};
 }
 
-SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given)
+SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given, int threads)
     : isosurface_(isosurface), delaunay_(box_with_guards(isosurface.box())) {
   std::vector<Vec3> points;
   points.reserve(given.size());
@@ -73,9 +74,11 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
     first_guard_ = static_cast<std::uint32_t>(delaunay_.vertex_count()) - guards_;
   }
   sign_.assign(delaunay_.tet_slots(), Sign::kBelow);
-  for (std::size_t i = 0; i < sign_.size(); ++i) {
-    if (delaunay_.is_live(TetId(i))) sign_[i] = sign_of(TetId(i));
-  }
+  for_each_block(sign_.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (delaunay_.is_live(TetId(i))) sign_[i] = sign_of(TetId(i));
+    }
+  });
 }
 
 Vec3 SignedDelaunay::dual_point(TetId t) const {

@@ -20,8 +20,9 @@ namespace deliso {
 class SignedDelaunay {
  public:
   // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
-  // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line.
-  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+  // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line. The
+  // signs are found on several threads, the same for any number.
+  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1);
   virtual ~SignedDelaunay() = default;
   SignedDelaunay(const SignedDelaunay&) = delete;
   SignedDelaunay& operator=(const SignedDelaunay&) = delete;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 namespace deliso {
 
@@ -14,29 +15,42 @@ constexpr std::int64_t kLasting = 6;
 // Levels looked at beyond those of the start and the end.
 constexpr std::int64_t kSlack = 1;
 
-// The Euler characteristic of what lies below each layer: V - E + F of the simplices whose vertices all do.
-std::vector<std::int64_t> swept_characteristic(const MeshPart& part, std::size_t axis, double step,
-                                               std::size_t layers) {
-  std::vector<std::int64_t> change(layers, 0);
+// For each axis, the Euler characteristic of what lies below each layer: V - E + F of the simplices whose vertices all
+// do.
+std::array<std::vector<std::int64_t>, 3> swept_characteristics(const MeshPart& part, const Vec3& step,
+                                                               const std::array<std::int32_t, 3>& dims) {
   const SurfaceMesh& mesh = part.mesh;
-  const auto layer = [&](double x) {
-    return static_cast<std::size_t>(std::clamp(std::ceil(x / step), 0.0, static_cast<double>(layers - 1)));
+  std::array<std::vector<std::int64_t>, 3> change;
+  for (std::size_t axis = 0; axis < 3; ++axis) change[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
+  // A vertex counts when a triangle has it; its layers are found then.
+  constexpr std::int32_t kUnseen = -1;
+  std::vector<std::array<std::int32_t, 3>> layers(mesh.points.size(), {kUnseen, 0, 0});
+  const auto see = [&](std::uint32_t v) {
+    if (layers[v][0] != kUnseen) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double layer = std::ceil(mesh.points[v][axis] / step[axis]);
+      layers[v][axis] = static_cast<std::int32_t>(std::clamp(layer, 0.0, dims[axis] - 1.0));
+      ++change[axis][static_cast<std::size_t>(layers[v][axis])];
+    }
   };
-  std::vector<bool> seen(mesh.points.size(), false);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     if (!part.counts(v[0])) continue;
-    std::array<double, 3> x{};
-    for (unsigned i = 0; i < 3; ++i) x[i] = mesh.points[v[i]][axis];
+    std::array<bool, 3> counts_edge{};  // an edge counts from the larger of its two sides
     for (unsigned i = 0; i < 3; ++i) {
-      if (!seen[v[i]]) ++change[layer(x[i])];
-      seen[v[i]] = true;
+      see(v[i]);
       const TriangleSide across = mesh.neighbours[t][i];
-      if (across == kNoSide || across < 4 * t + i) --change[layer(std::max(x[(i + 1) % 3], x[(i + 2) % 3]))];
+      counts_edge[i] = across == kNoSide || across < 4 * t + i;
     }
-    ++change[layer(std::max({x[0], x[1], x[2]}))];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::array<std::int32_t, 3> at = {layers[v[0]][axis], layers[v[1]][axis], layers[v[2]][axis]};
+      for (unsigned i = 0; i < 3; ++i) {
+        if (counts_edge[i]) --change[axis][static_cast<std::size_t>(std::max(at[(i + 1) % 3], at[(i + 2) % 3]))];
+      }
+      ++change[axis][static_cast<std::size_t>(std::max({at[0], at[1], at[2]}))];
+    }
   }
-  for (std::size_t i = 1; i < change.size(); ++i) change[i] += change[i - 1];
+  for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
   return change;
 }
 
@@ -76,12 +90,12 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
 
 std::array<std::vector<std::int32_t>, 3> jumps_between(const MeshPart& mesh, const MeshPart& exact, const Vec3& step,
                                                        const std::array<std::int32_t, 3>& dims) {
+  const std::array<std::vector<std::int64_t>, 3> ours = swept_characteristics(mesh, step, dims);
+  const std::array<std::vector<std::int64_t>, 3> right = swept_characteristics(exact, step, dims);
   std::array<std::vector<std::int32_t>, 3> jumps;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto layers = static_cast<std::size_t>(dims[axis]);
-    std::vector<std::int64_t> gap = swept_characteristic(mesh, axis, step[axis], layers);
-    const std::vector<std::int64_t> right = swept_characteristic(exact, axis, step[axis], layers);
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= right[i];
+    std::vector<std::int64_t> gap = ours[axis];
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= right[axis][i];
     jumps[axis] = lasting_jumps(gap);
   }
   return jumps;

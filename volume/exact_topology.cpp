@@ -41,23 +41,18 @@ class DisjointSets {
 // crossing, minus 1 for every arc on the box.
 class TopologyBuilder {
  public:
-  TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index)
+  TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index, int threads)
       : grid_(grid),
         isovalue_(isovalue),
+        threads_(threads),
         sets_(index.crossing_count()),
         twice_euler_of_crossing_(index.crossing_count(), 2) {
     result_.index = std::move(index);
   }
 
   IsosurfaceTopology build() {
-    result_.crossings = list_crossings(grid_, isovalue_, result_.index);
-    result_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
-      if (is_simple(pattern)) {
-        join_simple_cell(cell, pattern);
-      } else {
-        join_cell(cell, pattern);
-      }
-    });
+    result_.crossings = list_crossings(grid_, isovalue_, result_.index, threads_);
+    join_cells();
     number_components();
     count_on_box();
     for (std::size_t i = 0; i < result_.components.size(); ++i) {
@@ -68,9 +63,17 @@ class TopologyBuilder {
   }
 
  private:
+  // What the cells of some layers have, by cell.
+  struct Found {
+    std::vector<SurfaceSaddle> saddles;
+    std::vector<CellIndex> singular_cells;
+  };
+
+  void join_cells();
+  void join_layers(std::int32_t first, std::int32_t last, Found& found);
   [[nodiscard]] std::uint32_t crossing_on(const CellIndex& cell, int edge) const;
   void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
-  void join_cell(const CellIndex& cell, std::uint8_t pattern);
+  void join_cell(const CellIndex& cell, std::uint8_t pattern, Found& found);
   [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
   void number_components();
   void count_on_box();
@@ -78,11 +81,42 @@ class TopologyBuilder {
 
   const ScalarGrid& grid_;
   double isovalue_;
+  int threads_;
   DisjointSets sets_;
   std::vector<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
   std::vector<std::int64_t> twice_euler_;              // of the components
   IsosurfaceTopology result_;
 };
+
+// The cells of a slab but for its last layer join crossings of the slab's own samples alone; so slabs are joined apart
+// from each other, the layers between them afterwards.
+void TopologyBuilder::join_cells() {
+  const std::int32_t layers = result_.index.cell_layers();
+  std::vector<std::array<Found, 2>> found(slab_count(layers));
+  for_each_slab(layers, threads_, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
+    join_layers(first, last - 1, found[slab][0]);
+  });
+  for_each_slab(layers, 1, [&](std::size_t slab, std::int32_t, std::int32_t last) {
+    join_layers(last - 1, last, found[slab][1]);
+  });
+  for (const auto& slab : found) {
+    for (const Found& some : slab) {
+      result_.saddles.insert(result_.saddles.end(), some.saddles.begin(), some.saddles.end());
+      result_.singular_cells.insert(result_.singular_cells.end(), some.singular_cells.begin(),
+                                    some.singular_cells.end());
+    }
+  }
+}
+
+void TopologyBuilder::join_layers(std::int32_t first, std::int32_t last, Found& found) {
+  result_.index.for_each_active_cell(first, last, [&](const CellIndex& cell, std::uint8_t pattern) {
+    if (is_simple(pattern)) {
+      join_simple_cell(cell, pattern);
+    } else {
+      join_cell(cell, pattern, found);
+    }
+  });
+}
 
 std::uint32_t TopologyBuilder::crossing_on(const CellIndex& cell, int edge) const {
   const CellEdge e = cell_edge(edge);
@@ -100,13 +134,13 @@ void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t patte
   }
 }
 
-void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
+void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern, Found& found) {
   const CellSweep sweep(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
   bool singular = sweep.singular_inside();
   for (unsigned faces = sweep.saddle_faces(); faces != 0; faces &= faces - 1) {
     singular = singular || !passes_through(cell, std::countr_zero(faces));
   }
-  if (singular) result_.singular_cells.push_back(cell);
+  if (singular) found.singular_cells.push_back(cell);
   std::array<std::uint32_t, kMaxCellPieces> first;
   first.fill(CrossingIndex::kNone);
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
@@ -125,7 +159,7 @@ void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern) {
   for (int i = 0; i < sweep.saddle_count(); ++i) {
     // Until components are numbered, a saddle remembers a crossing of its piece.
     const auto piece = static_cast<std::size_t>(sweep.saddle(i).piece);
-    result_.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
+    found.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
   }
 }
 
@@ -209,19 +243,19 @@ void TopologyBuilder::count_on_box() {
 
 }  // namespace
 
-IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue) {
+IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue, int threads) {
   DELISO_CHECK(std::isfinite(isovalue), "an isovalue is a finite number");
-  return TopologyBuilder(grid, isovalue, CrossingIndex(grid, isovalue)).build();
+  return TopologyBuilder(grid, isovalue, CrossingIndex(grid, isovalue, threads), threads).build();
 }
 
-RegularTopology regular_topology(const ScalarGrid& grid, double isovalue) {
+RegularTopology regular_topology(const ScalarGrid& grid, double isovalue, int threads) {
   constexpr int kLowerings = 3;
   RegularTopology result;
   result.isovalue = regular_isovalue(grid, isovalue);
-  result.topology = exact_topology(grid, result.isovalue);
+  result.topology = exact_topology(grid, result.isovalue, threads);
   for (int i = 0; i < kLowerings && !result.topology.singular_cells.empty(); ++i) {
     result.isovalue = lowered_isovalue(grid, result.isovalue);
-    result.topology = exact_topology(grid, result.isovalue);
+    result.topology = exact_topology(grid, result.isovalue, threads);
   }
   return result;
 }

@@ -46,8 +46,9 @@ struct IsosurfaceTopology {
   std::vector<CellIndex> singular_cells;
 };
 
-// Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
-IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue);
+// Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite. The same for any number of
+// threads.
+IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue, int threads = 1);
 
 // The exact topology at a regular isovalue: `isovalue` itself or, when a sample or a saddle has that value, one a
 // little lower (regular_isovalue, lowered_isovalue). singular_cells is empty unless three lowerings did not help.
@@ -55,7 +56,7 @@ struct RegularTopology {
   double isovalue = 0;
   IsosurfaceTopology topology;
 };
-RegularTopology regular_topology(const ScalarGrid& grid, double isovalue);
+RegularTopology regular_topology(const ScalarGrid& grid, double isovalue, int threads = 1);
 
 // The exact component on which a point of the surface lies, given in index space and rounded: points within 1e-9 of a
 // crossed grid edge or of a grid face that the surface meets are looked up there, others in the slice of their cell.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "delaunay/base/check.h"
 #include "volume/sample_sides.h"
@@ -43,29 +44,49 @@ double edge_parameter(double low, double high, double isovalue) {
   return std::clamp(before / length, std::numeric_limits<double>::min(), kBelowOne);
 }
 
-CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
+CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue, int threads)
     : dims_(grid.dims()), words_per_row_((grid.dims()[0] + kWordBits - 1) / kWordBits) {
   const std::size_t rows = static_cast<std::size_t>(dims_[1]) * static_cast<std::size_t>(dims_[2]);
   above_.resize(rows * static_cast<std::size_t>(words_per_row_));
   first_in_word_.resize(above_.size());
 
   // Mark the samples above the isovalue, a row at a time.
-  bool regular = true;
+  std::vector<std::uint8_t> regular(slab_count(dims_[2]), 1);  // of each slab
   std::visit(
       [&]<class Sample>(const SampleArray<Sample>& samples) {
         const SideTest<Sample> sides(isovalue);
         const auto length = static_cast<std::size_t>(dims_[0]);
         const auto words = static_cast<std::size_t>(words_per_row_);
-        for (std::size_t row = 0; row < rows; ++row) {
-          regular &= mark_row(sides, samples.data() + row * length, length, &above_[row * words]);
-        }
+        const auto row_of = [&](std::int32_t k) {
+          return static_cast<std::size_t>(dims_[1]) * static_cast<std::size_t>(k);
+        };
+        for_each_slab(dims_[2], threads, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
+          for (std::size_t row = row_of(first); row < row_of(last); ++row) {
+            if (!mark_row(sides, samples.data() + row * length, length, &above_[row * words])) regular[slab] = 0;
+          }
+        });
       },
       grid.samples());
-  DELISO_CHECK(regular, "no sample equals the isovalue");
+  DELISO_CHECK(std::find(regular.begin(), regular.end(), 0) == regular.end(), "no sample equals the isovalue");
 
-  // Count the crossings before every word.
+  // Count the crossings before every word: within its slab, then in all.
+  std::vector<std::uint64_t> before(slab_count(dims_[2]) + 1, 0);  // each slab
+  for_each_slab(dims_[2], threads, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
+    before[slab + 1] = count_in_layers(first, last);
+  });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  DELISO_CHECK(before.back() < kNone, "crossings are numbered with 32 bits");
+  crossing_count_ = static_cast<std::uint32_t>(before.back());
+  for_each_slab(dims_[2], threads, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
+    const auto shift = static_cast<std::uint32_t>(before[slab]);
+    for (std::size_t i = word_index(0, 0, first); i < word_index(0, 0, last); ++i) first_in_word_[i] += shift;
+  });
+}
+
+// Numbers the crossings of some layers of samples from 0; returns how many there are.
+std::uint64_t CrossingIndex::count_in_layers(std::int32_t first, std::int32_t last) {
   std::uint64_t count = 0;
-  for (std::int32_t k = 0; k < dims_[2]; ++k) {
+  for (std::int32_t k = first; k < last; ++k) {
     for (std::int32_t j = 0; j < dims_[1]; ++j) {
       for (std::int32_t w = 0; w < words_per_row_; ++w) {
         first_in_word_[word_index(w, j, k)] = static_cast<std::uint32_t>(count);
@@ -74,8 +95,7 @@ CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue)
       }
     }
   }
-  DELISO_CHECK(count < kNone, "crossings are numbered with 32 bits");
-  crossing_count_ = static_cast<std::uint32_t>(count);
+  return count;
 }
 
 std::uint32_t CrossingIndex::find(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const {
@@ -95,12 +115,13 @@ std::uint32_t CrossingIndex::number(std::int32_t i, std::int32_t j, std::int32_t
   return first_in_word_[word_index(w, j, k)] + count_bits(bits);
 }
 
-std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
-  std::vector<EdgeCrossing> crossings;
-  crossings.reserve(index.crossing_count());
+std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                         int threads) {
+  std::vector<EdgeCrossing> crossings(index.crossing_count());
   const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
   const auto list_word = [&](const auto& samples, std::int32_t w, std::int32_t j, std::int32_t k) {
     const std::array<std::uint64_t, 3> crossed = index.crossed(w, j, k);
+    std::size_t number = index.first_number(w, j, k);
     for (std::uint64_t left = crossed[0] | crossed[1] | crossed[2]; left != 0; left &= left - 1) {
       const int bit = std::countr_zero(left);
       const std::size_t sample = grid.index(w * CrossingIndex::kWordBits + bit, j, k);
@@ -108,17 +129,19 @@ std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue
         if ((crossed[axis] >> bit & 1u) == 0) continue;
         const auto low = static_cast<double>(samples[sample]);
         const auto high = static_cast<double>(samples[sample + stride[axis]]);
-        crossings.push_back({sample, static_cast<std::uint8_t>(axis), 0, edge_parameter(low, high, isovalue)});
+        crossings[number++] = {sample, static_cast<std::uint8_t>(axis), 0, edge_parameter(low, high, isovalue)};
       }
     }
   };
   std::visit(
       [&](const auto& samples) {
-        for (std::int32_t k = 0; k < grid.dims()[2]; ++k) {
-          for (std::int32_t j = 0; j < grid.dims()[1]; ++j) {
-            for (std::int32_t w = 0; w < index.words_per_row(); ++w) list_word(samples, w, j, k);
+        for_each_slab(grid.dims()[2], threads, [&](std::size_t, std::int32_t first, std::int32_t last) {
+          for (std::int32_t k = first; k < last; ++k) {
+            for (std::int32_t j = 0; j < grid.dims()[1]; ++j) {
+              for (std::int32_t w = 0; w < index.words_per_row(); ++w) list_word(samples, w, j, k);
+            }
           }
-        }
+        });
       },
       grid.samples());
   return crossings;

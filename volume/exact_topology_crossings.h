@@ -4,11 +4,13 @@
 // "Index space" has sample (i, j, k) at the point (i, j, k).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/parallel.h"
 #include "delaunay/base/vec3.h"
 #include "volume/scalar_grid.h"
 
@@ -30,6 +32,21 @@ double edge_parameter(double low, double high, double isovalue);
 // A voxel cell, by its lowest corner.
 using CellIndex = std::array<std::int32_t, 3>;
 
+// Layers across z that a thread takes at a time. The same for any number of threads, and what slabs give is joined in
+// order; so results do not depend on it.
+inline constexpr std::int32_t kSlabLayers = 8;
+inline std::size_t slab_count(std::int32_t layers) {
+  return static_cast<std::size_t>(std::max(0, layers + kSlabLayers - 1) / kSlabLayers);
+}
+// Calls body(slab, first, last) for all slabs of the layers below `layers`: slab's own are first to last - 1.
+template <class Body>
+void for_each_slab(std::int32_t layers, int threads, Body&& body) {
+  run_tasks(slab_count(layers), threads, [&](std::size_t slab) {
+    const std::int32_t first = static_cast<std::int32_t>(slab) * kSlabLayers;
+    body(slab, first, std::min(layers, first + kSlabLayers));
+  });
+}
+
 // Crossings are numbered in (sample, axis) order: by the linear index of the edge's lower sample, then by axis.
 // Memory: 1.5 bits per sample.
 class CrossingIndex {
@@ -38,8 +55,8 @@ class CrossingIndex {
   static constexpr int kWordBits = 64;
 
   CrossingIndex() = default;
-  // Precondition: no sample equals `isovalue`. (Checked.)
-  CrossingIndex(const ScalarGrid& grid, double isovalue);
+  // Precondition: no sample equals `isovalue`. (Checked.) The same for any number of threads.
+  CrossingIndex(const ScalarGrid& grid, double isovalue, int threads = 1);
 
   [[nodiscard]] const Dims& dims() const { return dims_; }
   [[nodiscard]] std::uint32_t crossing_count() const { return crossing_count_; }
@@ -76,12 +93,24 @@ class CrossingIndex {
             k + 1 < dims_[2] ? here ^ word(w, j, k + 1) : 0};
   }
 
+  // The number of the first crossing from the samples of a word or of any later one.
+  [[nodiscard]] std::uint32_t first_number(std::int32_t w, std::int32_t j, std::int32_t k) const {
+    return first_in_word_[word_index(w, j, k)];
+  }
+
   // Calls visit(cell, pattern) for the cells whose corners do not all lie on one side, x fastest. Bit c of the pattern
   // is set when corner c lies above the isovalue.
   template <class Visit>
-  void for_each_active_cell(const Visit& visit) const;
+  void for_each_active_cell(const Visit& visit) const {
+    for_each_active_cell(0, cell_layers(), visit);
+  }
+  // The same for the layers of cells from first_layer to last_layer - 1, of cell_layers() across z.
+  template <class Visit>
+  void for_each_active_cell(std::int32_t first_layer, std::int32_t last_layer, const Visit& visit) const;
+  [[nodiscard]] std::int32_t cell_layers() const { return dims_[2] - 1; }
 
  private:
+  std::uint64_t count_in_layers(std::int32_t first, std::int32_t last);
   template <class Visit>
   void visit_active_cells_in_word(std::int32_t w, std::int32_t j, std::int32_t k, const Visit& visit) const;
   [[nodiscard]] std::size_t word_index(std::int32_t w, std::int32_t j, std::int32_t k) const {
@@ -97,8 +126,9 @@ class CrossingIndex {
   std::vector<std::uint32_t> first_in_word_;  // word (w, j, k) -> number of the first crossing from its samples
 };
 
-// The crossings in the order of their numbers; their components are left 0.
-std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index);
+// The crossings in the order of their numbers; their components are left 0. The same for any number of threads.
+std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                         int threads = 1);
 
 // The crossing's place in index space.
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);
@@ -106,8 +136,8 @@ Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);
 // --- Implementation -------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void CrossingIndex::for_each_active_cell(const Visit& visit) const {
-  for (std::int32_t k = 0; k + 1 < dims_[2]; ++k) {
+void CrossingIndex::for_each_active_cell(std::int32_t first_layer, std::int32_t last_layer, const Visit& visit) const {
+  for (std::int32_t k = first_layer; k < last_layer; ++k) {
     for (std::int32_t j = 0; j + 1 < dims_[1]; ++j) {
       for (std::int32_t w = 0; w < words_per_row_; ++w) visit_active_cells_in_word(w, j, k, visit);
     }

@@ -33,7 +33,6 @@ TEST(MeshConnectivity, AgreesWithAMapOfEdgesOnAnySoup) {
       ASSERT_EQ(connectivity.edge(e).high, ends.second) << "seed " << seed;
       const auto found = connectivity.half_edges(e);
       ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), half_edges) << "seed " << seed;
-      for (const std::uint32_t h : half_edges) ASSERT_EQ(connectivity.edge_of(h), e) << "seed " << seed;
       ++e;
     }
   }
@@ -129,6 +128,47 @@ TEST(MeshTopology, AcceptsTheEmptyMeshAndFindsBadIndices) {
   EXPECT_EQ(first_bad_triangle(mesh), 4u);
   mesh.triangles[2][1] = 4;
   EXPECT_EQ(first_bad_triangle(mesh), 2u);
+}
+
+// Every vertex has a few triangles with vertices near it: edges of all kinds, umbrellas of all numbers.
+TEST(MeshTopology, IsTheSameForAnyNumberOfThreads) {
+  Rng rng(17);
+  constexpr std::size_t kVertices = 90000;
+  TriangleMesh mesh;
+  mesh.points.resize(kVertices + 4);
+  for (std::size_t i = 0; i < kVertices; ++i) {
+    const auto corner = static_cast<std::uint32_t>(rng.below(kVertices));
+    const auto near = [&] { return corner + static_cast<std::uint32_t>(rng.below(5)); };
+    mesh.triangles.push_back({near(), near(), near()});
+  }
+  const MeshConnectivity one(mesh);
+  const MeshTopology expected = mesh_topology(one);
+  ASSERT_GT(expected.non_manifold_edges, 100);
+  ASSERT_GT(expected.non_manifold_vertices, 100);
+  ASSERT_GT(expected.components.size(), 100u);
+  for (const int threads : {2, 3, 5}) {
+    const MeshConnectivity many(mesh, threads);
+    ASSERT_EQ(many.edge_count(), one.edge_count()) << threads;
+    for (std::size_t e = 0; e < one.edge_count(); ++e) {
+      ASSERT_EQ(many.edge(e).low, one.edge(e).low) << threads;
+      ASSERT_EQ(many.edge(e).high, one.edge(e).high) << threads;
+      const auto a = one.half_edges(e), b = many.half_edges(e);
+      ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << threads;
+    }
+    const MeshTopology found = mesh_topology(many, threads);
+    EXPECT_EQ(found.boundary_edges, expected.boundary_edges) << threads;
+    EXPECT_EQ(found.non_manifold_edges, expected.non_manifold_edges) << threads;
+    EXPECT_EQ(found.non_manifold_vertices, expected.non_manifold_vertices) << threads;
+    EXPECT_EQ(found.misoriented_edges, expected.misoriented_edges) << threads;
+    EXPECT_EQ(found.unreferenced_vertices, expected.unreferenced_vertices) << threads;
+    EXPECT_EQ(found.repeated_vertices, expected.repeated_vertices) << threads;
+    EXPECT_EQ(found.component_of_vertex, expected.component_of_vertex) << threads;
+    ASSERT_EQ(found.components.size(), expected.components.size()) << threads;
+    for (std::size_t c = 0; c < expected.components.size(); ++c) {
+      EXPECT_EQ(found.components[c].euler_characteristic(), expected.components[c].euler_characteristic()) << threads;
+      EXPECT_EQ(found.components[c].boundary_loops, expected.components[c].boundary_loops) << threads;
+    }
+  }
 }
 
 }  // namespace

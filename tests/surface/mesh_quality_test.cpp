@@ -104,5 +104,22 @@ TEST(MeshQuality, TheEmptyMeshHasZeros) {
   EXPECT_EQ(quality.radius_edge_max, 0);
 }
 
+TEST(MeshQuality, IsTheSameForAnyNumberOfThreads) {
+  Rng rng(10);
+  const TriangleMesh mesh = testing::random_soup(rng, 3000, 70000);
+  const MeshQuality one = measure_quality(mesh);
+  for (const int threads : {2, 3, 5}) {
+    const MeshQuality many = measure_quality(mesh, threads);
+    EXPECT_EQ(many.min_angle_degrees, one.min_angle_degrees);
+    EXPECT_EQ(many.mean_min_angle_degrees, one.mean_min_angle_degrees);
+    EXPECT_EQ(many.max_angle_degrees, one.max_angle_degrees);
+    EXPECT_EQ(many.radius_edge_max, one.radius_edge_max);
+    EXPECT_EQ(many.radius_edge_p99, one.radius_edge_p99);
+    EXPECT_EQ(many.fraction_min_angle_below_30, one.fraction_min_angle_below_30);
+    EXPECT_EQ(many.degenerate_triangles, one.degenerate_triangles);
+    EXPECT_EQ(many.min_angle_histogram, one.min_angle_histogram);
+  }
+}
+
 }  // namespace
 }  // namespace deliso

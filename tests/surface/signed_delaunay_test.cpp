@@ -132,5 +132,16 @@ TEST(SignedDelaunay, OnBoxIsExact) {
   EXPECT_FALSE(SignedDelaunay::on_box(box, {1, std::nextafter(4.0, 0), 1}));
 }
 
+TEST(SignedDelaunay, SignsAreTheSameForAnyNumberOfThreads) {
+  const auto scene = noise_scene({20, 20, 20}, 5);
+  std::vector<Vec3> points;
+  for (const EdgeCrossing& c : scene->topology.crossings) points.push_back(crossing_position(scene->grid, c));
+  const SignedDelaunay one(*scene->isosurface, points);
+  ASSERT_GT(one.delaunay().tet_slots(), 40000u);
+  for (const int threads : {2, 3, 5}) {
+    EXPECT_EQ(SignedDelaunay(*scene->isosurface, points, threads).signs(), one.signs()) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace deliso

@@ -366,5 +366,45 @@ TEST(ComponentOf, KnowsCrossingsSaddlesAndEmptySpace) {
   EXPECT_EQ(component_of(ball, 0, exact_topology(ball, 0), {1.5, 1.5, 1.5}), std::nullopt);
 }
 
+// Many slabs of layers, many components across them, cells with saddles and singular cells on both sides of the cuts.
+TEST(ExactTopology, IsTheSameForAnyNumberOfThreads) {
+  Rng rng(41);
+  std::size_t saddles = 0;
+  std::size_t singular_cells = 0;
+  for (const std::int32_t layers : {2, 8, 9, 17, 40, 45}) {
+    const test::IntegerGrid integers = test::random_integer_grid(rng, {70, 6, layers}, 6);
+    const ScalarGrid grid = test::scalar_grid(integers);
+    const double isovalue = test::isovalue_of(integers);
+    const IsosurfaceTopology one = exact_topology(grid, isovalue, 1);
+    saddles += one.saddles.size();
+    singular_cells += one.singular_cells.size();
+    for (const int threads : {2, 3, 5}) {
+      const IsosurfaceTopology many = exact_topology(grid, isovalue, threads);
+      ASSERT_EQ(many.components, one.components) << layers;
+      ASSERT_EQ(many.crossings.size(), one.crossings.size()) << layers;
+      for (std::size_t i = 0; i < one.crossings.size(); ++i) {
+        const EdgeCrossing &a = one.crossings[i], &b = many.crossings[i];
+        ASSERT_TRUE(a.sample == b.sample && a.axis == b.axis && a.component == b.component && a.t == b.t) << layers;
+      }
+      ASSERT_EQ(many.saddles.size(), one.saddles.size()) << layers;
+      for (std::size_t i = 0; i < one.saddles.size(); ++i) {
+        const SurfaceSaddle &a = one.saddles[i], &b = many.saddles[i];
+        ASSERT_TRUE(a.cell == b.cell && a.position == b.position && a.component == b.component) << layers;
+      }
+      ASSERT_EQ(many.singular_cells, one.singular_cells) << layers;
+    }
+  }
+  EXPECT_GT(saddles, 100u);
+  EXPECT_GT(singular_cells, 10u);
+}
+
+TEST(ExactTopology, RefusesASampleAtTheIsovalueInAnySlab) {
+  for (const std::int32_t layer : {0, 7, 8, 19}) {
+    std::vector<double> samples(4 * 4 * 20, 1);
+    samples[16 * static_cast<std::size_t>(layer) + 5] = 2.5;
+    EXPECT_THROW(exact_topology(ScalarGrid({4, 4, 20}, samples), 2.5, 3), InternalError) << layer;
+  }
+}
+
 }  // namespace
 }  // namespace deliso

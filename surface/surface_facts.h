@@ -1,0 +1,37 @@
+// What repair may want to know of an isosurface whatever the mesh: facts that take time to find.
+#pragma once
+
+#include <future>
+#include <thread>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/polygonized_components.h"
+#include "volume/exact_topology.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// Each fact is found when it is first asked for; with more than one thread a thread of its own finds all of them
+// beforehand, while others build the mesh that they are for. The facts are the same either way.
+class SurfaceFacts {
+ public:
+  // Keeps references.
+  SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology, int threads);
+
+  [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
+  [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
+  // The active cells with a critical point (volume/critical_points.h), x fastest.
+  [[nodiscard]] const std::vector<CellIndex>& critical_cells() const { return critical_cells_.get(); }
+  [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
+
+ private:
+  const ScalarGrid& grid_;
+  const IsosurfaceTopology& topology_;
+  // Deferred: whoever asks first does the work, anyone else waits for it.
+  std::shared_future<std::vector<CellIndex>> critical_cells_;
+  std::shared_future<PolygonizedSurface> polygonized_;
+  std::jthread finder_;
+};
+
+}  // namespace deliso
