@@ -1,12 +1,9 @@
 #include "surface/refinement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
-
-#include "delaunay/constructions.h"
 
 namespace deliso {
 
@@ -19,17 +16,9 @@ constexpr double kFarthestMove = 0.8;
 
 }  // namespace
 
-void Refinement::measure_all() {
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const NewTriangle now = measure(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), 1);
-    mesh_.triangles[t].set_ball(now.ball, now.has_hit);
-  }
-}
-
 void Refinement::run(Controls& controls) {
   guard_.emplace(mesh_);
-  const std::uint32_t first = part_ == nullptr ? 0 : part_->frozen;
-  for (std::uint32_t t = first; t < mesh_.triangles.size(); ++t) queue_if_bad(t, measured(t));
+  queue_bad_triangles();
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto queued = queue_.pop();
     if (!queued && !retry_crossed()) break;
@@ -52,15 +41,8 @@ void Refinement::take_back() {
   mesh_.forget_attempts();
 }
 
-void Refinement::count_stopped() {
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const NewTriangle now = measured(t);
-    if (now.badness > 1 && now.radius <= options_.r_min) ++stats_.stopped_at_r_min;
-  }
-}
-
 void Refinement::queue_if_bad(std::uint32_t triangle, const NewTriangle& measured) {
-  if (!(measured.badness > 1 && measured.radius > options_.r_min)) return;
+  if (!may_be_refined(measured)) return;
   const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
   if (options_.order == QueueOrder::kFirstInFirstOut) {
     queue_.push_by_age(queued);
@@ -165,45 +147,6 @@ double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
   for (const RimEdge& edge : disk_.rim()) visit(edge.from);
   if (!closed) visit(disk_.rim().back().to);
   return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
-}
-
-// Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
-// refinement.
-Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
-  const Circumcircle circle = circumcircle(p, a, b);
-  const Vec3 normal = cross(a - p, b - p);
-  if (!std::isfinite(circle.radius) || !(norm(normal) > 0))
-    return {{p, 0}, false, 0, 0};  // nothing can be measured on it
-  const Line dual{circle.center, normal / norm(normal)};
-  const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
-  if (!t) return {{circle.center, circle.radius * circle.radius}, false, 0, circle.radius};
-  const Vec3 x = dual.at(*t);
-  const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
-  return {{x, squared_distance(x, p)}, true, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
-}
-
-// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
-double Refinement::badness(double h, double r, double l, double mean_pole) const {
-  const double size = options_.criterion2 == Criterion2::kCircumradius ? r : l;
-  return std::max({h / (r * options_.epsilon1), size / (mean_pole * options_.epsilon2), r / (l * options_.rho),
-                   h / options_.max_distance});
-}
-
-double Refinement::mean_pole_height(std::uint32_t triangle) const {
-  double mean = 0;
-  for (const std::uint32_t v : mesh_.triangles[triangle].corners) mean += mesh_.vertices[v].pole_height / 3;
-  return mean;
-}
-
-// The same of a triangle of the mesh, by the ball it has.
-Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
-  if (!mesh_.triangles[triangle].has_hit()) return {ball_of(triangle), false, 0, 0};
-  const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
-  const Circumcircle circle = circumcircle(a, b, c);
-  const SurfaceDelaunayBall ball = ball_of(triangle);
-  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-  const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
-  return {ball, true, bad, circle.radius};
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.

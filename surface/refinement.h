@@ -50,6 +50,9 @@ class Refinement {
     double radius = 0;
   };
 
+  template <class Body>
+  void for_each_block_of_triangles(Body&& body);
+  void queue_bad_triangles();
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
@@ -58,6 +61,9 @@ class Refinement {
   bool retry_crossed();
   void requeue(std::uint32_t triangle);
   void queue_if_bad(std::uint32_t triangle, const NewTriangle& measured);
+  [[nodiscard]] bool may_be_refined(const NewTriangle& measured) const {
+    return measured.badness > 1 && measured.radius > options_.r_min;
+  }
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;

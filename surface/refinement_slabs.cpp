@@ -1,6 +1,7 @@
 #include "surface/refinement_slabs.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "delaunay/base/box3.h"
 
@@ -13,7 +14,9 @@ constexpr std::size_t kMostParts = 8;
 }  // namespace
 
 RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles) {
-  parts_.resize(std::clamp<std::size_t>(whole.triangles.size() / slab_triangles, 1, kMostParts));
+  // Powers of two, which two or four threads share evenly.
+  const std::size_t count = std::clamp<std::size_t>(whole.triangles.size() / slab_triangles, 1, kMostParts);
+  parts_.resize(std::bit_ceil(count));
   choose_planes(whole);
   assign(whole);
   for (std::uint32_t k = 0; k < parts_.size(); ++k) fill(whole, k);
