@@ -25,18 +25,17 @@ void Refinement::run(Controls& controls) {
     if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
     if (treat(queued->element)) wake_neighbours();
   }
+  guard_.reset();
 }
 
 void Refinement::run_on_trial(Controls& controls) {
-  before_ = {{}, mesh_.triangles.size(), mesh_.vertices.size()};
+  before_ = {{}, std::vector<bool>(mesh_.triangles.size(), false), mesh_.vertices.size()};
   run(controls);
 }
 
 void Refinement::take_back() {
-  for (auto at = before_->triangles.rbegin(); at != before_->triangles.rend(); ++at) {
-    mesh_.triangles[at->first] = at->second;
-  }
-  mesh_.triangles.resize(before_->triangle_count);
+  for (const auto& [t, triangle] : before_->triangles) mesh_.triangles[t] = triangle;
+  mesh_.triangles.resize(before_->is_kept.size());
   mesh_.vertices.resize(before_->vertex_count);
   mesh_.forget_attempts();
 }
@@ -156,9 +155,9 @@ void Refinement::replace_disk(const Candidate& candidate) {
   const std::span<const std::uint32_t> old = disk_.triangles();
   const std::span<const RimEdge> rim = disk_.rim();
   if (before_) {
-    for (const std::uint32_t t : old) before_->triangles.emplace_back(t, mesh_.triangles[t]);
+    for (const std::uint32_t t : old) before_->keep(t, mesh_);
     for (const RimEdge& edge : rim) {
-      if (edge.outer != kNoSide) before_->triangles.emplace_back(edge.outer >> 2, mesh_.triangles[edge.outer >> 2]);
+      if (edge.outer != kNoSide) before_->keep(edge.outer >> 2, mesh_);
     }
   }
   for (const std::uint32_t t : old) guard_->forget(t);

@@ -83,14 +83,20 @@ class Refinement {
   RefineStats& stats_;
   RankedQueue queue_;
   RefinementDisk disk_;                 // E
-  std::optional<CrossingGuard> guard_;  // once run begins
+  std::optional<CrossingGuard> guard_;  // while it runs
   std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
-  // Triangles as they were before run_on_trial replaced them or what lies beside them, and how much there was.
+  // What run_on_trial has changed: each triangle as it was at the start, and how many vertices there were.
   struct Before {
     std::vector<std::pair<std::uint32_t, RefinementMesh::Triangle>> triangles;
-    std::size_t triangle_count = 0;
+    std::vector<bool> is_kept;  // of each triangle of the start: whether it is among them
     std::size_t vertex_count = 0;
+
+    void keep(std::uint32_t t, const RefinementMesh& mesh) {
+      if (t >= is_kept.size() || is_kept[t]) return;
+      is_kept[t] = true;
+      triangles.emplace_back(t, mesh.triangles[t]);
+    }
   };
   std::optional<Before> before_;
   double star_pole_height_ = 0;

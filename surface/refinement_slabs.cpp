@@ -10,6 +10,8 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kMostParts = 8;
+// What is refined in the whole adds less than this part of the joined mesh, as a rule: then its arrays need not grow.
+constexpr std::size_t kRoomForRest = 4;
 
 }  // namespace
 
@@ -103,9 +105,9 @@ void RefinementSlabs::join(RefinementMesh& whole) {
     triangle_count += parts_[k].mesh.triangles.size() - parts_[k].frozen;
     vertex_count += parts_[k].mesh.vertices.size() - vertices_in_[k].size();
   }
-  whole.vertices.reserve(vertex_count);
+  whole.vertices.reserve(vertex_count + vertex_count / kRoomForRest);
   LargeArray<RefinementMesh::Triangle> triangles(frozen_.size());
-  triangles.reserve(triangle_count);
+  triangles.reserve(triangle_count + triangle_count / kRoomForRest);
   std::vector<std::uint32_t> place_of(part_of_.size(), kNoSide);
   for (std::uint32_t i = 0; i < frozen_.size(); ++i) place_of[frozen_[i]] = i;
   for (std::uint32_t i = 0; i < frozen_.size(); ++i) {
