@@ -53,6 +53,12 @@ bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId 
 UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid)
     : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid) {}
 
+void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
+  if (signs_.empty()) return;
+  signs_.resize(delaunay_.tet_slots(), false);
+  renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
+}
+
 void UnfoundedPockets::update() {
   state_.assign(delaunay_.tet_slots(), State::kUnseen);
   if (signs_.empty()) {
@@ -62,12 +68,20 @@ void UnfoundedPockets::update() {
   }
   std::vector<bool> touched(signs_.size(), false);
   std::vector<TetId> seeds;
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    const TetId t(i);
-    if (signs_[i] == restricted_.is_above(t)) continue;
-    signs_[i] = !signs_[i];
+  const auto seed_at = [&](TetId t) {
     seeds.push_back(t);
+    if (!delaunay_.is_live(t)) return;
     for (unsigned face = 0; face < 4; ++face) seeds.push_back(delaunay_.neighbour(t, face));
+  };
+  for (const TetId t : renewed_) {
+    signs_[t.index()] = restricted_.is_above(t);
+    seed_at(t);
+  }
+  renewed_.clear();
+  for (std::size_t i = 0; i < signs_.size(); ++i) {
+    if (signs_[i] == restricted_.is_above(TetId(i))) continue;
+    signs_[i] = !signs_[i];
+    seed_at(TetId(i));
   }
   for (const TetId t : seeds) touched[t.index()] = true;
   std::erase_if(pockets_, [&](const std::vector<TetId>& pocket) {

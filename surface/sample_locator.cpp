@@ -1,9 +1,6 @@
 #include "surface/sample_locator.h"
 
-#include <algorithm>
 #include <cstdint>
-
-#include "delaunay/predicates.h"
 
 namespace deliso {
 
@@ -16,17 +13,8 @@ TetId SampleLocator::locate(const std::array<std::int32_t, 3>& sample, TetId hin
   if (known.sample == index) return known.tet;
   const Vec3 p = place(sample);
   const TetId t = restricted_.locate(p, hint);
-  if (is_strictly_inside(t, p)) known = {index, t};
+  if (!restricted_.delaunay().is_ghost(t)) known = {index, t};
   return t;
-}
-
-bool SampleLocator::is_strictly_inside(TetId t, const Vec3& p) const {
-  const Tetrahedralization& delaunay = restricted_.delaunay();
-  if (delaunay.is_ghost(t)) return false;
-  const auto& v = delaunay.vertices(t);
-  return std::all_of(std::begin(kFacetSlots), std::end(kFacetSlots), [&](const auto& slots) {
-    return orient3d(delaunay.point(v[slots[0]]), delaunay.point(v[slots[1]]), delaunay.point(v[slots[2]]), p) < 0;
-  });
 }
 
 }  // namespace deliso

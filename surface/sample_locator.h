@@ -1,7 +1,7 @@
 // Which tetrahedra hold the samples of the grid, for callers that come back to the same sample again and again.
 //
-// A walk to a point strictly inside a tetrahedron ends there wherever it begins, so that tetrahedron can be remembered.
-// Where a point lies on a facet the walk decides, as ever.
+// A walk that ends in a finite tetrahedron ends there wherever it begins, so that tetrahedron can be remembered. Which
+// of several ghosts it ends in the walk decides.
 #pragma once
 
 #include <array>
@@ -21,22 +21,17 @@ class SampleLocator {
 
   // The tetrahedron that SignedDelaunay::locate finds from `hint` for a sample of the grid.
   TetId locate(const std::array<std::int32_t, 3>& sample, TetId hint);
-  // Whether that is the same from every hint: the sample lies strictly inside tetrahedron t, where it was found.
-  [[nodiscard]] bool is_settled(const std::array<std::int32_t, 3>& sample, TetId t) const {
-    return is_strictly_inside(t, place(sample));
-  }
 
  private:
   static constexpr unsigned kBits = 15;
   struct Known {
     std::size_t sample = std::numeric_limits<std::size_t>::max();  // its index in the grid
-    TetId tet;                                                     // it lies strictly inside
+    TetId tet;                                                     // finite
   };
   [[nodiscard]] Vec3 place(const std::array<std::int32_t, 3>& sample) const {
     return scaled({static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])},
                   restricted_.isosurface().step());
   }
-  [[nodiscard]] bool is_strictly_inside(TetId t, const Vec3& p) const;
 
   const SignedDelaunay& restricted_;
   const ScalarGrid& grid_;

@@ -17,11 +17,20 @@
 
 namespace deliso {
 
+// What an exchange of points has changed.
+struct ExchangedPoints {
+  std::vector<VertexId> renamed;    // of each vertex before: what it is called now, or none if it went
+  std::vector<VertexId> vertex_of;  // of each point that came; none for one that is not finite
+  std::vector<TetId> renewed;       // slots, ascending, whose tetrahedron is new or gone
+};
+
 class SignedDelaunay {
  public:
   // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
   // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line.
-  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points);
+  // `vertex_of`, when asked for, tells the vertex of each point; none for one that is not finite.
+  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points,
+                 std::vector<VertexId>* vertex_of = nullptr);
   virtual ~SignedDelaunay() = default;
   SignedDelaunay(const SignedDelaunay&) = delete;
   SignedDelaunay& operator=(const SignedDelaunay&) = delete;
@@ -40,8 +49,17 @@ class SignedDelaunay {
   }
   // Whether a vertex lies on the box, so that the surface may end there.
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
-  // The tetrahedron that holds p, by a walk from `hint`.
-  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
+  // The tetrahedron that holds p, by a walk from `hint`. Where several do, one that does not depend on the hint; but of
+  // several ghosts any. A point of the box on the hull is in a finite one.
+  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const {
+    const Vec3& high = isosurface_.box().high;
+    return delaunay_.locate_moved(p, {p.x < high.x ? 1 : -1, p.y < high.y ? 1 : -1, p.z < high.z ? 1 : -1}, hint);
+  }
+  // Takes vertices away and puts points in; then the vertices are numbered as if it had been made of the points left,
+  // in their order, and those that came, in theirs. New tetrahedra have the signs of their circumcenters, the others
+  // keep theirs; those of free slots mean nothing. Returns false when that cannot be done (the points left would be
+  // coplanar, or there are guards): then this triangulation is of no more use. Not for classes derived from this one.
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
   // Gives a tetrahedron another sign than that of the field at its circumcenter.
   void set_sign(TetId t, bool above) { sign_[t.index()] = above ? Sign::kAbove : Sign::kBelow; }
   // All signs as they stand, by slot of their tetrahedron; and back again.
