@@ -60,6 +60,8 @@ class Collector {
   std::vector<std::uint8_t>& sides_;  // shared
   TetId hint_;
   std::vector<CriticalPoint> critical_;
+  // Of the present cell:
+  Vec3 center_;
   std::vector<TetId> trace_;
 };
 
@@ -67,13 +69,9 @@ Vec3 corner_place(unsigned corner) {
   return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
 }
 
-CellIndex corner_sample(const CellIndex& cell, unsigned corner) {
-  const auto bit = [corner](unsigned axis) { return static_cast<std::int32_t>(corner >> axis & 1u); };
-  return {cell[0] + bit(0), cell[1] + bit(1), cell[2] + bit(2)};
-}
-
 std::vector<TetId> Collector::collect(const CellIndex& cell) {
   trace_.clear();
+  center_ = place(cell, {0.5, 0.5, 0.5});
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   collect_edges(cell, corners);
   collect_critical_points(cell, corners);
@@ -127,13 +125,13 @@ void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
-  hint_ = restricted_.locate(p, hint_);
+  hint_ = restricted_.locate(p, center_, hint_);
   note_located(p, side);
   return hint_;
 }
 
 TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-  hint_ = locator_.locate(corner_sample(cell, corner), hint_);
+  hint_ = locator_.locate(cell, corner, hint_);
   note_located(place(cell, corner_place(corner)), side);
   return hint_;
 }

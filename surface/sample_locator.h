@@ -1,7 +1,7 @@
 // Which tetrahedra hold the samples of the grid, for callers that come back to the same sample again and again.
 //
-// A walk that ends in a finite tetrahedron ends there wherever it begins, so that tetrahedron can be remembered. Which
-// of several ghosts it ends in the walk decides.
+// A walk that ends in a finite tetrahedron ends there wherever it begins, so that tetrahedron can be remembered; and it
+// is near when the sample is looked for from another cell. Which of several ghosts a walk ends in the walk decides.
 #pragma once
 
 #include <array>
@@ -19,19 +19,17 @@ class SampleLocator {
   // Keeps references.
   SampleLocator(const SignedDelaunay& restricted, const ScalarGrid& grid);
 
-  // The tetrahedron that SignedDelaunay::locate finds from `hint` for a sample of the grid.
-  TetId locate(const std::array<std::int32_t, 3>& sample, TetId hint);
+  // The tetrahedron that SignedDelaunay::locate finds from `hint` for the sample at a corner of a cell, inwards to the
+  // cell's center. Bit 0 of a corner is x, bit 1 y, bit 2 z.
+  TetId locate(const std::array<std::int32_t, 3>& cell, unsigned corner, TetId hint);
 
  private:
   static constexpr unsigned kBits = 15;
   struct Known {
     std::size_t sample = std::numeric_limits<std::size_t>::max();  // its index in the grid
-    TetId tet;                                                     // finite
+    unsigned corner = 0;
+    TetId tet;  // finite
   };
-  [[nodiscard]] Vec3 place(const std::array<std::int32_t, 3>& sample) const {
-    return scaled({static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])},
-                  restricted_.isosurface().step());
-  }
 
   const SignedDelaunay& restricted_;
   const ScalarGrid& grid_;

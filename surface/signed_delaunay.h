@@ -49,11 +49,11 @@ class SignedDelaunay {
   }
   // Whether a vertex lies on the box, so that the surface may end there.
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
-  // The tetrahedron that holds p, by a walk from `hint`. Where several do, one that does not depend on the hint; but of
-  // several ghosts any. A point of the box on the hull is in a finite one.
-  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const {
-    const Vec3& high = isosurface_.box().high;
-    return delaunay_.locate_moved(p, {p.x < high.x ? 1 : -1, p.y < high.y ? 1 : -1, p.z < high.z ? 1 : -1}, hint);
+  // The tetrahedron that holds p, by a walk from `hint`. Where several do, the one on the way to `inwards`, whatever
+  // the hint; but of several ghosts any.
+  [[nodiscard]] TetId locate(const Vec3& p, const Vec3& inwards, TetId hint) const {
+    return delaunay_.locate_moved(p, {p.x < inwards.x ? 1 : -1, p.y < inwards.y ? 1 : -1, p.z < inwards.z ? 1 : -1},
+                                  hint);
   }
   // Takes vertices away and puts points in; then the vertices are numbered as if it had been made of the points left,
   // in their order, and those that came, in theirs. New tetrahedra have the signs of their circumcenters, the others

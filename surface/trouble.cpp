@@ -163,14 +163,15 @@ void TroubleFinder::flag_critical_points() {
       const int side = side_of_saddle(corners, isovalue, saddle);
       if (side == 0) continue;
       const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
-      check(p, restricted_.locate(p, hint), side > 0, *component);
+      check(p, restricted_.locate(p, to_mesh_space({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}), hint), side > 0,
+            *component);
     }
     for (; critical != 0; critical &= critical - 1) {
       const auto corner = static_cast<unsigned>(std::countr_zero(critical));
-      const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
-                             cell[2] + static_cast<int>(corner >> 2)};
-      const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
-      check(to_mesh_space(p), locator.locate(sample, hint), corners[corner] > isovalue, *component);
+      const Vec3 p{static_cast<double>(cell[0] + static_cast<int>(corner & 1u)),
+                   static_cast<double>(cell[1] + static_cast<int>(corner >> 1 & 1u)),
+                   static_cast<double>(cell[2] + static_cast<int>(corner >> 2))};
+      check(to_mesh_space(p), locator.locate(cell, corner, hint), corners[corner] > isovalue, *component);
     }
   });
 }
