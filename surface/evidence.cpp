@@ -155,11 +155,20 @@ void Collector::note_located(const Vec3& p, std::uint8_t side) {
 }  // namespace
 
 void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
-  sides_.resize(restricted_.delaunay().tet_slots(), kNoEvidence);
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  sides_.resize(delaunay.tet_slots(), kNoEvidence);
   std::vector<bool> is_renewed(sides_.size(), false);
-  for (const TetId t : exchanged.renewed) {
+  const auto forget = [&](TetId t) {
     sides_[t.index()] = kNoEvidence;
     is_renewed[t.index()] = true;
+  };
+  for (const TetId t : exchanged.renewed) {
+    forget(t);
+    if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
+    // What a ghost took note of came from the tetrahedron before it.
+    for (unsigned face = 0; face < 4; ++face) {
+      if (delaunay.is_ghost(delaunay.neighbour(t, face))) forget(delaunay.neighbour(t, face));
+    }
   }
   for (Trace& trace : traces_) {
     if (std::any_of(trace.tets.begin(), trace.tets.end(), [&](TetId t) { return is_renewed[t.index()]; })) {
