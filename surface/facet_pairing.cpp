@@ -16,7 +16,8 @@ constexpr std::size_t kCountsPerFacet = 8;
 }  // namespace
 
 FacetPairing::FacetPairing(const SignedDelaunay& restricted)
-    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(restricted.signs()) {
+    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
+  restricted_.for_each_change(signs_, [](TetId) {});
   place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
   for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
   for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
@@ -36,24 +37,20 @@ void FacetPairing::touch(TetId t) {
 }
 
 void FacetPairing::renew(const ExchangedPoints& exchanged) {
-  signs_.resize(delaunay_.tet_slots(), false);
+  signs_.resize(delaunay_.tet_slots(), 0);
   place_of_.resize(4 * delaunay_.tet_slots(), kNoPlace);
   for (PairedFacet& facet : facets_) {
     for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
   }
   // The vertices of a tetrahedron that has gone are those of new ones, if they are left.
   for (const TetId t : exchanged.renewed) {
-    signs_[t.index()] = restricted_.is_above(t);
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
     touch(t);
   }
 }
 
 bool FacetPairing::update() {
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    if (signs_[i] == restricted_.is_above(TetId(i))) continue;
-    signs_[i] = !signs_[i];
-    touch(TetId(i));
-  }
+  restricted_.for_each_change(signs_, [&](TetId t) { touch(t); });
   if (touched_.empty()) return false;
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());

@@ -55,7 +55,7 @@ class FacetPairing {
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  std::vector<bool> signs_;  // by slot, as of the last update
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last update
   // What update() has to look at, from renew(): tetrahedra that are new, gone, or next to such ones; and the vertices
   // of the new ones.
   std::vector<TetId> touched_;

@@ -55,14 +55,15 @@ UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const Scala
 
 void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
   if (signs_.empty()) return;
-  signs_.resize(delaunay_.tet_slots(), false);
+  signs_.resize(delaunay_.tet_slots(), 0);
   renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
 }
 
 void UnfoundedPockets::update() {
   state_.assign(delaunay_.tet_slots(), State::kUnseen);
   if (signs_.empty()) {
-    signs_ = restricted_.signs();
+    signs_.assign(delaunay_.tet_slots(), 0);
+    restricted_.for_each_change(signs_, [](TetId) {});
     for (std::size_t i = 0; i < signs_.size(); ++i) look_at(TetId(i));
     return;
   }
@@ -74,15 +75,11 @@ void UnfoundedPockets::update() {
     for (unsigned face = 0; face < 4; ++face) seeds.push_back(delaunay_.neighbour(t, face));
   };
   for (const TetId t : renewed_) {
-    signs_[t.index()] = restricted_.is_above(t);
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
     seed_at(t);
   }
   renewed_.clear();
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    if (signs_[i] == restricted_.is_above(TetId(i))) continue;
-    signs_[i] = !signs_[i];
-    seed_at(TetId(i));
-  }
+  restricted_.for_each_change(signs_, seed_at);
   for (const TetId t : seeds) touched[t.index()] = true;
   std::erase_if(pockets_, [&](const std::vector<TetId>& pocket) {
     return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });

@@ -34,8 +34,8 @@ class UnfoundedPockets {
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
-  std::vector<bool> signs_;     // by slot, as of the last update
-  std::vector<TetId> renewed_;  // since the last update
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last update
+  std::vector<TetId> renewed_;       // since the last update
   std::vector<State> state_;
   std::vector<TetId> flood_;
   std::vector<std::vector<TetId>> pockets_;

@@ -93,24 +93,20 @@ void KnownPoles::renew(const ExchangedPoints& exchanged) {
   heights_.resize(restricted_.delaunay().vertex_count());
   is_known_.resize(kept);
   is_known_.resize(heights_.size(), false);
-  signs_.resize(restricted_.delaunay().tet_slots(), false);
+  signs_.resize(restricted_.delaunay().tet_slots(), 0);
   for (const TetId t : exchanged.renewed) {
-    signs_[t.index()] = restricted_.is_above(t);
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
     forget_around(t);
   }
 }
 
 const std::vector<double>& KnownPoles::heights(const std::vector<bool>& wanted, int threads) {
   if (signs_.empty()) {
-    signs_ = restricted_.signs();
+    signs_.assign(restricted_.delaunay().tet_slots(), 0);
     heights_.resize(restricted_.delaunay().vertex_count());
     is_known_.assign(heights_.size(), false);
   }
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    if (signs_[i] == restricted_.is_above(TetId(i))) continue;
-    signs_[i] = !signs_[i];
-    forget_around(TetId(i));
-  }
+  restricted_.for_each_change(signs_, [&](TetId t) { forget_around(t); });
   std::vector<bool> missing = wanted;
   for (std::size_t v = 0; v < missing.size(); ++v) missing[v] = wanted[v] && !is_known_[v];
   if (std::find(missing.begin(), missing.end(), true) == missing.end()) return heights_;

@@ -33,7 +33,7 @@ class KnownPoles {
   void forget_around(TetId t);
 
   const SignedDelaunay& restricted_;
-  std::vector<bool> signs_;  // by slot, as of the last time; empty when there was none
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last time; empty when there was none
   std::vector<double> heights_;
   std::vector<bool> is_known_;
 };

@@ -118,7 +118,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round), round_->evidence()}));
+                          places_of_difference(round), round_->evidence(), round_->critical_places()}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     give_poles();
     exchange(resample());

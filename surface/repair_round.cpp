@@ -54,6 +54,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   }
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
+  if (critical_) critical_->renew(exchanged);
   poles_.renew(exchanged);
   has_assembled_ = false;
   return true;
@@ -68,6 +69,11 @@ void RepairRound::take_signs(SignRule rule) {
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
   rules_->take_signs(rule, at_circumcenters_);
   unfounded_.overturn(*restricted_);
+}
+
+const std::vector<CriticalPlace>& RepairRound::critical_places() {
+  if (!critical_) critical_.emplace(*restricted_, grid_, topology_);
+  return critical_->places();
 }
 
 std::optional<MatchedMesh> RepairRound::assemble() {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "surface/critical_places.h"
 #include "surface/facet_pairing.h"
 #include "surface/founded_signs.h"
 #include "surface/poles.h"
@@ -43,6 +44,8 @@ class RepairRound {
   // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
   // as the last time in this round.
   std::optional<MatchedMesh> assemble();
+  // The saddles and critical samples in the triangulation.
+  const std::vector<CriticalPlace>& critical_places();
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
@@ -69,6 +72,7 @@ class RepairRound {
   UnfoundedPockets unfounded_;
   std::optional<FacetPairing> pairing_;
   bool has_assembled_ = false;  // in this round
+  std::optional<CriticalPlaces> critical_;
   KnownPoles poles_;
 };
 

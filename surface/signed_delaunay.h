@@ -7,7 +7,9 @@
 // case: its rim shows as restricted facets at the infinite vertex.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -71,6 +73,9 @@ class SignedDelaunay {
   void set_signs(const std::vector<bool>& above) {
     for (std::size_t i = 0; i < sign_.size(); ++i) sign_[i] = above[i] ? Sign::kAbove : Sign::kBelow;
   }
+  // Calls visit(t) for every slot t whose sign is not that in `known`, 1 for above and 0 for below; and takes it over.
+  template <class Visit>
+  void for_each_change(std::vector<std::uint8_t>& known, Visit visit) const;
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
@@ -91,5 +96,20 @@ class SignedDelaunay {
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };
+
+template <class Visit>
+void SignedDelaunay::for_each_change(std::vector<std::uint8_t>& known, Visit visit) const {
+  constexpr std::size_t kAtOnce = 64;
+  for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
+    const std::size_t last = std::min(known.size(), first + kAtOnce);
+    if (std::memcmp(&known[first], &sign_[first], last - first) == 0) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto now = static_cast<std::uint8_t>(sign_[i]);
+      if (known[i] == now) continue;
+      known[i] = now;
+      visit(TetId(i));
+    }
+  }
+}
 
 }  // namespace deliso

@@ -1,13 +1,10 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <optional>
 
 #include "surface/evidence.h"
-#include "surface/sample_locator.h"
-#include "volume/critical_points.h"
 
 namespace deliso {
 
@@ -40,6 +37,7 @@ class TroubleFinder {
         done_(context.done),
         places_(context.places),
         evidence_(context.evidence),
+        critical_(context.critical),
         has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
@@ -83,6 +81,7 @@ class TroubleFinder {
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
   std::span<const std::uint8_t> evidence_;
+  const std::vector<CriticalPlace>& critical_;
   std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
 };
@@ -142,38 +141,10 @@ void TroubleFinder::flag_unused_vertices() {
 // Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
 // way.
 void TroubleFinder::flag_critical_points() {
-  const double isovalue = restricted_.isosurface().isovalue();
-  std::vector<CriticalPoint> saddles;
-  TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
-  SampleLocator locator(restricted_, grid_);
-  const auto check = [&](const Vec3& p, TetId holds_p, bool above, std::uint32_t component) {
-    hint = holds_p;
-    if (restricted_.is_above(hint) != above) flag(p, component, Tells::kTopology);
-  };
-  topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-    // Few cells have critical points; of which component those are is asked last.
-    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
-    saddles.clear();
-    append_critical_points(corners, saddles);
-    unsigned critical = critical_corners(grid_, cell);
-    if (critical == 0 && saddles.empty()) return;
-    const auto component = open_component_in(cell);
-    if (!component) return;
-    for (const CriticalPoint& saddle : saddles) {
-      const int side = side_of_saddle(corners, isovalue, saddle);
-      if (side == 0) continue;
-      const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
-      check(p, restricted_.locate(p, to_mesh_space({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}), hint), side > 0,
-            *component);
-    }
-    for (; critical != 0; critical &= critical - 1) {
-      const auto corner = static_cast<unsigned>(std::countr_zero(critical));
-      const Vec3 p{static_cast<double>(cell[0] + static_cast<int>(corner & 1u)),
-                   static_cast<double>(cell[1] + static_cast<int>(corner >> 1 & 1u)),
-                   static_cast<double>(cell[2] + static_cast<int>(corner >> 2))};
-      check(to_mesh_space(p), locator.locate(cell, corner, hint), corners[corner] > isovalue, *component);
-    }
-  });
+  for (const CriticalPlace& place : critical_) {
+    if (restricted_.is_above(place.tet) == place.is_above) continue;
+    if (const auto component = open_component_in(place.cell)) flag(place.point, *component, Tells::kTopology);
+  }
 }
 
 void TroubleFinder::flag_silent_components() {

@@ -8,6 +8,7 @@
 
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
+#include "surface/critical_places.h"
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
 #include "volume/exact_topology.h"
@@ -42,6 +43,7 @@ struct TroubleContext {
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   std::vector<Places> places;                             // of each exact component
   std::span<const std::uint8_t> evidence;                 // in the raised cells, by slot (evidence.h); may be empty
+  const std::vector<CriticalPlace>& critical;             // of the volume, in the triangulation
 };
 
 // The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices
