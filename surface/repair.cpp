@@ -179,6 +179,7 @@ Repair::Resampling Repair::resample() const {
 void Repair::exchange(const Resampling& resampling) {
   const auto& [leaving, coming] = resampling;
   std::vector<Vec3> points;
+  points.reserve(coming.size());
   for (const Sample& sample : coming) points.push_back(sample.point);
   const bool are_few = kRemovalCost * leaving.size() + coming.size() < samples_.size() / kExchangeShare;
   ExchangedPoints exchanged;
