@@ -129,6 +129,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads) {
     std::vector<LatticeSample> samples;
     for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, samples);
     std::vector<Vec3> coming;
+    coming.reserve(samples.size());
     for (const LatticeSample& sample : samples) coming.push_back(scaled(sample.point, scene.isosurface->step()));
     if (round == 4) coming.clear();
     std::vector<VertexId> leaving;
