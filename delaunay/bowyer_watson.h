@@ -3,6 +3,8 @@
 // An insertion has two steps, so that a caller that keeps data on the tetrahedra can look before they go:
 //   find_conflicts(p, t)   the conflict region of p, found from a tetrahedron in conflict or, failing that, by a walk;
 //   fill_cavity()          replaces the region by the star of p.
+// A removal has one: remove(v). After insertions and removals in any order the triangulation is that of the points that
+// are left, as if it had been built from them in the order of their vertices.
 //
 // Ties. orient3d is zero exactly for coplanar points. A zero insphere is resolved by a symbolic perturbation of the
 // lifted coordinate by vertex index (Devillers, Teillaud: Perturbations for Delaunay and weighted Delaunay 3D
@@ -13,12 +15,15 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/box3.h"
 #include "delaunay/lifted_rows.h"
+#include "delaunay/point_location.h"
 #include "delaunay/rim_edges.h"
 #include "delaunay/static_filter.h"
 #include "delaunay/tetrahedralization.h"
@@ -37,6 +42,9 @@ class BowyerWatson : public Tetrahedralization {
 
   // The tetrahedron (perhaps a ghost) that contains p, by a visibility walk from `hint` (any live tetrahedron).
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const;
+  // The same for a point moved by an infinitesimal (x, y^2, z^3), x, y and z of the given signs: the one finite
+  // tetrahedron that holds it does not depend on `hint`. Which ghost does may.
+  [[nodiscard]] TetId locate_moved(const Vec3& p, const Signs& signs, TetId hint) const;
   // Whether p is in conflict with t (perturbed as if p were inserted next).
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& p) const;
 
@@ -59,6 +67,15 @@ class BowyerWatson : public Tetrahedralization {
   [[nodiscard]] std::span<const TetId> created() const { return created_; }
   // Forgets the region instead.
   void abandon_cavity();
+
+  // Takes v away, and fills the hole that its star leaves (vertex_removal.cpp). The new tetrahedra are created(), the
+  // old ones were destroyed(). The vertex keeps its place in the numbering, without a tetrahedron, until close_gaps().
+  // Returns false and changes nothing when all points left are coplanar.
+  bool remove(VertexId v);
+  // Slots; some may hold tetrahedra that are created().
+  [[nodiscard]] std::span<const TetId> destroyed() const { return hole_.star; }
+  // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one.
+  std::vector<VertexId> close_gaps();
 
  private:
   // Positions in rows_ of the vertices of a tetrahedron.
@@ -83,10 +100,14 @@ class BowyerWatson : public Tetrahedralization {
   void reserve_more();
   void test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank);
   void test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p, VertexId p_rank);
-  void take_slots();
+  void take_slots(std::span<const TetId> old, std::size_t count);
   void star_rim(VertexId apex);
   template <class EdgeTable>
   void star_rim(VertexId apex, EdgeTable& edges);
+  void find_star(VertexId v);
+  bool triangulate_link();
+  void find_fill();
+  void glue_fill();
   void make_first_tet();
   void insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order, std::vector<VertexId>& vertex_of);
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
@@ -107,6 +128,21 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<Corners> region_corners_;  // of region_[i]
   std::vector<std::uint32_t> rim_from_;  // rim_[i] seen from inside, as 4 * position in region_ + face
   SquareEdgeTable edges_;
+  // What remove() works with. The facets of the rim are those of the star opposite its vertex.
+  struct Hole {
+    std::vector<TetId> star;
+    std::vector<FacetId> rim;                     // as the star knows them
+    std::vector<FacetId> beyond;                  // as the tetrahedra around the star know them
+    std::vector<VertexId> vertices;               // of the link, and perhaps of the tetrahedra around it; ascending
+    std::vector<Vec3> points;                     // of these vertices
+    std::unique_ptr<BowyerWatson> triangulation;  // of the points
+    // The facets of the rim by the names of their vertices in that triangulation.
+    std::vector<std::pair<std::array<VertexId, 3>, std::uint32_t>> names;
+    std::vector<std::uint32_t> rim_at;  // of each facet of the triangulation: its place in rim, or none
+    std::vector<TetId> fill;            // the tetrahedra of it that lie in the hole
+    std::vector<std::uint32_t> place;   // of each of its tetrahedra: in fill, or none
+  };
+  Hole hole_;
   LargeArray<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
 };
 

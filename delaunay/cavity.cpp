@@ -28,15 +28,16 @@ void BowyerWatson::abandon_cavity() {
   rim_size_ = 0;
 }
 
-void BowyerWatson::take_slots() {
-  // The slots of the region first, then free ones, then new ones; what is left of the region is free.
-  const std::size_t reused = std::min(region_size_, rim_size_);
-  created_.assign(region_.begin(), region_.begin() + static_cast<std::ptrdiff_t>(reused));
-  for (std::size_t i = reused; i < region_size_; ++i) {
-    tets_[region_[i].index()].vertices[0] = VertexId::none();
-    free_.push_back(region_[i]);
+// Slots for so many tetrahedra to create.
+void BowyerWatson::take_slots(std::span<const TetId> old, std::size_t count) {
+  // The slots of the old tetrahedra first, then free ones, then new ones; what is left of the old ones is free.
+  const std::size_t reused = std::min(old.size(), count);
+  created_.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(reused));
+  for (const TetId t : old.subspan(reused)) {
+    tets_[t.index()].vertices[0] = VertexId::none();
+    free_.push_back(t);
   }
-  while (created_.size() < rim_size_) {
+  while (created_.size() < count) {
     if (free_.empty()) {
       DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
       created_.push_back(TetId(tets_.size()));
@@ -49,7 +50,7 @@ void BowyerWatson::take_slots() {
 }
 
 void BowyerWatson::star_rim(VertexId apex) {
-  take_slots();
+  take_slots(conflict_region(), rim_size_);
   if (rows_.size() <= SquareEdgeTable::kMostNumbers) {
     edges_.start(rows_.size());
     star_rim(apex, edges_);

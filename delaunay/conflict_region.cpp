@@ -3,11 +3,14 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/bowyer_watson.h"
-#include "delaunay/point_location.h"
 
 namespace deliso {
 
 TetId BowyerWatson::locate(const Vec3& p, TetId hint) const { return visibility_walk(*this, filter_, p, hint); }
+
+TetId BowyerWatson::locate_moved(const Vec3& p, const Signs& signs, TetId hint) const {
+  return visibility_walk_moved(*this, filter_, p, signs, hint);
+}
 
 bool BowyerWatson::in_conflict(TetId t, const Vec3& p) const { return conflicts(t, p, VertexId(points_.size())); }
 

@@ -1,6 +1,8 @@
 // Point location by a visibility walk.
 #pragma once
 
+#include <array>
+
 #include "delaunay/static_filter.h"
 #include "delaunay/tetrahedralization.h"
 
@@ -14,5 +16,13 @@ namespace deliso {
 // (Edelsbrunner: An acyclicity theorem for cell complexes in d dimension, 1990; Devillers, Pion, Teillaud: Walking in a
 // triangulation, 2002).
 TetId visibility_walk(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p, TetId hint);
+
+// Which way a point is moved along each axis: 1 or -1.
+using Signs = std::array<int, 3>;
+
+// The same for p + (e sx, e^2 sy, e^3 sz) with an infinitesimal e: such a point never lies on a facet, so the
+// tetrahedron that contains it is the same from every hint. (Beyond the hull there may be several such ghosts.)
+TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p,
+                            const Signs& signs, TetId hint);
 
 }  // namespace deliso

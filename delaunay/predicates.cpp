@@ -51,19 +51,21 @@ double exact_insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
       .estimate();
 }
 
-// Whether the projections of three points along one axis are collinear, exactly.
-bool collinear_in_plane(double ax, double ay, double bx, double by, double cx, double cy) {
+// The sign of (b - a) x (c - a) in a plane, exactly.
+int sign_in_plane(double ax, double ay, double bx, double by, double cx, double cy) {
   // Shewchuk's bound of the rounded determinant (1997); the summand covers products that underflow.
   constexpr double kRelative = 3.3306690738754716e-16, kUnderflow = 1e-300;
   const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax);
-  if (std::abs(left - right) > kRelative * (std::abs(left) + std::abs(right)) + kUnderflow) return false;
+  const double rounded = left - right;
+  if (std::abs(rounded) > kRelative * (std::abs(left) + std::abs(right)) + kUnderflow) return rounded > 0 ? 1 : -1;
 
   using Number = Expansion<2>;
   const Number ux(two_difference(bx, ax));
   const Number uy(two_difference(by, ay));
   const Number vx(two_difference(cx, ax));
   const Number vy(two_difference(cy, ay));
-  return (ux * vy - uy * vx).size() == 0;
+  const double exact = (ux * vy - uy * vx).estimate();
+  return exact > 0 ? 1 : exact < 0 ? -1 : 0;
 }
 
 }  // namespace
@@ -131,9 +133,14 @@ bool perturbed_insphere(const std::array<Vec3, 4>& tet, const std::array<VertexI
   return false;
 }
 
+int normal_sign(const Vec3& a, const Vec3& b, const Vec3& c, unsigned axis) {
+  const unsigned u = (axis + 1) % 3;
+  const unsigned v = (axis + 2) % 3;
+  return sign_in_plane(a[u], a[v], b[u], b[v], c[u], c[v]);
+}
+
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return collinear_in_plane(a.x, a.y, b.x, b.y, c.x, c.y) && collinear_in_plane(a.y, a.z, b.y, b.z, c.y, c.z) &&
-         collinear_in_plane(a.z, a.x, b.z, b.x, c.z, c.x);
+  return normal_sign(a, b, c, 2) == 0 && normal_sign(a, b, c, 0) == 0 && normal_sign(a, b, c, 1) == 0;
 }
 
 }  // namespace deliso

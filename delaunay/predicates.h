@@ -30,6 +30,9 @@ double insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, cons
 bool perturbed_insphere(const std::array<Vec3, 4>& tet, const std::array<VertexId, 4>& ids, const Vec3& p,
                         VertexId p_id);
 
+// The sign of one coordinate of (b - a) x (c - a): 1, 0 or -1.
+int normal_sign(const Vec3& a, const Vec3& b, const Vec3& c, unsigned axis);
+
 // Whether three points lie on one line.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 

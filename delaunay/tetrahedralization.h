@@ -34,6 +34,8 @@ class Tetrahedralization {
   // The same facet seen from the neighbour across it.
   [[nodiscard]] FacetId mirror(FacetId f) const { return tets_[f.tet().index()].mirrors[f.face()]; }
   [[nodiscard]] TetId neighbour(TetId t, unsigned face) const { return tets_[t.index()].mirrors[face].tet(); }
+  // Whether a vertex has tetrahedra; only one that was removed, whose gap is still to be closed, has none.
+  [[nodiscard]] bool is_live(VertexId v) const { return !incident_[v.index()].is_none(); }
   // Some live tetrahedron that has v as a vertex.
   [[nodiscard]] TetId incident_tet(VertexId v) const { return incident_[v.index()]; }
   // The vertices of a facet, counterclockwise seen from outside its tetrahedron.

@@ -33,7 +33,7 @@ Violation first_violation(const Tetrahedralization& tets, Check check) {
 Violation check_vertices(const Tetrahedralization& tets, TetId t) {
   const auto& v = tets.vertices(t);
   for (unsigned i = 0; i < 4; ++i) {
-    if (v[i] == kInfiniteVertex ? i != 3 : v[i].index() >= tets.vertex_count()) {
+    if (v[i] == kInfiniteVertex ? i != 3 : v[i].index() >= tets.vertex_count() || !tets.is_live(v[i])) {
       return name(t) + " has no valid vertex in slot " + std::to_string(i);
     }
     for (unsigned j = 0; j < i; ++j) {
@@ -78,9 +78,11 @@ Violation check_euler_relation(const Tetrahedralization& tets) {
     }
   }
   if (count == 0) return std::nullopt;
-  if (tets.vertex_count() + 1 + count == edges.size()) return std::nullopt;
-  return "the Euler relation fails: " + std::to_string(tets.vertex_count() + 1) + " vertices, " +
-         std::to_string(edges.size()) + " edges, " + std::to_string(count) + " tetrahedra";
+  std::size_t vertices = 1;  // the infinite one
+  for (std::size_t i = 0; i < tets.vertex_count(); ++i) vertices += tets.is_live(VertexId(i)) ? 1 : 0;
+  if (vertices + count == edges.size()) return std::nullopt;
+  return "the Euler relation fails: " + std::to_string(vertices) + " vertices, " + std::to_string(edges.size()) +
+         " edges, " + std::to_string(count) + " tetrahedra";
 }
 
 // Whether vertex v is in conflict with tetrahedron t, ties perturbed; v is not a vertex of t.
@@ -116,6 +118,7 @@ Violation find_combinatorial_violation(const Tetrahedralization& tets) {
   };
   if (Violation violation = first_violation(tets, check)) return violation;
   for (std::size_t i = 0; i < tets.vertex_count(); ++i) {
+    if (!tets.is_live(VertexId(i))) continue;
     const TetId t = tets.incident_tet(VertexId(i));
     if (t.index() >= tets.tet_slots() || !tets.is_live(t) || !has_vertex(tets, t, VertexId(i))) {
       return name(VertexId(i)) + " has no live incident tetrahedron";
@@ -155,7 +158,7 @@ Violation find_delaunay_violation(const Tetrahedralization& tets) {
 Violation find_delaunay_violation_by_brute_force(const Tetrahedralization& tets) {
   return first_violation(tets, [&](TetId t) -> Violation {
     for (std::size_t i = 0; i < tets.vertex_count(); ++i) {
-      if (has_vertex(tets, t, VertexId(i))) continue;
+      if (!tets.is_live(VertexId(i)) || has_vertex(tets, t, VertexId(i))) continue;
       if (tets.is_ghost(t) && has_vertex(tets, tets.neighbour(t, 3), VertexId(i))) continue;
       if (in_conflict(tets, t, VertexId(i))) return conflict(t, VertexId(i));
     }

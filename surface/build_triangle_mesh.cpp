@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -12,23 +11,7 @@ namespace deliso {
 
 namespace {
 
-// Disjoint sets with path halving; the smallest member represents its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
+constexpr std::uint32_t kNoClass = 0xFFFFFFFFu;
 
 class MeshBuilder {
  public:
@@ -46,6 +29,7 @@ class MeshBuilder {
  private:
   void collect_triangles();
   void name_vertices();
+  void mark_fan(std::uint32_t corner, std::uint32_t name, std::vector<std::uint32_t>& class_of) const;
   void subdivide_shared_edges();
 
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
@@ -85,42 +69,44 @@ void MeshBuilder::collect_triangles() {
 
 // Corners that paired edges join are one vertex; every other class of corners at the same point is a copy of its own.
 void MeshBuilder::name_vertices() {
-  DisjointSets corners(3 * mesh_.triangles.size());
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const TriangleSide side = mesh_.neighbours[t][i];
-      if (side == kNoSide) continue;
-      const std::uint32_t s = side >> 2;
-      const unsigned j = side & 3u;
-      corners.join(3 * t + (i + 1) % 3, 3 * s + (j + 2) % 3);
-      corners.join(3 * t + (i + 2) % 3, 3 * s + (j + 1) % 3);
-    }
+  // Step 1: the classes, in the order of their first corners.
+  std::vector<std::uint32_t> class_of(3 * mesh_.triangles.size(), kNoClass);
+  std::vector<VertexId> classes;  // the vertex that each is at
+  for (std::uint32_t c = 0; c < class_of.size(); ++c) {
+    if (class_of[c] != kNoClass) continue;
+    mark_fan(c, static_cast<std::uint32_t>(classes.size()), class_of);
+    classes.push_back(VertexId{mesh_.triangles[c / 3][c % 3]});
   }
-  // A vertex for each class, in order of (vertex of the triangulation, representing corner).
+  // Step 2: a name for each, in order of (vertex of the triangulation, first corner).
   std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // name of each vertex's first class, moved on
-  std::uint32_t count = 0;
-  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-    if (corners.find(c) != c) continue;
-    ++first[mesh_.triangles[c / 3][c % 3] + 1];
-    ++count;
-  }
+  for (const VertexId v : classes) ++first[v.index() + 1];
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<std::uint32_t> name(3 * mesh_.triangles.size());
-  mesh_.points.resize(count);
-  built_.vertex_of.resize(count);
-  for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-    if (corners.find(c) == c) {
-      const VertexId vertex(mesh_.triangles[c / 3][c % 3]);
-      name[c] = first[vertex.index()]++;
-      mesh_.points[name[c]] = delaunay_.point(vertex);
-      built_.vertex_of[name[c]] = vertex;
-    }
-    mesh_.triangles[c / 3][c % 3] = name[corners.find(c)];  // a class is named before its other corners
+  std::vector<std::uint32_t> name(classes.size());
+  mesh_.points.resize(classes.size());
+  built_.vertex_of.resize(classes.size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    name[i] = first[classes[i].index()]++;
+    mesh_.points[name[i]] = delaunay_.point(classes[i]);
+    built_.vertex_of[name[i]] = classes[i];
   }
+  for (std::uint32_t c = 0; c < class_of.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[class_of[c]];
   for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
     if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
     if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
     built_.copies.push_back(v);
+  }
+}
+
+// The corners joined to one by paired edges: walks around their vertex one way and, if the fan is open, the other.
+void MeshBuilder::mark_fan(std::uint32_t corner, std::uint32_t name, std::vector<std::uint32_t>& class_of) const {
+  for (const unsigned turn : {1u, 2u}) {
+    for (std::uint32_t c = corner;;) {
+      class_of[c] = name;
+      const TriangleSide side = mesh_.neighbours[c / 3][(c % 3 + turn) % 3];
+      if (side == kNoSide) break;
+      c = 3 * (side >> 2) + ((side & 3u) + turn) % 3;
+      if (class_of[c] != kNoClass) return;
+    }
   }
 }
 

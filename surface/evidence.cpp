@@ -1,7 +1,9 @@
 #include "surface/evidence.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <utility>
 
 #include "delaunay/predicates.h"
 #include "surface/blocks.h"
@@ -29,10 +31,8 @@ class Collector {
         sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
-  void collect(const CellIndex& cell);
-  // Whether the tetrahedra found for a cell do not depend on where the search for them begins, that is, on the cells
-  // before it; may say no.
-  [[nodiscard]] bool stands_alone(const CellIndex& cell);
+  // Returns the tetrahedra that the evidence was found in.
+  std::vector<TetId> collect(const CellIndex& cell);
 
  private:
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
@@ -60,34 +60,24 @@ class Collector {
   std::vector<std::uint8_t>& sides_;  // shared
   TetId hint_;
   std::vector<CriticalPoint> critical_;
+  // Of the present cell:
+  Vec3 center_;
+  std::vector<TetId> trace_;
 };
 
 Vec3 corner_place(unsigned corner) {
   return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
 }
 
-CellIndex corner_sample(const CellIndex& cell, unsigned corner) {
-  const auto bit = [corner](unsigned axis) { return static_cast<std::int32_t>(corner >> axis & 1u); };
-  return {cell[0] + bit(0), cell[1] + bit(1), cell[2] + bit(2)};
-}
-
-// The first sample that collect_edges asks for tells: all that follows depends on earlier cells through it alone.
-bool Collector::stands_alone(const CellIndex& cell) {
-  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    for (unsigned axis = 1; axis <= 4; axis *= 2) {
-      if ((corner & axis) != 0 || side_of(corners[corner]) != side_of(corners[corner | axis])) continue;
-      const CellIndex sample = corner_sample(cell, corner);
-      return locator_.is_settled(sample, locator_.locate(sample, hint_));
-    }
-  }
-  return false;
-}
-
-void Collector::collect(const CellIndex& cell) {
+std::vector<TetId> Collector::collect(const CellIndex& cell) {
+  trace_.clear();
+  center_ = place(cell, {0.5, 0.5, 0.5});
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   collect_edges(cell, corners);
   collect_critical_points(cell, corners);
+  std::sort(trace_.begin(), trace_.end());
+  trace_.erase(std::unique(trace_.begin(), trace_.end()), trace_.end());
+  return {trace_.begin(), trace_.end()};
 }
 
 void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners) {
@@ -135,48 +125,87 @@ void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
-  hint_ = restricted_.locate(p, hint_);
+  hint_ = restricted_.locate(p, center_, hint_);
   note_located(p, side);
   return hint_;
 }
 
 TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-  hint_ = locator_.locate(corner_sample(cell, corner), hint_);
+  hint_ = locator_.locate(cell, corner, hint_);
   note_located(place(cell, corner_place(corner)), side);
   return hint_;
 }
 
-// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on.
+// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on. Other ghosts
+// do not: what lies beyond the hull says nothing about it.
 void Collector::note_located(const Vec3& p, std::uint8_t side) {
+  trace_.push_back(hint_);
+  if (delaunay_.is_ghost(hint_)) return;
   note_at(hint_, side);
   if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return;
-  const auto& v = delaunay_.vertices(hint_);
   for (unsigned face = 0; face < 4; ++face) {
+    const auto [a, b, c] = delaunay_.facet_vertices(FacetId(hint_, face));
+    if (orient3d(delaunay_.point(a), delaunay_.point(b), delaunay_.point(c), p) != 0) continue;
     const TetId across = delaunay_.neighbour(hint_, face);
-    if (delaunay_.is_ghost(across) == delaunay_.is_ghost(hint_)) continue;
-    const auto& slots = kFacetSlots[face];
-    if (orient3d(delaunay_.point(v[slots[0]]), delaunay_.point(v[slots[1]]), delaunay_.point(v[slots[2]]), p) == 0) {
-      note_at(across, side);
-    }
+    trace_.push_back(across);
+    if (delaunay_.is_ghost(across)) note_at(across, side);
   }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const RaisedCells& raised, int threads) {
-  std::vector<CellIndex> cells;
-  cells.reserve(raised.levels().size());
-  for (const auto& [name, level] : raised.levels()) cells.push_back(raised.cell(name));
-  std::vector<std::uint8_t> sides(restricted.delaunay().tet_slots(), kNoEvidence);
-  const auto collect = [&](std::size_t first, std::size_t last) {
-    Collector collector(restricted, grid, sides);
-    // From a cell that does not depend on the blocks before; to note again what they have noted does no harm.
-    while (first > 0 && !collector.stands_alone(cells[first])) --first;
-    for (std::size_t i = first; i < last; ++i) collector.collect(cells[i]);
+void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  sides_.resize(delaunay.tet_slots(), kNoEvidence);
+  std::vector<bool> is_renewed(sides_.size(), false);
+  const auto forget = [&](TetId t) {
+    sides_[t.index()] = kNoEvidence;
+    is_renewed[t.index()] = true;
   };
-  for_each_block(cells.size(), threads, collect, kCellsAtOnce);
-  return sides;
+  for (const TetId t : exchanged.renewed) {
+    forget(t);
+    if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
+    // What a ghost took note of came from the tetrahedron before it.
+    for (unsigned face = 0; face < 4; ++face) {
+      if (delaunay.is_ghost(delaunay.neighbour(t, face))) forget(delaunay.neighbour(t, face));
+    }
+  }
+  for (Trace& trace : traces_) {
+    if (std::any_of(trace.tets.begin(), trace.tets.end(), [&](TetId t) { return is_renewed[t.index()]; })) {
+      trace.is_stale = true;
+    }
+  }
+}
+
+void RaisedEvidence::update(const RaisedCells& raised, int threads) {
+  sides_.resize(restricted_.delaunay().tet_slots(), kNoEvidence);
+  // Cells that have been raised once stay so.
+  std::vector<Trace> traces;
+  traces.reserve(raised.levels().size());
+  std::vector<std::size_t> stale;
+  auto old = traces_.begin();
+  for (const auto& [name, level] : raised.levels()) {
+    if (old != traces_.end() && old->cell == name) {
+      traces.push_back(std::move(*old++));
+    } else {
+      traces.push_back({name, {}, true});
+    }
+    if (traces.back().is_stale) stale.push_back(traces.size() - 1);
+  }
+  traces_ = std::move(traces);
+
+  // What a cell notes in tetrahedra that are as they were has been noted before.
+  for_each_block(
+      stale.size(), threads,
+      [&](std::size_t first, std::size_t last) {
+        Collector collector(restricted_, grid_, sides_);
+        for (std::size_t i = first; i < last; ++i) {
+          Trace& trace = traces_[stale[i]];
+          trace.tets = collector.collect(raised.cell(trace.cell));
+          trace.is_stale = false;
+        }
+      },
+      kCellsAtOnce);
 }
 
 }  // namespace deliso

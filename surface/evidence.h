@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/raised_cells.h"
@@ -18,8 +19,33 @@ namespace deliso {
 // Of each tetrahedron (by slot): which sides segments of the raised cells that cross it lie on.
 enum Evidence : std::uint8_t { kNoEvidence = 0, kAbove = 1, kBelow = 2, kConflict = 3 };
 
-// The same for any number of threads.
-std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const RaisedCells& raised, int threads = 1);
+// Keeps the evidence of the raised cells up to date as points are exchanged and cells raised: only cells that are new,
+// or whose segments cross tetrahedra that are, are gone through.
+class RaisedEvidence {
+ public:
+  // Keeps references.
+  RaisedEvidence(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
+
+  // Takes account of an exchange of points; update() is to follow.
+  void renew(const ExchangedPoints& exchanged);
+  // Takes account of the cells that are raised by now. The same for any number of threads.
+  void update(const RaisedCells& raised, int threads = 1);
+
+  // Of each slot.
+  [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }
+
+ private:
+  // The tetrahedra, ghosts included, that a cell's evidence was found in, ascending.
+  struct Trace {
+    CellName cell = 0;
+    std::vector<TetId> tets;
+    bool is_stale = true;
+  };
+
+  const SignedDelaunay& restricted_;
+  const ScalarGrid& grid_;
+  std::vector<std::uint8_t> sides_;
+  std::vector<Trace> traces_;  // of the raised cells, ascending
+};
 
 }  // namespace deliso

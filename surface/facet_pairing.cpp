@@ -44,7 +44,8 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 }
 
 FacetPairing::FacetPairing(const SignedDelaunay& restricted)
-    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(restricted.signs()) {
+    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
+  restricted_.for_each_change(signs_, [](TetId) {});
   place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
   for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
   for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
@@ -53,24 +54,39 @@ FacetPairing::FacetPairing(const SignedDelaunay& restricted)
   pair_sides();
 }
 
-bool FacetPairing::update() {
-  // A facet may come or go at a tetrahedron with another sign and at its neighbours.
-  std::vector<TetId> touched;
-  std::vector<bool> has_changed(delaunay_.vertex_count(), false);  // of each vertex: the sign of a tetrahedron at it
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    const TetId t(i);
-    if (signs_[i] == restricted_.is_above(t)) continue;
-    signs_[i] = !signs_[i];
-    touched.push_back(t);
-    for (unsigned face = 0; face < 4; ++face) touched.push_back(delaunay_.neighbour(t, face));
-    for (const VertexId v : delaunay_.vertices(t)) {
-      if (v != kInfiniteVertex) has_changed[v.index()] = true;
-    }
+// A facet may come or go at a tetrahedron that has another sign or is new, and at its neighbours.
+void FacetPairing::touch(TetId t) {
+  touched_.push_back(t);
+  if (!delaunay_.is_live(t)) return;
+  for (unsigned face = 0; face < 4; ++face) touched_.push_back(delaunay_.neighbour(t, face));
+  for (const VertexId v : delaunay_.vertices(t)) {
+    if (v != kInfiniteVertex) touched_vertices_.push_back(v);
   }
-  if (touched.empty()) return false;
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  renew_facets(touched);
+}
+
+void FacetPairing::renew(const ExchangedPoints& exchanged) {
+  signs_.resize(delaunay_.tet_slots(), 0);
+  place_of_.resize(4 * delaunay_.tet_slots(), kNoPlace);
+  for (PairedFacet& facet : facets_) {
+    for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
+  }
+  // The vertices of a tetrahedron that has gone are those of new ones, if they are left.
+  for (const TetId t : exchanged.renewed) {
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
+    touch(t);
+  }
+}
+
+bool FacetPairing::update() {
+  restricted_.for_each_change(signs_, [&](TetId t) { touch(t); });
+  if (touched_.empty()) return false;
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  renew_facets(touched_);
+  std::vector<bool> has_changed(delaunay_.vertex_count(), false);  // of each vertex: the sign of a tetrahedron at it
+  for (const VertexId v : touched_vertices_) has_changed[v.index()] = true;
+  touched_.clear();
+  touched_vertices_.clear();
 
   // The tetrahedra around an edge are at both its ends.
   for (PairedFacet& facet : facets_) {

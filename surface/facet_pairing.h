@@ -41,6 +41,8 @@ class FacetPairing {
   // Takes account of signs that have changed since the last time: only the facets at the vertices of their tetrahedra
   // are paired anew. Returns whether any have.
   bool update();
+  // Takes account of an exchange of points; update() is to follow.
+  void renew(const ExchangedPoints& exchanged);
 
   [[nodiscard]] const SignedDelaunay& restricted() const { return restricted_; }
   [[nodiscard]] std::span<const PairedFacet> facets() const { return facets_; }  // in order
@@ -48,6 +50,7 @@ class FacetPairing {
   [[nodiscard]] std::uint32_t place_of(FacetId f) const { return place_of_[f.index()]; }
 
  private:
+  void touch(TetId t);
   void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
   void renew_facets(std::span<const TetId> tets);
   void pair_uncontested_sides();
@@ -59,7 +62,11 @@ class FacetPairing {
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  std::vector<bool> signs_;  // by slot, as of the last update
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last update
+  // What update() has to look at, from renew(): tetrahedra that are new, gone, or next to such ones; and the vertices
+  // of the new ones.
+  std::vector<TetId> touched_;
+  std::vector<VertexId> touched_vertices_;
   std::vector<PairedFacet> facets_;
   LargeArray<std::uint32_t> place_of_;  // of each facet of the triangulation; kNoPlace when it is not in facets_
 };

@@ -53,22 +53,33 @@ bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId 
 UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid)
     : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid) {}
 
+void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
+  if (signs_.empty()) return;
+  signs_.resize(delaunay_.tet_slots(), 0);
+  renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
+}
+
 void UnfoundedPockets::update() {
   state_.assign(delaunay_.tet_slots(), State::kUnseen);
   if (signs_.empty()) {
-    signs_ = restricted_.signs();
+    signs_.assign(delaunay_.tet_slots(), 0);
+    restricted_.for_each_change(signs_, [](TetId) {});
     for (std::size_t i = 0; i < signs_.size(); ++i) look_at(TetId(i));
     return;
   }
   std::vector<bool> touched(signs_.size(), false);
   std::vector<TetId> seeds;
-  for (std::size_t i = 0; i < signs_.size(); ++i) {
-    const TetId t(i);
-    if (signs_[i] == restricted_.is_above(t)) continue;
-    signs_[i] = !signs_[i];
+  const auto seed_at = [&](TetId t) {
     seeds.push_back(t);
+    if (!delaunay_.is_live(t)) return;
     for (unsigned face = 0; face < 4; ++face) seeds.push_back(delaunay_.neighbour(t, face));
+  };
+  for (const TetId t : renewed_) {
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
+    seed_at(t);
   }
+  renewed_.clear();
+  restricted_.for_each_change(signs_, seed_at);
   for (const TetId t : seeds) touched[t.index()] = true;
   std::erase_if(pockets_, [&](const std::vector<TetId>& pocket) {
     return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });

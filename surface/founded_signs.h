@@ -20,6 +20,8 @@ class UnfoundedPockets {
 
   // Finds the sets for the signs as they stand; looks only around those that have changed since the last update.
   void update();
+  // Takes account of an exchange of points; update() is to follow.
+  void renew(const ExchangedPoints& exchanged);
   // Finds the sets and turns the signs in them over; returns how many there were. `restricted` is that of the
   // constructor.
   std::int64_t overturn(SignedDelaunay& restricted);
@@ -32,7 +34,8 @@ class UnfoundedPockets {
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
-  std::vector<bool> signs_;  // by slot, as of the last update
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last update
+  std::vector<TetId> renewed_;       // since the last update
   std::vector<State> state_;
   std::vector<TetId> flood_;
   std::vector<std::vector<TetId>> pockets_;

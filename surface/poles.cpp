@@ -75,4 +75,48 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::v
   return heights;
 }
 
+void KnownPoles::forget_around(TetId t) {
+  if (!restricted_.delaunay().is_live(t)) return;
+  for (const VertexId v : restricted_.delaunay().vertices(t)) {
+    if (v != kInfiniteVertex) is_known_[v.index()] = false;
+  }
+}
+
+void KnownPoles::renew(const ExchangedPoints& exchanged) {
+  if (signs_.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < exchanged.renamed.size(); ++i) {
+    if (exchanged.renamed[i].is_none()) continue;
+    heights_[kept] = heights_[i];
+    is_known_[kept++] = is_known_[i];
+  }
+  heights_.resize(restricted_.delaunay().vertex_count());
+  is_known_.resize(kept);
+  is_known_.resize(heights_.size(), false);
+  signs_.resize(restricted_.delaunay().tet_slots(), 0);
+  for (const TetId t : exchanged.renewed) {
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
+    forget_around(t);
+  }
+}
+
+const std::vector<double>& KnownPoles::heights(const std::vector<bool>& wanted, int threads) {
+  if (signs_.empty()) {
+    signs_.assign(restricted_.delaunay().tet_slots(), 0);
+    heights_.resize(restricted_.delaunay().vertex_count());
+    is_known_.assign(heights_.size(), false);
+  }
+  restricted_.for_each_change(signs_, [&](TetId t) { forget_around(t); });
+  std::vector<bool> missing = wanted;
+  for (std::size_t v = 0; v < missing.size(); ++v) missing[v] = wanted[v] && !is_known_[v];
+  if (std::find(missing.begin(), missing.end(), true) == missing.end()) return heights_;
+  const std::vector<double> found = compute_poles(restricted_, missing, PoleHeight::kNearer, threads);
+  for (std::size_t v = 0; v < missing.size(); ++v) {
+    if (!missing[v]) continue;
+    heights_[v] = found[v];
+    is_known_[v] = true;
+  }
+  return heights_;
+}
+
 }  // namespace deliso

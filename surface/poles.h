@@ -18,4 +18,24 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight r
 std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule,
                                   int threads);
 
+// Pole heights (the nearer pole) for signs that change and points that are exchanged: those of vertices around which
+// nothing has changed since the last time are known.
+class KnownPoles {
+ public:
+  // Keeps a reference.
+  explicit KnownPoles(const SignedDelaunay& restricted) : restricted_(restricted) {}
+
+  void renew(const ExchangedPoints& exchanged);
+  // For the signs as they stand; of the wanted vertices, the others have any height.
+  const std::vector<double>& heights(const std::vector<bool>& wanted, int threads);
+
+ private:
+  void forget_around(TetId t);
+
+  const SignedDelaunay& restricted_;
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last time; empty when there was none
+  std::vector<double> heights_;
+  std::vector<bool> is_known_;
+};
+
 }  // namespace deliso

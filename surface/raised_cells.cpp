@@ -71,13 +71,18 @@ void RaisedCells::grade() {
   }
 }
 
-std::unordered_map<CellName, RaisedCells::Zone> RaisedCells::zone() const {
-  std::unordered_map<CellName, Zone> zone;
+std::vector<CellName> RaisedCells::extend(Zones& zones) const {
+  std::vector<CellName> changed;
   for (const auto& [at, level] : level_) {
-    zone[at] = Zone::kRaised;
-    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) { zone.try_emplace(name(neighbour), Zone::kRing); });
+    const auto [zone, is_new] = zones.try_emplace(at, Zone::kRaised);
+    if (!is_new && zone->second == Zone::kRaised) continue;
+    zone->second = Zone::kRaised;
+    changed.push_back(at);
+    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) {
+      if (zones.try_emplace(name(neighbour), Zone::kRing).second) changed.push_back(name(neighbour));
+    });
   }
-  return zone;
+  return changed;
 }
 
 template <class Visit>

@@ -33,9 +33,11 @@ class RaisedCells {
   // Level of each raised cell, by name.
   [[nodiscard]] const std::map<CellName, int>& levels() const { return level_; }
 
-  enum class Zone : std::uint8_t { kOutside, kRing, kRaised };
-  // The raised cells and the ring of cells around them.
-  [[nodiscard]] std::unordered_map<CellName, Zone> zone() const;
+  enum class Zone : std::uint8_t { kRing, kRaised };
+  using Zones = std::unordered_map<CellName, Zone>;
+  // Brings `zones`, the raised cells and the ring of cells around them at some time before, up to date. Returns the
+  // cells that have changed; may repeat cells.
+  std::vector<CellName> extend(Zones& zones) const;
 
  private:
   void grade();

@@ -29,6 +29,9 @@ constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 // A surface of so many crossings is polygonized as a whole when one of its components has to be.
 constexpr std::size_t kSmallSurface = 100000;
+// Samples are exchanged in place when that takes fewer insertions, a removal counted as so many, than a share of all.
+constexpr std::size_t kRemovalCost = 8;
+constexpr std::size_t kExchangeShare = 4;
 constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
                                             SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
@@ -54,6 +57,11 @@ class Repair {
     Vec3 point;             // in mesh space
     std::uint64_t key = 0;  // of a lattice sample; 0 for a free one
   };
+  // Samples to exchange.
+  struct Resampling {
+    std::vector<VertexId> leaving;
+    std::vector<Sample> coming;
+  };
 
   struct KeptMesh {
     std::shared_ptr<MatchedMesh> mesh;
@@ -62,7 +70,8 @@ class Repair {
 
   SurfaceMesh as_it_is();
   void take_samples();
-  void resample();
+  [[nodiscard]] Resampling resample() const;
+  void exchange(const Resampling& resampling);
   void triangulate();
   bool try_rule(SignRule rule);
   void try_rules(Controls& controls);
@@ -88,7 +97,8 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;
-  std::vector<Sample> samples_;
+  bool is_own_ = false;                   // whether the triangulation is repair's own, not that of stage 1
+  std::vector<Sample> samples_;           // the vertices of the triangulation, in order, but for virtual ones
   std::shared_ptr<MatchedMesh> mesh_;     // the latest
   std::vector<bool> done_;                // of each exact component: needs no more work
   std::vector<Agreement> best_;           // of each: the best, kWithStrays at most, reached by some mesh in history_
@@ -109,13 +119,13 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   keep();
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
-    raised_.raise(cells_in_trouble(
-        {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-         places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), facts_.critical_cells(), round_->evidence()},
-        threads_));
+    raised_.raise(
+        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
+                          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
+                          round_->critical_places(facts_.critical_cells())}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
-    resample();
-    triangulate();
+    give_poles();
+    exchange(resample());
     try_rules(controls);
     try_signs(controls);
     stats_.rounds = round;
@@ -144,14 +154,18 @@ void Repair::take_samples() {
 }
 
 // Free samples in raised cells go, lattice samples come. Free samples on the box stay: they carry its boundary curves.
-void Repair::resample() {
+Repair::Resampling Repair::resample() const {
+  Resampling resampling;
   std::vector<std::uint64_t> have;
-  std::erase_if(samples_, [&](const Sample& sample) {
-    const bool goes = sample.key == 0 && raised_.is_raised(raised_.name(raised_.cell_of(sample.point))) &&
-                      !SignedDelaunay::on_box(isosurface_.box(), sample.point);
-    if (!goes && sample.key != 0) have.push_back(sample.key);
-    return goes;
-  });
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& sample = samples_[i];
+    if (sample.key != 0) {
+      have.push_back(sample.key);
+    } else if (raised_.is_raised(raised_.name(raised_.cell_of(sample.point))) &&
+               !SignedDelaunay::on_box(isosurface_.box(), sample.point)) {
+      resampling.leaving.push_back(VertexId(i));
+    }
+  }
   std::sort(have.begin(), have.end());
   std::vector<LatticeSample> found;
   for (const auto& [name, level] : raised_.levels()) lattice_.append(raised_.cell(name), level, found);
@@ -160,7 +174,37 @@ void Repair::resample() {
   for (const LatticeSample& sample : found) {
     if (sample.key == last || std::binary_search(have.begin(), have.end(), sample.key)) continue;
     last = sample.key;
-    samples_.push_back({scaled(sample.point, isosurface_.step()), sample.key});
+    resampling.coming.push_back({scaled(sample.point, isosurface_.step()), sample.key});
+  }
+  return resampling;
+}
+
+// In the triangulation as it is when few samples change, else in one made anew. A lattice sample that equals a vertex
+// is not kept: should the vertex go, it is found again.
+void Repair::exchange(const Resampling& resampling) {
+  const auto& [leaving, coming] = resampling;
+  std::vector<Vec3> points;
+  points.reserve(coming.size());
+  for (const Sample& sample : coming) points.push_back(sample.point);
+  const bool are_few = kRemovalCost * leaving.size() + coming.size() < samples_.size() / kExchangeShare;
+  ExchangedPoints exchanged;
+  const bool is_exchanged = is_own_ && are_few && round_->exchange(leaving, points, exchanged);
+  std::size_t kept = 0;
+  for (std::size_t i = 0, gone = 0; i < samples_.size(); ++i) {
+    if (gone < leaving.size() && leaving[gone] == VertexId(i)) {
+      ++gone;
+    } else {
+      samples_[kept++] = samples_[i];
+    }
+  }
+  samples_.resize(kept);
+  if (!is_exchanged) {
+    samples_.insert(samples_.end(), coming.begin(), coming.end());
+    triangulate();
+    return;
+  }
+  for (std::size_t i = 0; i < coming.size(); ++i) {
+    if (exchanged.vertex_of[i] == VertexId(samples_.size())) samples_.push_back(coming[i]);
   }
 }
 
@@ -168,9 +212,16 @@ void Repair::triangulate() {
   std::vector<Vec3> points;
   points.reserve(samples_.size());
   for (const Sample& sample : samples_) points.push_back(sample.point);
-  give_poles();
   round_.reset();
-  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points, threads_), threads_);
+  std::vector<VertexId> vertex_of;
+  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points, threads_, &vertex_of),
+                 threads_);
+  is_own_ = true;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (vertex_of[i] == VertexId(kept)) samples_[kept++] = samples_[i];
+  }
+  samples_.resize(kept);
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
@@ -278,7 +329,7 @@ void Repair::give_poles() {
         wanted[built.vertex_of[v].index()] = true;
       }
     }
-    const std::vector<double> heights = compute_poles(round_->restricted(), wanted, PoleHeight::kNearer, threads_);
+    const std::vector<double>& heights = round_->pole_heights(wanted);
     for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   }
 }

@@ -17,18 +17,47 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
       threads_(threads),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
-      component_of_vertex_(restricted_->delaunay().vertex_count(), 0),
-      unfounded_(*restricted_, grid) {
+      unfounded_(*restricted_, grid),
+      poles_(*restricted_) {
+  find_components(0);
+}
+
+// Of the vertices from this one on.
+void RepairRound::find_components(std::size_t first_vertex) {
+  component_of_vertex_.resize(restricted_->delaunay().vertex_count(), 0);
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
-  for_each_block(component_of_vertex_.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
+  for_each_block(component_of_vertex_.size() - first_vertex, threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first_vertex + first; i < first_vertex + last; ++i) {
       if (restricted_->is_virtual(VertexId(i))) continue;
       const Vec3& p = restricted_->delaunay().point(VertexId(i));
       const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-      component_of_vertex_[i] = component_of(grid, isosurface.isovalue(), topology, index_point).value_or(0);
+      component_of_vertex_[i] = component_of(grid_, isosurface.isovalue(), topology_, index_point).value_or(0);
     }
   });
+}
+
+bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
+                           ExchangedPoints& exchanged) {
+  if (!restricted_->exchange(leaving, coming, exchanged)) return false;
+  at_circumcenters_.resize(restricted_->delaunay().tet_slots(), false);
+  for (const TetId t : exchanged.renewed) at_circumcenters_[t.index()] = restricted_->is_above(t);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < exchanged.renamed.size(); ++i) {
+    if (!exchanged.renamed[i].is_none()) component_of_vertex_[kept++] = component_of_vertex_[i];
+  }
+  component_of_vertex_.resize(kept);
+  find_components(kept);
+  if (rules_) {
+    rules_->renew(exchanged);
+    rules_->update();
+  }
+  unfounded_.renew(exchanged);
+  if (pairing_) pairing_->renew(exchanged);
+  if (critical_) critical_->renew(exchanged);
+  poles_.renew(exchanged);
+  has_assembled_ = false;
+  return true;
 }
 
 void RepairRound::take_plain_signs() {
@@ -37,8 +66,8 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs(SignRule rule) {
-  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, at_circumcenters_, threads_);
-  rules_->take_signs(rule, *restricted_);
+  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
+  rules_->take_signs(rule, at_circumcenters_);
   unfounded_.overturn(*restricted_);
 }
 
@@ -47,12 +76,18 @@ void RepairRound::overturn(std::span<const TetId> tets) {
   unfounded_.overturn(*restricted_);
 }
 
+const std::vector<CriticalPlace>& RepairRound::critical_places(std::span<const CellIndex> cells) {
+  if (!critical_) critical_.emplace(*restricted_, grid_, cells, threads_);
+  return critical_->places();
+}
+
 std::optional<MatchedMesh> RepairRound::assemble() {
   if (!pairing_) {
     pairing_.emplace(*restricted_);
-  } else if (!pairing_->update()) {
+  } else if (!pairing_->update() && has_assembled_) {
     return std::nullopt;
   }
+  has_assembled_ = true;
   MatchedMesh mesh{build_triangle_mesh(*pairing_), {}, {}};
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);

@@ -1,7 +1,8 @@
-// One triangulation of repair and the meshes that the sign rules make of it.
+// The triangulation of repair and the meshes that the sign rules make of it.
 //
-// The rules differ in few signs. So whatever depends on the triangulation alone is found once, and what depends on
-// signs only where they have changed from one rule to the next.
+// The rules differ in few signs, and rounds after the first one in few points. So whatever depends on the triangulation
+// alone is found once, and again only where points have been exchanged; and what depends on signs only where they have
+// changed from one rule to the next.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,11 @@
 #include <span>
 #include <vector>
 
+#include "surface/critical_places.h"
 #include "surface/facet_pairing.h"
 #include "surface/founded_signs.h"
 #include "surface/local_characteristic.h"
+#include "surface/poles.h"
 #include "surface/raised_cells.h"
 #include "surface/sign_rules.h"
 #include "surface/signed_delaunay.h"
@@ -28,6 +31,10 @@ class RepairRound {
   RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
               std::unique_ptr<SignedDelaunay> restricted, int threads);
 
+  // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
+  // SignedDelaunay::exchange; when that says no, this round is of no more use.
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
+
   // Takes the signs of the circumcenters, less those without foundation.
   void take_plain_signs();
   // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less those without
@@ -42,8 +49,12 @@ class RepairRound {
   }
 
   // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
-  // as the last time.
+  // as the last time in this round.
   std::optional<MatchedMesh> assemble();
+  // The saddles and critical samples of the cells that have some (surface_facts.h) in the triangulation.
+  const std::vector<CriticalPlace>& critical_places(std::span<const CellIndex> cells);
+  // The pole heights of the wanted vertices for the signs as they stand.
+  const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
@@ -54,6 +65,7 @@ class RepairRound {
   }
 
  private:
+  void find_components(std::size_t first);
   void find_missing_parts(MatchedMesh& mesh) const;
 
   const ScalarGrid& grid_;
@@ -66,6 +78,9 @@ class RepairRound {
   std::optional<SignRules> rules_;
   UnfoundedPockets unfounded_;
   std::optional<FacetPairing> pairing_;
+  bool has_assembled_ = false;  // in this round
+  std::optional<CriticalPlaces> critical_;
+  KnownPoles poles_;
 };
 
 }  // namespace deliso

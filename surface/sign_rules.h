@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/evidence.h"
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
 
@@ -21,20 +22,25 @@ enum class SignRule {
   kCircumcenter,
 };
 
-// The rules for one triangulation and the raised cells as they stand. What the rules have in common is found once.
+// The rules for one triangulation and the raised cells. What the rules have in common is found once, and again only
+// where points have been exchanged or cells raised.
 class SignRules {
  public:
-  // `at_circumcenters`: the signs that every rule starts from (SignedDelaunay::signs). What is found does not depend
-  // on the number of threads.
-  SignRules(const SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised,
-            std::vector<bool> at_circumcenters, int threads);
+  // Keeps references. What is found does not depend on the number of threads.
+  SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised, int threads);
+
+  // Takes account of an exchange of points; update() is to follow.
+  void renew(const ExchangedPoints& exchanged);
+  // Takes account of the cells that are raised by now.
+  void update();
 
   // Gives every tetrahedron its sign by a rule; then each small one that segments of known side cross takes their side:
-  // evidence that no rule may overrule. `restricted` is the triangulation of the constructor.
-  void take_signs(SignRule rule, SignedDelaunay& restricted);
+  // evidence that no rule may overrule. `at_circumcenters`: the signs that every rule starts from
+  // (SignedDelaunay::signs).
+  void take_signs(SignRule rule, const std::vector<bool>& at_circumcenters);
 
   // What is known of the sides in each tetrahedron (evidence.h).
-  [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }
 
  private:
   struct Candidate {
@@ -43,15 +49,21 @@ class SignRules {
     bool is_above = false;
     bool is_opposed = false;  // gradients at two of the vertices oppose each other
   };
-  void find_candidates(const SignedDelaunay& restricted);
+  static constexpr CellName kNoCell = ~CellName{0};
+  void update_homes();
+  void update_candidates();
 
+  SignedDelaunay& restricted_;
   const RaisedCells& raised_;
   int threads_;
-  std::vector<bool> at_circumcenters_;
-  std::vector<std::uint8_t> evidence_;
+  RaisedEvidence evidence_;
   std::vector<std::pair<TetId, bool>> overruled_;  // small tetrahedra with evidence of one side: whether it is above
-  std::vector<Candidate> candidates_;              // for the sign of their centroid; found when first needed
-  bool has_candidates_ = false;
+  // Found when first needed:
+  bool are_candidates_stale_ = true;
+  std::vector<CellName> homes_;        // of each slot: the cell that holds a small tetrahedron's centroid
+  RaisedCells::Zones zones_;           // as they were when the candidates were found
+  std::vector<TetId> renewed_;         // since then
+  std::vector<Candidate> candidates_;  // for the sign of their centroid
 };
 
 }  // namespace deliso

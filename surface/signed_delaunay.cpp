@@ -1,5 +1,6 @@
 #include "surface/signed_delaunay.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "delaunay/base/check.h"
@@ -56,22 +57,30 @@ Vec3 SignedDelaunay::snapped(const Vec3& p) {
   return {snap(p.x), snap(p.y), snap(p.z)};
 }
 
-SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given, int threads)
+SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given, int threads,
+                               std::vector<VertexId>* vertex_of)
     : isosurface_(isosurface), delaunay_(box_with_guards(isosurface.box())) {
   std::vector<Vec3> points;
   points.reserve(given.size());
   for (const Vec3& p : given) {
     if (is_finite(p)) points.push_back(snapped(p));
   }
-  if (!delaunay_.build(points)) {
+  std::vector<VertexId> vertices;
+  if (!delaunay_.build(points, &vertices)) {
     if (points.empty()) throw InputError("the isosurface has no point to start from");
     std::vector<Vec3> guarded(points.begin(), points.end());
     const Vec3 off = kGuardDistance * isosurface.box().diagonal() * plane_normal(points);
     guarded.push_back(points.front() + off);
     guarded.push_back(points.front() - off);
-    DELISO_CHECK(delaunay_.build(guarded), "guards must lift coplanar points into space");
+    DELISO_CHECK(delaunay_.build(guarded, &vertices), "guards must lift coplanar points into space");
     guards_ = 2;
     first_guard_ = static_cast<std::uint32_t>(delaunay_.vertex_count()) - guards_;
+  }
+  if (vertex_of != nullptr) {
+    vertex_of->assign(given.size(), VertexId::none());
+    for (std::size_t i = 0, finite = 0; i < given.size(); ++i) {
+      if (is_finite(given[i])) (*vertex_of)[i] = vertices[finite++];
+    }
   }
   sign_.assign(delaunay_.tet_slots(), Sign::kBelow);
   for_each_block(sign_.size(), threads, [&](std::size_t first, std::size_t last) {
@@ -79,6 +88,40 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
       if (delaunay_.is_live(TetId(i))) sign_[i] = sign_of(TetId(i));
     }
   });
+}
+
+bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
+                              ExchangedPoints& exchanged) {
+  exchanged = {};
+  if (guards_ > 0) return false;
+  std::vector<TetId>& renewed = exchanged.renewed;
+  const auto note = [&](std::span<const TetId> tets) { renewed.insert(renewed.end(), tets.begin(), tets.end()); };
+  // Step 1: take away; a point that comes may be where one has gone.
+  for (const VertexId v : leaving) {
+    if (!delaunay_.remove(v)) return false;
+    note(delaunay_.destroyed());
+    note(delaunay_.created());
+  }
+  exchanged.renamed = delaunay_.close_gaps();
+  // Step 2: put in.
+  TetId hint = delaunay_.incident_tet(VertexId(std::size_t{0}));
+  for (const Vec3& given : coming) {
+    exchanged.vertex_of.push_back(VertexId::none());
+    if (!is_finite(given)) continue;
+    const auto duplicate = delaunay_.find_conflicts(snapped(given), hint);
+    exchanged.vertex_of.back() = duplicate.value_or(VertexId(delaunay_.vertex_count()));
+    if (duplicate) continue;
+    note(delaunay_.conflict_region());
+    delaunay_.fill_cavity();
+    note(delaunay_.created());
+    hint = delaunay_.created().front();
+  }
+  // Step 3: signs.
+  std::sort(renewed.begin(), renewed.end());
+  renewed.erase(std::unique(renewed.begin(), renewed.end()), renewed.end());
+  sign_.resize(delaunay_.tet_slots(), Sign::kBelow);
+  for (const TetId t : renewed) sign_[t.index()] = delaunay_.is_live(t) ? sign_of(t) : Sign::kBelow;
+  return true;
 }
 
 Vec3 SignedDelaunay::dual_point(TetId t) const {

@@ -7,7 +7,9 @@
 // case: its rim shows as restricted facets at the infinite vertex.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -17,12 +19,21 @@
 
 namespace deliso {
 
+// What an exchange of points has changed.
+struct ExchangedPoints {
+  std::vector<VertexId> renamed;    // of each vertex before: what it is called now, or none if it went
+  std::vector<VertexId> vertex_of;  // of each point that came; none for one that is not finite
+  std::vector<TetId> renewed;       // slots, ascending, whose tetrahedron is new or gone
+};
+
 class SignedDelaunay {
  public:
   // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
   // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line. The
-  // signs are found on several threads, the same for any number.
-  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1);
+  // signs are found on several threads, the same for any number. `vertex_of`, when asked for, tells the vertex of each
+  // point; none for one that is not finite.
+  SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1,
+                 std::vector<VertexId>* vertex_of = nullptr);
   virtual ~SignedDelaunay() = default;
   SignedDelaunay(const SignedDelaunay&) = delete;
   SignedDelaunay& operator=(const SignedDelaunay&) = delete;
@@ -41,8 +52,17 @@ class SignedDelaunay {
   }
   // Whether a vertex lies on the box, so that the surface may end there.
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
-  // The tetrahedron that holds p, by a walk from `hint`.
-  [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const { return delaunay_.locate(p, hint); }
+  // The tetrahedron that holds p, by a walk from `hint`. Where several do, the one on the way to `inwards`, whatever
+  // the hint; but of several ghosts any.
+  [[nodiscard]] TetId locate(const Vec3& p, const Vec3& inwards, TetId hint) const {
+    return delaunay_.locate_moved(p, {p.x < inwards.x ? 1 : -1, p.y < inwards.y ? 1 : -1, p.z < inwards.z ? 1 : -1},
+                                  hint);
+  }
+  // Takes vertices away and puts points in; then the vertices are numbered as if it had been made of the points left,
+  // in their order, and those that came, in theirs. New tetrahedra have the signs of their circumcenters, the others
+  // keep theirs; those of free slots mean nothing. Returns false when that cannot be done (the points left would be
+  // coplanar, or there are guards): then this triangulation is of no more use. Not for classes derived from this one.
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
   // Gives a tetrahedron another sign than that of the field at its circumcenter.
   void set_sign(TetId t, bool above) { sign_[t.index()] = above ? Sign::kAbove : Sign::kBelow; }
   // All signs as they stand, by slot of their tetrahedron; and back again.
@@ -54,6 +74,9 @@ class SignedDelaunay {
   void set_signs(const std::vector<bool>& above) {
     for (std::size_t i = 0; i < sign_.size(); ++i) sign_[i] = above[i] ? Sign::kAbove : Sign::kBelow;
   }
+  // Calls visit(t) for every slot t whose sign is not that in `known`, 1 for above and 0 for below; and takes it over.
+  template <class Visit>
+  void for_each_change(std::vector<std::uint8_t>& known, Visit visit) const;
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
@@ -74,5 +97,20 @@ class SignedDelaunay {
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };
+
+template <class Visit>
+void SignedDelaunay::for_each_change(std::vector<std::uint8_t>& known, Visit visit) const {
+  constexpr std::size_t kAtOnce = 64;
+  for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
+    const std::size_t last = std::min(known.size(), first + kAtOnce);
+    if (std::memcmp(&known[first], &sign_[first], last - first) == 0) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto now = static_cast<std::uint8_t>(sign_[i]);
+      if (known[i] == now) continue;
+      known[i] = now;
+      visit(TetId(i));
+    }
+  }
+}
 
 }  // namespace deliso

@@ -1,15 +1,11 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <limits>
 #include <optional>
 
-#include "surface/blocks.h"
 #include "surface/evidence.h"
-#include "surface/sample_locator.h"
-#include "volume/critical_points.h"
 
 namespace deliso {
 
@@ -28,15 +24,12 @@ namespace {
 // How many layers from a place trouble is looked for, and how many all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::size_t kCellsAtOnce = 4096;       // with critical points, that one thread takes at a time
-constexpr std::size_t kCellsInMemory = 1 << 18;  // whose critical points are kept at a time
 constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where jumps along the axes cross by chance
 
 class TroubleFinder {
  public:
-  TroubleFinder(const TroubleContext& context, int threads)
-      : threads_(threads),
-        grid_(context.grid),
+  explicit TroubleFinder(const TroubleContext& context)
+      : grid_(context.grid),
         topology_(context.topology),
         restricted_(context.restricted),
         mesh_(context.mesh),
@@ -44,8 +37,8 @@ class TroubleFinder {
         component_of_vertex_(context.component_of_vertex),
         done_(context.done),
         places_(context.places),
-        critical_cells_(context.critical_cells),
         evidence_(context.evidence),
+        critical_(context.critical),
         has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
@@ -80,17 +73,6 @@ class TroubleFinder {
     cells_.append_cells_of(p, found_);
   }
 
-  // A saddle, or a critical sample, in or at an active cell of a component that is not done.
-  struct CriticalPlace {
-    Vec3 point;  // in mesh space
-    std::uint32_t component = 0;
-    bool is_above = false;
-    SampleLocator::Located at;
-  };
-  void append_critical_places(const CellIndex& cell, SampleLocator& locator, std::vector<CriticalPoint>& saddles,
-                              std::vector<CriticalPlace>& places) const;
-
-  int threads_;
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const SignedDelaunay& restricted_;
@@ -99,8 +81,8 @@ class TroubleFinder {
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
-  const std::vector<CellIndex>& critical_cells_;
   std::span<const std::uint8_t> evidence_;
+  const std::vector<CriticalPlace>& critical_;
   std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
 };
@@ -157,57 +139,12 @@ void TroubleFinder::flag_unused_vertices() {
   }
 }
 
-// Locates the critical points of a cell, each from the one before.
-void TroubleFinder::append_critical_places(const CellIndex& cell, SampleLocator& locator,
-                                           std::vector<CriticalPoint>& saddles,
-                                           std::vector<CriticalPlace>& places) const {
-  const auto component = open_component_in(cell);
-  if (!component) return;
-  const auto hint = [&] {
-    return places.empty() ? restricted_.delaunay().incident_tet(VertexId(std::size_t{0})) : places.back().at.tet;
-  };
-  const double isovalue = restricted_.isosurface().isovalue();
-  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
-  saddles.clear();
-  append_critical_points(corners, saddles);
-  for (const CriticalPoint& saddle : saddles) {
-    const int side = side_of_saddle(corners, isovalue, saddle);
-    if (side == 0) continue;
-    const Vec3 p = to_mesh_space({cell[0] + saddle.uvw.x, cell[1] + saddle.uvw.y, cell[2] + saddle.uvw.z});
-    places.push_back({p, *component, side > 0, locator.locate_settled(p, hint())});
-  }
-  for (unsigned critical = critical_corners(grid_, cell); critical != 0; critical &= critical - 1) {
-    const auto corner = static_cast<unsigned>(std::countr_zero(critical));
-    const CellIndex sample{cell[0] + static_cast<int>(corner & 1u), cell[1] + static_cast<int>(corner >> 1 & 1u),
-                           cell[2] + static_cast<int>(corner >> 2)};
-    const Vec3 p{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
-    places.push_back(
-        {to_mesh_space(p), *component, corners[corner] > isovalue, locator.locate_settled(sample, hint())});
-  }
-}
-
 // Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
-// way. Points on facets go to the tetrahedron that a walk from the point before finds; so they are located again, in
-// order.
+// way.
 void TroubleFinder::flag_critical_points() {
-  TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
-  for (std::size_t begin = 0; begin < critical_cells_.size(); begin += kCellsInMemory) {
-    const std::size_t count = std::min(kCellsInMemory, critical_cells_.size() - begin);
-    std::vector<std::vector<CriticalPlace>> blocks((count + kCellsAtOnce - 1) / kCellsAtOnce);
-    const auto locate = [&](std::size_t first, std::size_t last) {
-      SampleLocator locator(restricted_, grid_);
-      std::vector<CriticalPoint> saddles;
-      for (std::size_t i = first; i < last; ++i) {
-        append_critical_places(critical_cells_[begin + i], locator, saddles, blocks[first / kCellsAtOnce]);
-      }
-    };
-    for_each_block(count, threads_, locate, kCellsAtOnce);
-    for (const std::vector<CriticalPlace>& places : blocks) {
-      for (const CriticalPlace& place : places) {
-        hint = place.at.is_settled ? place.at.tet : restricted_.locate(place.point, hint);
-        if (restricted_.is_above(hint) != place.is_above) flag(place.point, place.component, Tells::kTopology);
-      }
-    }
+  for (const CriticalPlace& place : critical_) {
+    if (restricted_.is_above(place.tet) == place.is_above) continue;
+    if (const auto component = open_component_in(place.cell)) flag(place.point, *component, Tells::kTopology);
   }
 }
 
@@ -240,8 +177,6 @@ std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& c
 
 }  // namespace
 
-std::vector<CellName> cells_in_trouble(const TroubleContext& context, int threads) {
-  return TroubleFinder(context, threads).find();
-}
+std::vector<CellName> cells_in_trouble(const TroubleContext& context) { return TroubleFinder(context).find(); }
 
 }  // namespace deliso

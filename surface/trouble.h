@@ -8,6 +8,7 @@
 
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
+#include "surface/critical_places.h"
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
 #include "volume/exact_topology.h"
@@ -43,8 +44,8 @@ struct TroubleContext {
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   std::vector<Places> places;                             // of each exact component
-  const std::vector<CellIndex>& critical_cells;           // of the surface (surface_facts.h)
   std::span<const std::uint8_t> evidence;                 // in the raised cells, by slot (evidence.h); may be empty
+  const std::vector<CriticalPlace>& critical;             // of the volume, in the triangulation
 };
 
 // The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices
@@ -53,7 +54,7 @@ struct TroubleContext {
 // and critical samples in tetrahedra of the other sign. Of a component whose piece has the right topology only what
 // tells of its missing part, or of the vertices it shares with others, counts. For a component without any sign its
 // saddles are taken, and when there are none all its crossings. Of a component with known places only cells near them
-// are taken, and all active ones very near. The same for any number of threads.
-std::vector<CellName> cells_in_trouble(const TroubleContext& context, int threads = 1);
+// are taken, and all active ones very near.
+std::vector<CellName> cells_in_trouble(const TroubleContext& context);
 
 }  // namespace deliso

@@ -70,6 +70,7 @@ TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
     SCOPED_TRACE(scene->name);
     const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
     const auto [low, high] = scene->grid.range();
+    const double range = high - low;
     for_each_cell(scene->grid, [&](const CellIndex& cell) {
       std::vector<LatticeSample> samples;
       lattice.append(cell, kMaxLatticeLevel, samples);
@@ -77,7 +78,7 @@ TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
       for (const LatticeSample& sample : samples) {
         const Vec3 uvw = sample.point - Vec3{double(cell[0]), double(cell[1]), double(cell[2])};
         EXPECT_TRUE((Box3{{0, 0, 0}, {1, 1, 1}}).contains(uvw));
-        EXPECT_NEAR(trilinear_value(corners, uvw), scene->isovalue, 1e-9 * (high - low))
+        EXPECT_NEAR(trilinear_value(corners, uvw), scene->isovalue, 1e-9 * range)
             << "key " << sample.key << " at " << uvw.x << " " << uvw.y << " " << uvw.z;
       }
     });

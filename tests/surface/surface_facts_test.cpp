@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/repair_round.h"
-#include "surface/trouble.h"
+#include "surface/blocks.h"
+#include "surface/critical_places.h"
 #include "tests/support/surface_fields.h"
 #include "volume/critical_points.h"
 
@@ -53,26 +53,22 @@ TEST(SurfaceFacts, NobodyHasToAsk) {
   for (int i = 0; i < 20; ++i) SurfaceFacts(scene->grid, *scene->isosurface, scene->topology, 2);
 }
 
-// The mesh of a start with few points has trouble in many places; the cells come in the same order.
-TEST(CellsInTrouble, AreTheSameForAnyNumberOfThreads) {
-  const auto scene = noise_scene({30, 29, 28}, 6);
-  const RaisedCells raised(scene->grid, *scene->isosurface);
-  RepairRound round(scene->grid, scene->topology, raised,
-                    std::make_unique<SignedDelaunay>(*scene->isosurface, scene->start()), 1);
-  round.take_plain_signs();
-  const MatchedMesh mesh = round.assemble().value();
-  const std::vector<bool> done(scene->topology.components.size(), false);
+TEST(CriticalPlaces, AreTheSameForAnyNumberOfThreads) {
+  const auto scene = noise_scene({40, 39, 38}, 6);
+  const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, 1);
-  ASSERT_GT(facts.critical_cells().size(), 3 * 4096u);  // several blocks
-  const auto cells = [&](int threads) {
-    return cells_in_trouble(
-        {scene->grid, scene->topology, round.restricted(), mesh, raised, round.component_of_vertex(), done,
-         std::vector<Places>(done.size()), facts.critical_cells(), round.evidence()},
-        threads);
-  };
-  const std::vector<CellName> one = cells(1);
-  EXPECT_GT(one.size(), 1000u);
-  for (const int threads : {2, 3, 5}) EXPECT_EQ(cells(threads), one) << threads;
+  ASSERT_GT(facts.critical_cells().size(), 2 * kBlockSize);
+  const CriticalPlaces one(restricted, scene->grid, facts.critical_cells(), 1);
+  for (const int threads : {2, 3, 5}) {
+    const CriticalPlaces many(restricted, scene->grid, facts.critical_cells(), threads);
+    ASSERT_EQ(many.places().size(), one.places().size());
+    for (std::size_t i = 0; i < one.places().size(); ++i) {
+      ASSERT_EQ(many.places()[i].point, one.places()[i].point) << threads;
+      ASSERT_EQ(many.places()[i].cell, one.places()[i].cell) << threads;
+      ASSERT_EQ(many.places()[i].tet, one.places()[i].tet) << threads;
+      ASSERT_EQ(many.places()[i].is_above, one.places()[i].is_above) << threads;
+    }
+  }
 }
 
 }  // namespace

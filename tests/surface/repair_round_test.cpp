@@ -1,0 +1,182 @@
+// Rounds of repair that go on from the one before must be like rounds made anew.
+#include "surface/repair_round.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/sample_lattice.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/surface_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::noise_scene;
+using testing::Scene;
+using testing::TetName;
+
+constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
+                                            SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
+
+std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vector<Vec3>& points) {
+  return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
+}
+
+std::vector<Vec3> points_of(const RepairRound& round) {
+  const auto points = round.restricted().delaunay().points();
+  return {points.begin(), points.end()};
+}
+
+std::vector<Vec3> all_crossings(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (const EdgeCrossing& c : scene.topology.crossings) {
+    points.push_back(scaled(crossing_position(scene.grid, c), scene.isosurface->step()));
+  }
+  return points;
+}
+
+std::map<TetName, int> evidence_by_name(const RepairRound& round) {
+  std::map<TetName, int> names;
+  const Tetrahedralization& delaunay = round.restricted().delaunay();
+  for (std::size_t i = 0; i < round.evidence().size(); ++i) {
+    if (delaunay.is_live(TetId(i))) {
+      names[testing::name_of(delaunay, TetId(i))] = round.evidence()[i];
+    } else {
+      EXPECT_EQ(round.evidence()[i], 0);
+    }
+  }
+  return names;
+}
+
+// A mesh's triangles by the vertices of the triangulation, the least first; so copies of a vertex are not told apart. A
+// vertex on a subdivided edge, whose place may be rounded otherwise, counts as the infinite one.
+std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const RepairRound& round) {
+  const auto name = [&](std::uint32_t v) {
+    const VertexId vertex = built.vertex_of[v];
+    return built.mesh.points[v] == round.restricted().delaunay().point(vertex) ? vertex.value : kInfiniteVertex.value;
+  };
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& v : built.mesh.triangles) {
+    triangles.push_back({name(v[0]), name(v[1]), name(v[2])});
+    auto& triangle = triangles.back();
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& match) {
+  std::vector<std::array<std::int64_t, 5>> pieces;
+  for (const MeshPiece& piece : match.pieces) {
+    pieces.push_back({piece.topology.euler_characteristic, piece.topology.boundary_loops, piece.vertices,
+                      piece.component, piece.mixed ? 1 : 0});
+  }
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+// Takes signs by every rule in both and compares all that comes of it.
+void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
+  ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
+  ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
+  const std::vector<bool> all(points_of(fresh).size(), true);
+  for (const SignRule rule : kRules) {
+    continued.take_signs(rule);
+    fresh.take_signs(rule);
+    ASSERT_EQ(evidence_by_name(continued), evidence_by_name(fresh)) << where;
+    ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
+    // Circumcenters are rounded otherwise when the vertices of a tetrahedron stand in another order.
+    const std::vector<double>& heights = continued.pole_heights(all);
+    const std::vector<double>& fresh_heights = fresh.pole_heights(all);
+    ASSERT_EQ(heights.size(), fresh_heights.size()) << where;
+    for (std::size_t v = 0; v < heights.size(); ++v) {
+      ASSERT_NEAR(heights[v], fresh_heights[v], 1e-6 * fresh_heights[v]) << where << ", vertex " << v;
+    }
+    const auto mesh = continued.assemble();
+    const auto expected = fresh.assemble();
+    ASSERT_EQ(mesh.has_value(), expected.has_value()) << where;
+    if (!mesh) continue;
+    ASSERT_EQ(triangles_by_name(mesh->built, continued), triangles_by_name(expected->built, fresh)) << where;
+    ASSERT_EQ(mesh->built.mesh.points.size(), expected->built.mesh.points.size()) << where;
+    ASSERT_EQ(mesh->built.copies.size(), expected->built.copies.size()) << where;
+    ASSERT_EQ(sorted_pieces(mesh->match), sorted_pieces(expected->match)) << where;
+    ASSERT_EQ(mesh->match.agreement, expected->match.agreement) << where;
+    ASSERT_EQ(mesh->match.error, expected->match.error) << where;
+  }
+}
+
+// Raises some active cells one level.
+void raise_some(const Scene& scene, RaisedCells& raised, Rng& rng) {
+  std::vector<CellName> cells;
+  scene.topology.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+    if (rng.below(40) == 0) cells.push_back(raised.name(cell));
+  });
+  raised.raise(cells);
+}
+
+void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads) {
+  Rng rng(seed);
+  const SampleLattice lattice(scene.grid, scene.isovalue, scene.topology);
+  RaisedCells raised(scene.grid, *scene.isosurface);
+  RepairRound continued(scene.grid, scene.topology, raised, triangulation(scene, all_crossings(scene)), threads);
+  std::vector<Vec3> points = points_of(continued);
+  continued.take_plain_signs();
+  ASSERT_TRUE(continued.assemble());
+  for (int round = 1; round <= 5; ++round) {
+    const std::string where = scene.name + ", round " + std::to_string(round);
+    raise_some(scene, raised, rng);
+    std::vector<LatticeSample> samples;
+    for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, samples);
+    std::vector<Vec3> coming;
+    coming.reserve(samples.size());
+    for (const LatticeSample& sample : samples) coming.push_back(scaled(sample.point, scene.isosurface->step()));
+    if (round == 4) coming.clear();
+    std::vector<VertexId> leaving;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (rng.below(30) == 0 && round != 3) leaving.push_back(VertexId(i));
+    }
+
+    ExchangedPoints exchanged;
+    ASSERT_TRUE(continued.exchange(leaving, coming, exchanged)) << where;
+    std::vector<Vec3> left;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool leaves = std::find(leaving.begin(), leaving.end(), VertexId(i)) != leaving.end();
+      ASSERT_EQ(exchanged.renamed[i].is_none(), leaves) << where;
+      if (!leaves) left.push_back(points[i]);
+    }
+    left.insert(left.end(), coming.begin(), coming.end());
+    for (std::size_t i = 0; i < coming.size(); ++i) {
+      ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]), SignedDelaunay::snapped(coming[i]));
+    }
+    RepairRound fresh(scene.grid, scene.topology, raised, triangulation(scene, left), 1);
+    compare(continued, fresh, where);
+    if (::testing::Test::HasFatalFailure()) return;
+    points = points_of(continued);
+  }
+}
+
+TEST(RepairRound, GoingOnIsLikeBeginningAnew) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    go_on_and_compare(*noise_scene({11, 10, 9}, seed), seed, seed % 2 == 0 ? 3 : 1);
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Where many samples of the grid lie on facets.
+TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
+  go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
+}
+
+TEST(RepairRound, WithGuardsHasToBeginAnew) {
+  const auto scene = testing::field_scene("sphere", 12);
+  const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
+  RaisedCells raised(scene->grid, *scene->isosurface);
+  RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, points), 1);
+  ExchangedPoints exchanged;
+  const std::vector<Vec3> coming = {{5, 5, 5}};
+  EXPECT_FALSE(round.exchange({}, coming, exchanged));
+}
+
+}  // namespace
+}  // namespace deliso
