@@ -1,7 +1,6 @@
 #include "surface/repair.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "surface/poles.h"
 #include "surface/raised_cells.h"
 #include "surface/repair_round.h"
+#include "surface/repair_samples.h"
 #include "surface/sample_lattice.h"
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
@@ -29,12 +29,6 @@ constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 // A surface of so many crossings is polygonized as a whole when one of its components has to be.
 constexpr std::size_t kSmallSurface = 100000;
-// Samples are exchanged in place when that takes fewer insertions, a removal counted as so many, than a share of all.
-constexpr std::size_t kRemovalCost = 8;
-constexpr std::size_t kExchangeShare = 4;
-constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
-                                            SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
-
 class Repair {
  public:
   Repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
@@ -47,32 +41,20 @@ class Repair {
         lattice_(grid_, isosurface_.isovalue(), topology_),
         raised_(grid_, isosurface_),
         round_(std::in_place, grid_, topology_, raised_, std::move(restricted), threads),
+        samples_(round_->restricted()),
         done_(topology_.components.size(), false),
         best_(topology_.components.size(), Agreement::kNone) {}
 
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
  private:
-  struct Sample {
-    Vec3 point;             // in mesh space
-    std::uint64_t key = 0;  // of a lattice sample; 0 for a free one
-  };
-  // Samples to exchange.
-  struct Resampling {
-    std::vector<VertexId> leaving;
-    std::vector<Sample> coming;
-  };
-
   struct KeptMesh {
     std::shared_ptr<MatchedMesh> mesh;
     std::vector<bool> signs;  // that it was made with; empty once it has its pole heights
   };
 
   SurfaceMesh as_it_is();
-  void take_samples();
-  [[nodiscard]] Resampling resample() const;
-  void exchange(const Resampling& resampling);
-  void triangulate();
+  void resample();
   bool try_rule(SignRule rule);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
@@ -98,7 +80,7 @@ class Repair {
   RaisedCells raised_;
   std::optional<RepairRound> round_;
   bool is_own_ = false;                   // whether the triangulation is repair's own, not that of stage 1
-  std::vector<Sample> samples_;           // the vertices of the triangulation, in order, but for virtual ones
+  RepairSamples samples_;                 // its vertices
   std::shared_ptr<MatchedMesh> mesh_;     // the latest
   std::vector<bool> done_;                // of each exact component: needs no more work
   std::vector<Agreement> best_;           // of each: the best, kWithStrays at most, reached by some mesh in history_
@@ -109,7 +91,6 @@ class Repair {
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
-  take_samples();
   round_->take_plain_signs();
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble().value());
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
@@ -125,7 +106,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
                           round_->critical_places(facts_.critical_cells())}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     give_poles();
-    exchange(resample());
+    resample();
     try_rules(controls);
     try_signs(controls);
     stats_.rounds = round;
@@ -146,82 +127,22 @@ SurfaceMesh Repair::as_it_is() {
   return std::move(built.mesh);
 }
 
-void Repair::take_samples() {
-  const auto& points = round_->restricted().delaunay().points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!round_->restricted().is_virtual(VertexId(i))) samples_.push_back({points[i], 0});
-  }
-}
-
-// Free samples in raised cells go, lattice samples come. Free samples on the box stay: they carry its boundary curves.
-Repair::Resampling Repair::resample() const {
-  Resampling resampling;
-  std::vector<std::uint64_t> have;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const Sample& sample = samples_[i];
-    if (sample.key != 0) {
-      have.push_back(sample.key);
-    } else if (raised_.is_raised(raised_.name(raised_.cell_of(sample.point))) &&
-               !SignedDelaunay::on_box(isosurface_.box(), sample.point)) {
-      resampling.leaving.push_back(VertexId(i));
-    }
-  }
-  std::sort(have.begin(), have.end());
-  std::vector<LatticeSample> found;
-  for (const auto& [name, level] : raised_.levels()) lattice_.append(raised_.cell(name), level, found);
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-  std::uint64_t last = 0;
-  for (const LatticeSample& sample : found) {
-    if (sample.key == last || std::binary_search(have.begin(), have.end(), sample.key)) continue;
-    last = sample.key;
-    resampling.coming.push_back({scaled(sample.point, isosurface_.step()), sample.key});
-  }
-  return resampling;
-}
-
-// In the triangulation as it is when few samples change, else in one made anew. A lattice sample that equals a vertex
-// is not kept: should the vertex go, it is found again.
-void Repair::exchange(const Resampling& resampling) {
-  const auto& [leaving, coming] = resampling;
-  std::vector<Vec3> points;
-  points.reserve(coming.size());
-  for (const Sample& sample : coming) points.push_back(sample.point);
-  const bool are_few = kRemovalCost * leaving.size() + coming.size() < samples_.size() / kExchangeShare;
+// Exchanges samples: in the triangulation as it is when few change, else in one made anew.
+void Repair::resample() {
+  const Resampling resampling = samples_.resampling(raised_, lattice_, isosurface_);
   ExchangedPoints exchanged;
-  const bool is_exchanged = is_own_ && are_few && round_->exchange(leaving, points, exchanged);
-  std::size_t kept = 0;
-  for (std::size_t i = 0, gone = 0; i < samples_.size(); ++i) {
-    if (gone < leaving.size() && leaving[gone] == VertexId(i)) {
-      ++gone;
-    } else {
-      samples_[kept++] = samples_[i];
-    }
-  }
-  samples_.resize(kept);
-  if (!is_exchanged) {
-    samples_.insert(samples_.end(), coming.begin(), coming.end());
-    triangulate();
+  if (is_own_ && samples_.changes_few(resampling) &&
+      round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
+    samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
-  for (std::size_t i = 0; i < coming.size(); ++i) {
-    if (exchanged.vertex_of[i] == VertexId(samples_.size())) samples_.push_back(coming[i]);
-  }
-}
-
-void Repair::triangulate() {
-  std::vector<Vec3> points;
-  points.reserve(samples_.size());
-  for (const Sample& sample : samples_) points.push_back(sample.point);
+  samples_.replace(resampling);
   round_.reset();
   std::vector<VertexId> vertex_of;
-  round_.emplace(grid_, topology_, raised_, std::make_unique<SignedDelaunay>(isosurface_, points, threads_, &vertex_of),
-                 threads_);
+  round_.emplace(grid_, topology_, raised_,
+                 std::make_unique<SignedDelaunay>(isosurface_, samples_.points(), threads_, &vertex_of), threads_);
+  samples_.take_vertices(vertex_of);
   is_own_ = true;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (vertex_of[i] == VertexId(kept)) samples_[kept++] = samples_[i];
-  }
-  samples_.resize(kept);
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
@@ -238,7 +159,7 @@ bool Repair::try_rule(SignRule rule) {
 void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
   std::vector<bool> signs;
-  for (const SignRule rule : kRules) {
+  for (const SignRule rule : kSignRules) {
     if (try_rule(rule)) return;
     if (best && mesh_->match.error >= best->match.error) continue;
     best = mesh_;
@@ -256,7 +177,7 @@ void Repair::try_signs(Controls& controls) {
   std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < done_.size(); ++c) {
     if (done_[c] || places[c].empty()) continue;
-    if (!trials) trials.emplace(*round_, topology_, raised_, kRules);
+    if (!trials) trials.emplace(*round_, topology_, raised_, kSignRules);
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       keep();

@@ -5,6 +5,7 @@
 // everywhere; repair tries them in turn.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@ enum class SignRule {
   kCentroidWhereOpposed,  // the same, only where the gradients at two of the vertices oppose each other
   kCircumcenter,
 };
+// All of them, in the order in which repair tries them.
+inline constexpr std::array<SignRule, 4> kSignRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
+                                                       SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
 // The rules for one triangulation and the raised cells. What the rules have in common is found once, and again only
 // where points have been exchanged or cells raised.
