@@ -1,7 +1,6 @@
 #include "surface/refine.h"
 
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -27,17 +26,17 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
 }
 
 // Refines a part; again from where it began, with no trust around them, when more triangles of the result meet than
-// before. What has the fewest such pairs stays; returns their number.
-std::int64_t refine_part(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options,
-                         Controls& controls, RefineStats& stats) {
+// before. What has the fewest such pairs stays.
+void refine_part(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+                 int threads, RefineStats& stats) {
   const auto run = [&](RefineStats& counted) { Refinement(part, isosurface, options, counted).run(controls); };
   const RefinementMesh start = options.restart_at_crossings ? part.mesh : RefinementMesh();
   run(stats);
-  if (!options.restart_at_crossings) return 0;
-  SelfIntersections found = meeting_pairs(part.mesh, 1);
+  if (!options.restart_at_crossings) return;
+  SelfIntersections found = meeting_pairs(part.mesh, threads);
   std::int64_t fewest = count_of(found);
-  if (fewest == 0) return 0;
-  const std::int64_t before = count_of(meeting_pairs(start, 1));
+  if (fewest == 0) return;
+  const std::int64_t before = count_of(meeting_pairs(start, threads));
   std::vector<Vec3> suspects;
   for (std::int64_t restarts = 1; restarts <= kMostRestarts && fewest > before && !controls.poll(); ++restarts) {
     add_places(found, suspects);
@@ -45,7 +44,7 @@ std::int64_t refine_part(RefinementPart& part, const Isosurface& isosurface, con
     distrust(part.mesh, suspects);
     RefineStats counted;
     run(counted);
-    found = meeting_pairs(part.mesh, 1);
+    found = meeting_pairs(part.mesh, threads);
     counted.search += stats.search;
     // A restart that had to stop half-way is worth less than what was finished before.
     if (count_of(found) < fewest && !controls.stopped()) {
@@ -57,13 +56,12 @@ std::int64_t refine_part(RefinementPart& part, const Isosurface& isosurface, con
     }
     stats.restarts = restarts;
   }
-  return fewest;
 }
 
-// Refines in the whole what the slabs refused. Where that makes more triangles meet than `before`, it is taken back and
-// done again with no trust around them.
-void refine_rest(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, std::int64_t before,
-                 Controls& controls, RefineStats& stats) {
+// Refines in the whole what the slabs refused. Where new triangles meet others, all of it is taken back and done again
+// with no trust around them, up to three times.
+void refine_rest(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+                 RefineStats& stats) {
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
     Refinement rest(mesh, isosurface, options, counted);
@@ -71,7 +69,7 @@ void refine_rest(RefinementMesh& mesh, const Isosurface& isosurface, const Refin
     stats.search += counted.search;
     SelfIntersections found;
     if (options.restart_at_crossings) found = meeting_pairs_of_renewed(mesh, options.threads);
-    if (count_of(found) <= before || restarts == kMostRestarts || controls.poll()) {
+    if (count_of(found) == 0 || restarts == kMostRestarts || controls.poll()) {
       stats.add_insertions(counted);
       stats.refused = counted.refused;
       stats.restarts += restarts;
@@ -90,14 +88,17 @@ void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const Refi
   RefinementSlabs slabs(mesh, options.slab_triangles);
   std::vector<RefinementPart>& parts = slabs.parts();
   std::vector<RefineStats> counted(parts.size());
-  std::vector<std::int64_t> meeting(parts.size());
   std::vector<Controls> limits;
   for (const RefinementPart& part : parts) {
     const std::size_t vertices = mesh.vertices.size();
     limits.push_back(controls.for_part(1.0 / static_cast<double>(parts.size()), vertices, part.mesh.vertices.size()));
   }
-  run_tasks(parts.size(), options.threads,
-            [&](std::size_t k) { meeting[k] = refine_part(parts[k], isosurface, options, limits[k], counted[k]); });
+  // A mesh in one part uses the limits and the threads of the whole.
+  const bool is_whole = parts.size() == 1;
+  run_tasks(parts.size(), options.threads, [&](std::size_t k) {
+    refine_part(parts[k], isosurface, options, is_whole ? controls : limits[k], is_whole ? options.threads : 1,
+                counted[k]);
+  });
   slabs.join(mesh);
   controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) {
@@ -105,11 +106,10 @@ void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const Refi
     stats.restarts += part.restarts;
     stats.search += part.search;
   }
-  if (counted.size() == 1) {
+  if (is_whole) {
     stats.refused = counted.front().refused;
   } else {
-    refine_rest(mesh, isosurface, options, std::accumulate(meeting.begin(), meeting.end(), std::int64_t{0}), controls,
-                stats);
+    refine_rest(mesh, isosurface, options, controls, stats);
   }
 }
 

@@ -12,7 +12,7 @@ inline constexpr std::size_t kMostMeetingPairs = 1000;
 // All pairs.
 SelfIntersections meeting_pairs(const RefinementMesh& mesh, int threads);
 
-// The pairs with a triangle that has been renewed since the mesh was made or joined, and perhaps others near them.
+// The pairs with a triangle that has been renewed since the mesh was made or joined.
 SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threads);
 
 }  // namespace deliso

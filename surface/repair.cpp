@@ -1,7 +1,6 @@
 #include "surface/repair.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -29,6 +28,7 @@ constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 // A surface of so many crossings is polygonized as a whole when one of its components has to be.
 constexpr std::size_t kSmallSurface = 100000;
+
 class Repair {
  public:
   Repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
@@ -260,6 +260,14 @@ void Repair::give_poles() {
 SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
   std::vector<bool> taken(done_.size(), false);
+  stats_.components_polygonized = std::count(best_.begin(), best_.end(), Agreement::kNone);
+  // Pieces of two meshes may cross where components come near each other; a small surface is polygonized as a whole.
+  if (stats_.components_polygonized > 0 && topology_.crossings.size() <= kSmallSurface) {
+    stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
+    taken.flip();
+    append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
+    return kept;
+  }
   for (auto at = history_.rbegin(); at != history_.rend(); ++at) {
     MatchedMesh* const mesh = at->mesh.get();
     const ComponentMatch& match = mesh->match;
@@ -275,15 +283,7 @@ SurfaceMesh Repair::assemble_kept() {
     separate_copies(mesh->built.mesh, mesh->built.groups, mesh->built.vertex_of, isosurface_.box());
     append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
-  stats_.components_polygonized = std::count(taken.begin(), taken.end(), false);
   if (stats_.components_polygonized == 0) return kept;
-  // Pieces of two meshes may cross where components come near each other; a small surface is then polygonized as a
-  // whole.
-  if (topology_.crossings.size() <= kSmallSurface) {
-    kept = {};
-    taken.assign(taken.size(), false);
-    stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
-  }
   taken.flip();
   append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
   return kept;

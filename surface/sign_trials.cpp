@@ -14,6 +14,8 @@ namespace {
 // How many layers from the places tetrahedra are tried: disputed ones, and others one by one.
 constexpr std::int32_t kReach = 6;
 constexpr std::int32_t kReachOfSingles = 3;
+// A handle is a matter of few tetrahedra.
+constexpr std::size_t kLargestCluster = 100;
 // Meshes built for one component at most, for the ones and the others.
 constexpr int kMostTrials = 64;
 constexpr int kMostTrialsOfSingles = 16;
@@ -117,6 +119,7 @@ bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most,
     const ComponentTopology lacks = missing(*mesh, component);
     if (lacks.euler_characteristic == 0 || controls.poll()) return false;
     if (trials == most) break;
+    if (cluster.tets.size() > kLargestCluster) continue;
     if (!has_neighbour_of_other_sign(round_.restricted(), cluster.tets)) continue;
     const std::int64_t change = round_.change_of_characteristic(cluster.tets);
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;

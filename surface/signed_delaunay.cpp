@@ -16,6 +16,7 @@ constexpr double kGuardDistance = 16;
 // Smaller coordinates count as zero: the exact predicates do not reach down to them, and a surface point may lie as
 // near to a side of the box as its data please.
 constexpr double kSmallestCoordinate = 0x1p-100;
+
 Box3 box_with_guards(const Box3& box) {
   const double reach = (kGuardDistance + 1) * box.diagonal();
   Box3 large = box;

@@ -34,9 +34,9 @@ SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface,
   if (threads < 2) return;
   try {
     // Through futures of its own; what a search throws is thrown to those who ask.
-    finder_ = std::jthread([cells = critical_cells_, surface = polygonized_] {
+    finder_ = std::jthread([cells = critical_cells_, surface = polygonized_](const std::stop_token& stop) {
       cells.wait();
-      surface.wait();
+      if (!stop.stop_requested()) surface.wait();  // nobody will ask any more
     });
   } catch (const std::exception&) {
     // No thread to be had: facts are found when they are asked for.

@@ -122,7 +122,7 @@ TEST_F(RunCommand, AnInterruptedRunEndsWithThreeAndGoesOn) {
   document["repeats"] = 40;
   write_file(folder_ / "long.json", json_text(document));
   const ProgramResult stopped = run_deliso({"run", folder_ / "long.json", "--out", folder_ / "out"},
-                                           SignalAfter{SIGINT, std::chrono::milliseconds(60)});
+                                           SignalAfter{.file = folder_ / "out/records.jsonl"});
   EXPECT_EQ(stopped.exit_code, 3) << stopped.err;
   EXPECT_MESSAGE(stopped.err, "--resume goes on");
   EXPECT_EQ(stopped.out, "");

@@ -28,6 +28,16 @@ namespace {
   _exit(127);
 }
 
+// Until a file holds something, or for a minute: whoever waits for more will see that it does not.
+void wait_for(const std::filesystem::path& file) {
+  const Stopwatch stopwatch;
+  std::error_code ignored;
+  while (stopwatch.seconds() < 60 &&
+         !(std::filesystem::exists(file, ignored) && std::filesystem::file_size(file, ignored) > 0)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 }  // namespace
 
 ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optional<SignalAfter> signal) {
@@ -39,6 +49,7 @@ ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optiona
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) become_program(arguments, out, err);
   if (signal) {
+    if (!signal->file.empty()) wait_for(signal->file);
     std::this_thread::sleep_for(signal->delay);
     kill(child, signal->signal);  // a program that has ended is not waited for yet, so its id is still its own
   }

@@ -21,6 +21,7 @@ struct ProgramResult {
 struct SignalAfter {
   int signal = SIGINT;
   std::chrono::milliseconds delay{0};
+  std::filesystem::path file = {};  // when given, the delay begins once this file holds something
 };
 
 // Runs the program of this build to its end.

@@ -251,13 +251,17 @@ TEST(Refine, StoppedAtAnyMomentTheMeshIsWhole) {
   const auto scene = field_scene("gyroid", 14);
   const SurfaceMesh start = stage1_mesh(*scene);
   const auto facts = test::mesh_facts(start.triangles).components;
-  for (const std::int64_t more : {0, 1, 2, 13, 200}) {
+  for (const auto& [more, slab_triangles] : std::vector<std::pair<std::int64_t, std::size_t>>{
+           {0, 100}, {1, 100}, {2, 100}, {13, 100}, {200, 100}, {0, 100000}, {1, 100000}, {200, 100000}}) {
+    SCOPED_TRACE(slab_triangles);
     SurfaceMesh mesh = start;
     BudgetParameters budget;
     budget.max_vertices = static_cast<std::int64_t>(mesh.points.size()) + more;
     Controls controls(budget, nullptr, {});
     RefineStats stats;
-    refine(mesh, *scene->isosurface, fine_options(), controls, stats);
+    RefineOptions options = fine_options();
+    options.slab_triangles = slab_triangles;
+    refine(mesh, *scene->isosurface, options, controls, stats);
     EXPECT_TRUE(controls.stopped());
     EXPECT_EQ(stats.insertions, more);
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "");
