@@ -1,7 +1,6 @@
 #include "surface/refinement_slabs.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "delaunay/base/box3.h"
 
@@ -16,9 +15,7 @@ constexpr std::size_t kRoomForRest = 4;
 }  // namespace
 
 RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles) {
-  // Powers of two, which two or four threads share evenly.
-  const std::size_t count = std::clamp<std::size_t>(whole.triangles.size() / slab_triangles, 1, kMostParts);
-  parts_.resize(std::bit_ceil(count));
+  parts_.resize(std::clamp<std::size_t>(whole.triangles.size() / slab_triangles, 1, kMostParts));
   choose_planes(whole);
   assign(whole);
   for (std::uint32_t k = 0; k < parts_.size(); ++k) fill(whole, k);

@@ -28,8 +28,8 @@ struct RefinementPart {
 
 class RefinementSlabs {
  public:
-  // Cuts a mesh whose balls are known into 1, 2, 4 or 8 parts of about `slab_triangles` or more, but half as many at
-  // least.
+  // Cuts a mesh whose balls are known into at most 8 parts of `slab_triangles` or more, about; a small one is one
+  // part.
   RefinementSlabs(const RefinementMesh& whole, std::size_t slab_triangles);
 
   [[nodiscard]] std::vector<RefinementPart>& parts() { return parts_; }

@@ -44,7 +44,7 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   ASSERT_EQ(testing::surface_mesh_defect(mesh), "");
   RefinementMesh whole(mesh);
   RefinementSlabs slabs(whole, 8192);
-  ASSERT_EQ(slabs.parts().size(), 4u);
+  ASSERT_EQ(slabs.parts().size(), 3u);
   std::size_t free_triangles = 0;
   for (const RefinementPart& part : slabs.parts()) {
     EXPECT_GT(part.frozen, 0u);
