@@ -126,12 +126,12 @@ CrossingGuard::CrossingGuard(const RefinementMesh& mesh) : mesh_(mesh) {
 }
 
 void CrossingGuard::learn(std::uint32_t triangle) {
-  if (is_tight(triangle)) tight_.add(triangle, box_of(mesh_.corner_points(mesh_.triangles[triangle].corners)));
+  if (is_tight(triangle)) tight_.add(triangle, mesh_.box_of(triangle));
 }
 
 void CrossingGuard::forget(std::uint32_t triangle) {
   if (!tight_.holds(triangle)) return;
-  tight_.remove(triangle, box_of(mesh_.corner_points(mesh_.triangles[triangle].corners)));
+  tight_.remove(triangle, mesh_.box_of(triangle));
 }
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {

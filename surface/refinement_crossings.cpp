@@ -5,18 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "delaunay/base/box3.h"
 #include "surface/box_tree.h"
 
 namespace deliso {
 
 namespace {
-
-Box3 box_of(const RefinementMesh& mesh, std::uint32_t triangle) {
-  Box3 box;
-  for (const std::uint32_t v : mesh.triangles[triangle].corners) box.extend(mesh.vertices[v].point);
-  return box;
-}
 
 std::vector<Vec3> points_of(const RefinementMesh& mesh) {
   std::vector<Vec3> points;
@@ -41,12 +34,12 @@ SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threa
   }
   if (renewed.empty()) return {};
   const BoxTree tree(
-      renewed.size(), [&](std::size_t i) { return box_of(mesh, renewed[i]); }, threads);
+      renewed.size(), [&](std::size_t i) { return mesh.box_of(renewed[i]); }, threads);
   std::vector<std::uint32_t> near;
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     bool is_near = mesh.triangles[t].is_renewed();
-    if (!is_near) tree.for_each_meeting(box_of(mesh, t), [&](std::uint32_t) { is_near = true; });
+    if (!is_near) tree.for_each_meeting(mesh.box_of(t), [&](std::uint32_t) { is_near = true; });
     if (!is_near) continue;
     near.push_back(t);
     corners.push_back(mesh.triangles[t].corners);

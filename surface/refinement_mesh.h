@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/box3.h"
 #include "delaunay/base/huge_pages.h"
 #include "delaunay/base/vec3.h"
 #include "surface/surface_mesh.h"
@@ -60,6 +61,12 @@ struct RefinementMesh {
   }
   [[nodiscard]] std::array<Vec3, 3> corner_points(const std::array<std::uint32_t, 3>& corners) const {
     return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
+  }
+
+  [[nodiscard]] Box3 box_of(std::uint32_t triangle) const {
+    Box3 box;
+    for (const std::uint32_t v : triangles[triangle].corners) box.extend(vertices[v].point);
+    return box;
   }
 
   // Clears what a refinement that is over has noted: attempts, refusals and generations.

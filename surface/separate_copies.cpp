@@ -34,10 +34,10 @@ class Separation {
   }
 
   void run() {
-    bool moved = true;
-    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) moved = sweep_over_groups(sweep == 0, false);
-    for (int sweep = 0; sweep < kStubbornSweeps && (sweep == 0 || moved); ++sweep) {
-      moved = sweep_over_groups(false, true);
+    Sweep last{true, true};
+    for (int sweep = 0; sweep < kSweeps && last.has_moved; ++sweep) last = sweep_over_groups(sweep == 0, false);
+    for (int sweep = 0; sweep < kStubbornSweeps && last.had_conflicts && (sweep == 0 || last.has_moved); ++sweep) {
+      last = sweep_over_groups(false, true);
     }
   }
 
@@ -49,7 +49,11 @@ class Separation {
     bool has_area = false;
   };
 
-  bool sweep_over_groups(bool all, bool is_stubborn);
+  struct Sweep {
+    bool has_moved = false;
+    bool had_conflicts = false;  // some copy had, when its turn came
+  };
+  Sweep sweep_over_groups(bool all, bool is_stubborn);
   void find_fans();
   void find_surroundings(const CopyGroup& group);
   void look_again_at(std::uint32_t copy);
@@ -83,19 +87,21 @@ class Separation {
   std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
 };
 
-// Moves all copies, or those with conflicts; true when one has moved.
-bool Separation::sweep_over_groups(bool all, bool is_stubborn) {
-  bool moved = false;
+// Moves all copies, or those with conflicts.
+Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
+  Sweep sweep;
   for (const CopyGroup& group : groups_) {
     find_surroundings(group);
     for (const Copy& copy : group) {
       const Vec3 before = mesh_.points[copy.vertex];
       const int now = all ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
-      if (now > 0) move(copy, now, is_stubborn);
-      moved |= mesh_.points[copy.vertex] != before;
+      if (now == 0) continue;
+      move(copy, now, is_stubborn);
+      sweep.had_conflicts = true;
+      sweep.has_moved |= mesh_.points[copy.vertex] != before;
     }
   }
-  return moved;
+  return sweep;
 }
 
 // The triangles at all vertices that stand beside a copy.
@@ -166,7 +172,7 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
     for (const Vec3& towards : directions(v, is_stubborn)) {
-      for (const double length : std::span(kDistances).first(is_stubborn ? 4 : 3)) {
+      for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest == 0) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
         const int left = conflicts(v);
