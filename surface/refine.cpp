@@ -1,5 +1,6 @@
 #include "surface/refine.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "surface/crossing_guard.h"
 #include "surface/refinement.h"
 #include "surface/refinement_crossings.h"
+#include "surface/refinement_planes.h"
 #include "surface/refinement_slabs.h"
 
 namespace deliso {
@@ -17,6 +19,17 @@ namespace {
 // Starts again at most this often.
 constexpr std::int64_t kMostRestarts = 3;
 
+// A first round renews most triangles of a part; a later one, of what others have left coarse, few.
+enum class Round { kFirst, kLater };
+
+// What all rounds of a refinement share.
+struct Task {
+  const Isosurface& isosurface;
+  const RefineOptions& options;
+  Controls& controls;
+  RefineStats& stats;
+};
+
 std::int64_t count_of(const SelfIntersections& found) { return found.crossing_pairs + found.touching_pairs; }
 
 void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
@@ -25,92 +38,70 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
   }
 }
 
-// Refines a part; again from where it began, with no trust around them, when more triangles of the result meet than
-// before. What has the fewest such pairs stays.
-void refine_part(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-                 int threads, RefineStats& stats) {
-  const auto run = [&](RefineStats& counted) { Refinement(part, isosurface, options, counted).run(controls); };
-  const RefinementMesh start = options.restart_at_crossings ? part.mesh : RefinementMesh();
-  run(stats);
-  if (!options.restart_at_crossings) return;
-  SelfIntersections found = meeting_pairs(part.mesh, threads);
-  std::int64_t fewest = count_of(found);
-  if (fewest == 0) return;
-  const std::int64_t before = count_of(meeting_pairs(start, threads));
-  std::vector<Vec3> suspects;
-  for (std::int64_t restarts = 1; restarts <= kMostRestarts && fewest > before && !controls.poll(); ++restarts) {
-    add_places(found, suspects);
-    RefinementMesh least = std::exchange(part.mesh, start);
-    distrust(part.mesh, suspects);
-    RefineStats counted;
-    run(counted);
-    found = meeting_pairs(part.mesh, threads);
-    counted.search += stats.search;
-    // A restart that had to stop half-way is worth less than what was finished before.
-    if (count_of(found) < fewest && !controls.stopped()) {
-      fewest = count_of(found);
-      stats = counted;
-    } else {
-      stats.search = counted.search;
-      part.mesh = std::move(least);
-    }
-    stats.restarts = restarts;
-  }
-}
-
-// Refines in the whole what the slabs refused. Where new triangles meet others, all of it is taken back and done again
-// with no trust around them, up to three times.
-void refine_rest(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+// Refines a part; where more triangles came to meet than before, takes all back and does it again, with no trust around
+// them. What has the fewest such pairs stays.
+void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, int threads,
                  RefineStats& stats) {
+  const auto meeting = [&] {
+    return round == Round::kFirst ? meeting_pairs(part.mesh, threads) : meeting_pairs_of_renewed(part.mesh, threads);
+  };
+  RefinementMesh least;
+  std::int64_t fewest = 0, before = 0;
+  std::vector<Vec3> suspects;
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
-    Refinement rest(mesh, isosurface, options, counted);
-    rest.run_on_trial(controls);
-    stats.search += counted.search;
-    SelfIntersections found;
-    if (options.restart_at_crossings) found = meeting_pairs_of_renewed(mesh, options.threads);
-    if (count_of(found) == 0 || restarts == kMostRestarts || controls.poll()) {
-      stats.add_insertions(counted);
-      stats.refused = counted.refused;
-      stats.restarts += restarts;
+    Refinement refinement(part, task.isosurface, task.options, counted);
+    refinement.run(controls);
+    if (!task.options.restart_at_crossings) {
+      stats = counted;
       return;
     }
-    std::vector<Vec3> suspects;
+    const SelfIntersections found = meeting();
+    counted.search += stats.search;
+    stats.search = counted.search;
+    stats.restarts = counted.restarts = restarts;
+    // A restart that had to stop half-way is worth less than what was finished before.
+    const bool is_best = restarts == 0 || (count_of(found) < fewest && !controls.stopped());
+    if (is_best) {
+      fewest = count_of(found);
+      stats = counted;
+    }
+    if (is_best && fewest <= before) return;
+    if (is_best) least = part.mesh;
+    refinement.take_back();
+    if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads));
+    if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     add_places(found, suspects);
-    rest.take_back();
-    distrust(mesh, suspects);
+    distrust(part.mesh, suspects);
   }
+  part.mesh = std::move(least);
 }
 
-// Refines the slabs apart from each other, then the rest. Of the counters of slabs those of insertions count.
-void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-                  RefineStats& stats) {
-  RefinementSlabs slabs(mesh, options.slab_triangles);
-  std::vector<RefinementPart>& parts = slabs.parts();
+// Refines slabs apart from each other.
+void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, const Task& task) {
+  RefinementSlabs cut(mesh, slabs, task.options.threads);
+  std::vector<RefinementPart>& parts = cut.parts();
   std::vector<RefineStats> counted(parts.size());
   std::vector<Controls> limits;
   for (const RefinementPart& part : parts) {
-    const std::size_t vertices = mesh.vertices.size();
-    limits.push_back(controls.for_part(1.0 / static_cast<double>(parts.size()), vertices, part.mesh.vertices.size()));
+    const double share = 1.0 / static_cast<double>(parts.size());
+    limits.push_back(task.controls.for_part(share, mesh.vertices.size(), part.mesh.vertices.size()));
   }
-  // A mesh in one part uses the limits and the threads of the whole.
-  const bool is_whole = parts.size() == 1;
-  run_tasks(parts.size(), options.threads, [&](std::size_t k) {
-    refine_part(parts[k], isosurface, options, is_whole ? controls : limits[k], is_whole ? options.threads : 1,
-                counted[k]);
-  });
-  slabs.join(mesh);
-  controls.poll();  // what made parts stop stops the rest
-  for (const RefineStats& part : counted) {
-    stats.add_insertions(part);
-    stats.restarts += part.restarts;
-    stats.search += part.search;
-  }
-  if (is_whole) {
-    stats.refused = counted.front().refused;
-  } else {
-    refine_rest(mesh, isosurface, options, controls, stats);
-  }
+  run_tasks(parts.size(), task.options.threads,
+            [&](std::size_t k) { refine_part(parts[k], Round::kFirst, task, limits[k], 1, counted[k]); });
+  cut.join(mesh);
+  task.controls.poll();  // what made parts stop stops the rest
+  for (const RefineStats& part : counted) task.stats.add(part);
+}
+
+// Refines in the whole what is still coarse.
+void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
+  RefinementPart whole;
+  std::swap(whole.mesh, mesh);
+  RefineStats counted;
+  refine_part(whole, round, task, task.controls, task.options.threads, counted);
+  std::swap(whole.mesh, mesh);
+  task.stats.add(counted);
 }
 
 }  // namespace
@@ -118,11 +109,21 @@ void refine_slabs(RefinementMesh& mesh, const Isosurface& isosurface, const Refi
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
   if (controls.stopped()) return;
-  RefinementMesh refined(mesh);
+  const Task task{isosurface, options, controls, stats};
+  RefinementPart whole;
+  RefinementMesh& refined = whole.mesh;
+  refined = RefinementMesh(mesh);
   set_clearances(refined);
-  Refinement(refined, isosurface, options, stats).measure_all();
-  refine_slabs(refined, isosurface, options, controls, stats);
-  Refinement(refined, isosurface, options, stats).count_stopped();
+  const std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
+  const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles);
+  if (slabs.size() == 1) {
+    refine_whole(refined, Round::kFirst, task);
+  } else {
+    refine_slabs(refined, slabs, task);
+    refine_whole(refined, Round::kLater, task);
+  }
+  stats.stopped_at_r_min = std::count_if(refined.triangles.begin(), refined.triangles.end(),
+                                         [](const RefinementMesh::Triangle& t) { return t.is_too_small(); });
   if (balls != nullptr) {
     balls->clear();
     for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);

@@ -57,10 +57,14 @@ struct RefineStats : StageStats {
   std::int64_t restarts = 0;          // of a slab, or of what is done in the whole
   SearchCounters search;
 
-  void add_insertions(const RefineStats& part) {
+  // Adds what is counted in a part of the mesh.
+  void add(const RefineStats& part) {
     insertions += part.insertions;
     boundary_splits += part.boundary_splits;
     halvings += part.halvings;
+    for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += part.refused[i];
+    restarts += part.restarts;
+    search += part.search;
   }
 };
 

@@ -17,8 +17,9 @@ constexpr double kFarthestMove = 0.8;
 }  // namespace
 
 void Refinement::run(Controls& controls) {
+  start_.emplace(mesh_);
   guard_.emplace(mesh_);
-  queue_bad_triangles();
+  queue_coarse_triangles();
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto queued = queue_.pop();
     if (!queued && !retry_crossed()) break;
@@ -28,20 +29,33 @@ void Refinement::run(Controls& controls) {
   guard_.reset();
 }
 
-void Refinement::run_on_trial(Controls& controls) {
-  before_ = {{}, std::vector<bool>(mesh_.triangles.size(), false), mesh_.vertices.size()};
-  run(controls);
-}
-
 void Refinement::take_back() {
-  for (const auto& [t, triangle] : before_->triangles) mesh_.triangles[t] = triangle;
-  mesh_.triangles.resize(before_->is_kept.size());
-  mesh_.vertices.resize(before_->vertex_count);
-  mesh_.forget_attempts();
+  start_->restore(mesh_);
+  start_.reset();
 }
 
-void Refinement::queue_if_bad(std::uint32_t triangle, const NewTriangle& measured) {
-  if (!may_be_refined(measured)) return;
+void Refinement::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
+  if (t >= is_kept_.size() || is_kept_[t]) return;
+  is_kept_[t] = true;
+  places_.push_back(t);
+  triangles_.push_back(mesh.triangles[t]);
+}
+
+void Refinement::Start::restore(RefinementMesh& mesh) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) mesh.triangles[places_[i]] = triangles_[i];
+  mesh.triangles.resize(is_kept_.size());
+  mesh.vertices.resize(vertex_count_);
+  mesh.forget_attempts();
+}
+
+// What another part left coarse is to be tried again; frozen triangles stay as they are.
+void Refinement::queue_coarse_triangles() {
+  for (std::uint32_t t = part_.frozen; t < mesh_.triangles.size(); ++t) {
+    if (mesh_.triangles[t].is_coarse()) requeue(t);
+  }
+}
+
+void Refinement::queue(std::uint32_t triangle, const NewTriangle& measured) {
   const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
   if (options_.order == QueueOrder::kFirstInFirstOut) {
     queue_.push_by_age(queued);
@@ -56,6 +70,7 @@ void Refinement::queue_if_bad(std::uint32_t triangle, const NewTriangle& measure
 bool Refinement::treat(std::uint32_t triangle) {
   const SurfaceDelaunayBall ball = ball_of(triangle);
   const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
+  const std::uint32_t state = mesh_.triangles[triangle].state;
   TriangleSide encroached = kNoSide;
   is_blocked_ = false;
   std::optional<Refusal> refusal = insert(candidate, &encroached);
@@ -74,12 +89,17 @@ bool Refinement::treat(std::uint32_t triangle) {
     }
   }
   if (refusal) {
-    ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    mesh_.triangles[triangle].state |= RefinementMesh::Triangle::kRefused;
+    // In another part it may be refined; or else it stays as it is.
+    start_->keep(triangle, mesh_);
+    mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
+    mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
+    if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
   ++stats_.insertions;
+  // A point on the boundary may have left the triangle as it was.
+  if (mesh_.triangles[triangle].state == state) requeue(triangle);
   return true;
 }
 
@@ -87,7 +107,7 @@ bool Refinement::treat(std::uint32_t triangle) {
 // reported and nothing is inserted.
 std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
   disk_.grow(candidate, [this](std::uint32_t t) { return ball_of(t); });
-  if (disk_.is_blocked() || (part_ != nullptr && !part_->contains(candidate.point))) {
+  if (disk_.is_blocked() || !part_.slab.contains(candidate.point)) {
     is_blocked_ = true;
     return Refusal::kNotADisk;
   }
@@ -154,13 +174,10 @@ void Refinement::replace_disk(const Candidate& candidate) {
   const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
   const std::span<const std::uint32_t> old = disk_.triangles();
   const std::span<const RimEdge> rim = disk_.rim();
-  if (before_) {
-    for (const std::uint32_t t : old) before_->keep(t, mesh_);
-    for (const RimEdge& edge : rim) {
-      if (edge.outer != kNoSide) before_->keep(edge.outer >> 2, mesh_);
-    }
+  for (const std::uint32_t t : old) {
+    start_->keep(t, mesh_);
+    guard_->forget(t);
   }
-  for (const std::uint32_t t : old) guard_->forget(t);
   mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
   const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());
   mesh_.triangles.resize(first_new + rim.size());
@@ -175,11 +192,14 @@ void Refinement::replace_disk(const Candidate& candidate) {
     triangle.corners = {p, edge.from, edge.to};
     triangle.neighbours = {edge.outer, last ? kNoSide : 4 * slot((i + 1) % count) + 2,
                            first ? kNoSide : 4 * slot((i + count - 1) % count) + 1};
-    if (edge.outer != kNoSide) mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
+    if (edge.outer != kNoSide) {
+      start_->keep(edge.outer >> 2, mesh_);
+      mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
+    }
     triangle.renew();
-    triangle.set_ball(star_[i].ball, star_[i].has_hit);
+    learn(t, star_[i]);
     guard_->learn(t);
-    queue_if_bad(t, star_[i]);
+    if (triangle.is_coarse()) queue(t, star_[i]);
   }
 }
 
@@ -197,8 +217,11 @@ bool Refinement::retry_crossed() {
 }
 
 void Refinement::requeue(std::uint32_t triangle) {
-  mesh_.triangles[triangle].state &= ~RefinementMesh::Triangle::kRefused;
-  queue_if_bad(triangle, measured(triangle));
+  start_->keep(triangle, mesh_);
+  RefinementMesh::Triangle& t = mesh_.triangles[triangle];
+  t.set(RefinementMesh::Triangle::kRefused, false);
+  t.set(RefinementMesh::Triangle::kCoarse, true);
+  queue(triangle, measured(triangle));
 }
 
 // Triangles around the new star that were refused before get another chance.

@@ -20,25 +20,20 @@ namespace deliso {
 class Refinement {
  public:
   // Of a mesh whose vertices have clearances.
-  Refinement(RefinementMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(mesh), isosurface_(isosurface), options_(options), stats_(stats), disk_(mesh) {}
   Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
-      : mesh_(part.mesh),
-        part_(&part),
+      : part_(part),
+        mesh_(part.mesh),
         isosurface_(isosurface),
         options_(options),
         stats_(stats),
         disk_(part.mesh, part.frozen) {}
 
-  // Finds the balls of all triangles.
-  void measure_all();
-  // Refines what has balls.
+  // Finds the balls of all triangles and which are coarse; returns an estimate of the insertions that each will need.
+  std::vector<float> measure_all(int threads);
+  // Refines the coarse triangles, as far as the part allows.
   void run(Controls& controls);
-  // The same, and remembers what it replaces, so that all of it can be taken back.
-  void run_on_trial(Controls& controls);
+  // Takes back all that was done since this was made.
   void take_back();
-  // Counts the triangles that only r_min kept as they are.
-  void count_stopped();
 
  private:
   using Candidate = RefinementCandidate;
@@ -50,9 +45,7 @@ class Refinement {
     double radius = 0;
   };
 
-  template <class Body>
-  void for_each_block_of_triangles(Body&& body);
-  void queue_bad_triangles();
+  void queue_coarse_triangles();
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
@@ -60,10 +53,8 @@ class Refinement {
   void wake_neighbours();
   bool retry_crossed();
   void requeue(std::uint32_t triangle);
-  void queue_if_bad(std::uint32_t triangle, const NewTriangle& measured);
-  [[nodiscard]] bool may_be_refined(const NewTriangle& measured) const {
-    return measured.badness > 1 && measured.radius > options_.r_min;
-  }
+  void learn(std::uint32_t triangle, const NewTriangle& measured);
+  void queue(std::uint32_t triangle, const NewTriangle& measured);
 
   [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
@@ -76,8 +67,8 @@ class Refinement {
     return measure(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2), 1).ball;
   }
 
+  RefinementPart& part_;
   RefinementMesh& mesh_;
-  const RefinementPart* part_ = nullptr;  // when the mesh is one
   const Isosurface& isosurface_;
   const RefineOptions& options_;
   RefineStats& stats_;
@@ -86,21 +77,23 @@ class Refinement {
   std::optional<CrossingGuard> guard_;  // while it runs
   std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
-  // What run_on_trial has changed: each triangle as it was at the start, and how many vertices there were.
-  struct Before {
-    std::vector<std::pair<std::uint32_t, RefinementMesh::Triangle>> triangles;
-    std::vector<bool> is_kept;  // of each triangle of the start: whether it is among them
-    std::size_t vertex_count = 0;
+  // What is changed: each triangle as it was at the start, and how many vertices there were.
+  class Start {
+   public:
+    explicit Start(const RefinementMesh& mesh)
+        : is_kept_(mesh.triangles.size(), false), vertex_count_(mesh.vertices.size()) {}
+    void keep(std::uint32_t t, const RefinementMesh& mesh);
+    void restore(RefinementMesh& mesh) const;
 
-    void keep(std::uint32_t t, const RefinementMesh& mesh) {
-      if (t >= is_kept.size() || is_kept[t]) return;
-      is_kept[t] = true;
-      triangles.emplace_back(t, mesh.triangles[t]);
-    }
+   private:
+    std::vector<std::uint32_t> places_;
+    std::vector<RefinementMesh::Triangle> triangles_;  // as they were at these places
+    std::vector<bool> is_kept_;                        // of each triangle of the start
+    std::size_t vertex_count_;
   };
-  std::optional<Before> before_;
+  std::optional<Start> start_;
   double star_pole_height_ = 0;
-  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, the whole mesh decides
+  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, another part decides
   std::int64_t insertions_at_retry_ = 0;
 };
 

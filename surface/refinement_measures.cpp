@@ -10,6 +10,12 @@
 
 namespace deliso {
 
+namespace {
+
+constexpr double kMostExpected = 1e6;  // insertions for one triangle
+
+}  // namespace
+
 // Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
 // refinement.
 Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
@@ -49,55 +55,36 @@ Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
   return {ball, true, bad, circle.radius};
 }
 
-// Calls body(refinement, first, last) for each block of the triangles, on several threads; each block has counters of
-// its own, which are added to ours in order.
-template <class Body>
-void Refinement::for_each_block_of_triangles(Body&& body) {
+// What is learnt of a triangle of the mesh.
+void Refinement::learn(std::uint32_t triangle, const NewTriangle& measured) {
+  using Triangle = RefinementMesh::Triangle;
+  Triangle& t = mesh_.triangles[triangle];
+  const bool is_bad = measured.badness > 1, is_large = measured.radius > options_.r_min;
+  t.ball = measured.ball;
+  t.set(Triangle::kNoHit, !measured.has_hit);
+  t.set(Triangle::kTooSmall, is_bad && !is_large);
+  t.set(Triangle::kCoarse, is_bad && is_large);
+}
+
+// In blocks, on several threads; each block has counters of its own, which are added to ours in order.
+std::vector<float> Refinement::measure_all(int threads) {
   const std::size_t count = mesh_.triangles.size();
+  std::vector<float> expected(count);
   std::vector<RefineStats> counted(count / kBlockSize + 1);
-  const int threads = part_ == nullptr ? options_.threads : 1;
   for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
-    Refinement block(mesh_, isosurface_, options_, counted[first / kBlockSize]);
-    body(block, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
-  });
-  for (const RefineStats& stats : counted) {
-    stats_.search += stats.search;
-    stats_.stopped_at_r_min += stats.stopped_at_r_min;
-  }
-}
-
-void Refinement::measure_all() {
-  for_each_block_of_triangles([](Refinement& block, std::uint32_t first, std::uint32_t last) {
-    for (std::uint32_t t = first; t < last; ++t) {
-      const RefinementMesh& mesh = block.mesh_;
-      const NewTriangle now = block.measure(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), 1);
-      block.mesh_.triangles[t].set_ball(now.ball, now.has_hit);
+    Refinement block(part_, isosurface_, options_, counted[first / kBlockSize]);
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[t].corners);
+      const NewTriangle now = block.measure(a, b, c, mean_pole_height(t));
+      block.learn(t, now);
+      if (!mesh_.triangles[t].is_coarse()) continue;
+      // Radii have to get smaller by the badness; r_min may end it before.
+      const double times = std::min(now.badness, now.radius / options_.r_min);
+      expected[t] = static_cast<float>(std::min(times * times, kMostExpected));
     }
   });
-}
-
-void Refinement::count_stopped() {
-  for_each_block_of_triangles([](Refinement& block, std::uint32_t first, std::uint32_t last) {
-    for (std::uint32_t t = first; t < last; ++t) {
-      const NewTriangle now = block.measured(t);
-      if (now.badness > 1 && now.radius <= block.options_.r_min) ++block.stats_.stopped_at_r_min;
-    }
-  });
-}
-
-void Refinement::queue_bad_triangles() {
-  std::vector<std::vector<std::uint32_t>> bad(mesh_.triangles.size() / kBlockSize + 1);
-  for_each_block_of_triangles([&](Refinement& block, std::uint32_t first, std::uint32_t last) {
-    for (std::uint32_t t = first; t < last; ++t) {
-      if (block.may_be_refined(block.measured(t))) bad[first / kBlockSize].push_back(t);
-    }
-  });
-  const std::uint32_t first = part_ == nullptr ? 0 : part_->frozen;
-  for (const std::vector<std::uint32_t>& some : bad) {
-    for (const std::uint32_t t : some) {
-      if (t >= first) queue_if_bad(t, measured(t));
-    }
-  }
+  for (const RefineStats& stats : counted) stats_.search += stats.search;
+  return expected;
 }
 
 }  // namespace deliso

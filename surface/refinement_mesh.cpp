@@ -17,7 +17,7 @@ RefinementMesh::RefinementMesh(const SurfaceMesh& mesh)
 void RefinementMesh::forget_attempts() {
   for (Vertex& v : vertices) v.attempt = 0;
   for (Triangle& t : triangles) {
-    t.state &= Triangle::kNoHit;
+    t.state &= Triangle::kFlags;
     t.attempt = 0;
   }
 }

@@ -32,21 +32,23 @@ struct RefinementMesh {
     std::array<std::uint32_t, 3> corners{};
     std::array<TriangleSide, 3> neighbours{};
     SurfaceDelaunayBall ball;
-    std::uint32_t state = 0;    // the two flags below, and above them the generation of the slot
+    std::uint32_t state = 0;    // the flags below, and above them the generation of the slot
     std::uint32_t attempt = 0;  // that took the triangle into its disk E
 
-    static constexpr std::uint32_t kRefused = 1;  // waits for a change around it
-    static constexpr std::uint32_t kNoHit = 2;    // its dual line has no falling hit: it stays as it is
+    static constexpr std::uint32_t kRefused = 1;   // waits for a change around it
+    static constexpr std::uint32_t kNoHit = 2;     // its dual line has no falling hit: it stays as it is
+    static constexpr std::uint32_t kTooSmall = 4;  // r_min alone keeps it as it is
+    static constexpr std::uint32_t kCoarse = 8;    // it is to be refined
+    static constexpr std::uint32_t kFlags = kRefused | kNoHit | kTooSmall | kCoarse;
     [[nodiscard]] bool is_refused() const { return (state & kRefused) != 0; }
     [[nodiscard]] bool has_hit() const { return (state & kNoHit) == 0; }
-    void set_ball(const SurfaceDelaunayBall& its_ball, bool its_hit) {
-      ball = its_ball;
-      state = its_hit ? state & ~kNoHit : state | kNoHit;
-    }
+    [[nodiscard]] bool is_too_small() const { return (state & kTooSmall) != 0; }
+    [[nodiscard]] bool is_coarse() const { return (state & kCoarse) != 0; }
+    void set(std::uint32_t flag, bool is_so) { state = is_so ? state | flag : state & ~flag; }
     // Whether the slot has been taken anew since the mesh was made or joined.
-    [[nodiscard]] bool is_renewed() const { return state > (kRefused | kNoHit); }
+    [[nodiscard]] bool is_renewed() const { return state > kFlags; }
     // The slot is taken anew.
-    void renew() { state = (state | kRefused | kNoHit) + 1; }
+    void renew() { state = (state | kFlags) + 1; }
   };
   static_assert(sizeof(Triangle) == 64);
 
@@ -69,7 +71,7 @@ struct RefinementMesh {
     return box;
   }
 
-  // Clears what a refinement that is over has noted: attempts, refusals and generations.
+  // Clears what a refinement that is over has noted: attempts and generations.
   void forget_attempts();
   // Writes points, pole heights, triangles and neighbours to `mesh`; this mesh is empty afterwards.
   void move_to(SurfaceMesh& mesh);

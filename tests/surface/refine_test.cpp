@@ -330,15 +330,17 @@ TEST(Refine, BeginsAgainWhereTrianglesCameToMeet) {
 TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
-    RefinementMesh mesh(stage1_mesh(*scene));
+    RefinementPart part;
+    RefinementMesh& mesh = part.mesh;
+    mesh = RefinementMesh(stage1_mesh(*scene));
     set_clearances(mesh);
     const RefineOptions options = fine_options();
     RefineStats stats;
     Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(mesh, *scene->isosurface, options, stats).measure_all();
+    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
     const RefinementMesh before = mesh;
-    Refinement refinement(mesh, *scene->isosurface, options, stats);
-    refinement.run_on_trial(controls);
+    Refinement refinement(part, *scene->isosurface, options, stats);
+    refinement.run(controls);
     EXPECT_EQ(mesh.vertices.size(), before.vertices.size() + static_cast<std::size_t>(stats.insertions));
     refinement.take_back();
     ASSERT_EQ(mesh.vertices.size(), before.vertices.size());
@@ -349,6 +351,7 @@ TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
       EXPECT_EQ(now.neighbours, then.neighbours);
       EXPECT_EQ(now.ball.center, then.ball.center);
       EXPECT_EQ(now.has_hit(), then.has_hit());
+      EXPECT_EQ(now.is_coarse(), then.is_coarse());
       EXPECT_FALSE(now.is_renewed() || now.is_refused());
     }
   }
@@ -359,13 +362,15 @@ TEST(Refine, WhatWasRenewedHoldsAllPairsThatCameToMeet) {
   for (const std::uint64_t seed : kSeedsThatCross) {
     SCOPED_TRACE(seed);
     const auto scene = noise_scene({6, 6, 6}, seed);
-    RefinementMesh mesh(stage1_mesh(*scene));
+    RefinementPart part;
+    RefinementMesh& mesh = part.mesh;
+    mesh = RefinementMesh(stage1_mesh(*scene));
     set_clearances(mesh);
     const RefineOptions options = options_that_cross();
     RefineStats stats;
     Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(mesh, *scene->isosurface, options, stats).measure_all();
-    Refinement(mesh, *scene->isosurface, options, stats).run(controls);
+    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
+    Refinement(part, *scene->isosurface, options, stats).run(controls);
     const SelfIntersections all = meeting_pairs(mesh, 1);
     const SelfIntersections renewed = meeting_pairs_of_renewed(mesh, 1);
     EXPECT_EQ(renewed.crossing_pairs, all.crossing_pairs);

@@ -43,13 +43,14 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   const SurfaceMesh mesh = wavy_square(120);
   ASSERT_EQ(testing::surface_mesh_defect(mesh), "");
   RefinementMesh whole(mesh);
-  RefinementSlabs slabs(whole, 8192);
-  ASSERT_EQ(slabs.parts().size(), 3u);
+  const std::vector<Slab> cut = slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192);
+  ASSERT_EQ(cut.size(), 4u);
+  RefinementSlabs slabs(whole, cut, 2);
   std::size_t free_triangles = 0;
   for (const RefinementPart& part : slabs.parts()) {
     EXPECT_GT(part.frozen, 0u);
     for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) {
-      for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.contains(part.mesh.corner(t, i)));
+      for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.slab.contains(part.mesh.corner(t, i)));
     }
     free_triangles += part.mesh.triangles.size() - part.frozen;
   }
@@ -65,7 +66,7 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
 TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   const SurfaceMesh mesh = wavy_square(120);
   RefinementMesh whole(mesh);
-  RefinementSlabs slabs(whole, 8192);
+  RefinementSlabs slabs(whole, slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192), 1);
   // Every part splits its first free triangle and one beside a frozen one at their centroids.
   std::size_t added = 0;
   for (RefinementPart& part : slabs.parts()) {
@@ -106,12 +107,74 @@ TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   EXPECT_TRUE(std::equal(mesh.points.begin(), mesh.points.end(), joined.points.begin()));
 }
 
-TEST(RefinementSlabs, SmallMeshesAreOnePart) {
-  RefinementMesh whole(wavy_square(20));
-  RefinementSlabs slabs(whole, 8192);
-  ASSERT_EQ(slabs.parts().size(), 1u);
-  EXPECT_EQ(slabs.parts()[0].frozen, 0u);
-  EXPECT_EQ(slabs.parts()[0].mesh.triangles.size(), whole.triangles.size());
+TEST(RefinementSlabs, TrianglesBeyondThemStayAsTheyAre) {
+  const SurfaceMesh mesh = wavy_square(40);
+  RefinementMesh whole(mesh);
+  const std::vector<Slab> apart = {{1, 3.5, 9.25}, {1, 20, 31.5}};
+  RefinementSlabs slabs(whole, apart, 1);
+  std::size_t cut_out = 0;
+  for (const RefinementPart& part : slabs.parts()) cut_out += part.mesh.triangles.size();
+  EXPECT_EQ(cut_out, 80u * (7 + 13));  // the rows of squares that the slabs meet, planes included
+  slabs.join(whole);
+  SurfaceMesh joined;
+  whole.move_to(joined);
+  EXPECT_EQ(joined.points, mesh.points);
+  EXPECT_EQ(joined.triangles, mesh.triangles);
+  EXPECT_EQ(joined.neighbours, mesh.neighbours);
+}
+
+TEST(RefinementPlanes, SmallMeshesAreOneSlab) {
+  const RefinementMesh whole(wavy_square(20));
+  const std::vector<Slab> slabs = slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192);
+  ASSERT_EQ(slabs.size(), 1u);
+  EXPECT_TRUE(slabs[0].contains({-1e300, 0, 1e300}));
+}
+
+// Of each slab: the work of the triangles whose middles lie in it, as a part of all; of each plane: what it cuts.
+struct Shares {
+  std::vector<double> of_slabs, of_planes;
+};
+Shares shares_of(const RefinementMesh& mesh, const std::vector<Slab>& slabs, const std::vector<float>& work) {
+  Shares shares{std::vector<double>(slabs.size()), std::vector<double>(slabs.size() - 1)};
+  double all = 0;
+  for (std::uint32_t t = 0; t < work.size(); ++t) {
+    const Box3 box = mesh.box_of(t);
+    const std::size_t axis = slabs[0].axis;
+    const double middle = 0.5 * (box.low[axis] + box.high[axis]);
+    all += work[t] + 0.5;
+    for (std::size_t k = 0; k < slabs.size(); ++k) {
+      if (slabs[k].low <= middle && middle < slabs[k].high) shares.of_slabs[k] += work[t] + 0.5;
+      const bool is_cut = box.low[axis] <= slabs[k].high && slabs[k].high <= box.high[axis];
+      if (k + 1 < slabs.size() && is_cut) shares.of_planes[k] += work[t];
+    }
+  }
+  for (double& share : shares.of_slabs) share /= all;
+  for (double& share : shares.of_planes) share /= all;
+  return shares;
+}
+
+TEST(RefinementPlanes, SlabsHaveAboutTheSameWork) {
+  const RefinementMesh mesh(wavy_square(120));
+  std::vector<float> work(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < work.size(); ++t) work[t] = static_cast<float>(mesh.corner(t, 0).x * 0.2);
+  const std::vector<Slab> slabs = slabs_of_equal_work(mesh, work, 8192);
+  ASSERT_EQ(slabs.size(), 4u);
+  for (std::size_t k = 0; k + 1 < slabs.size(); ++k) {
+    EXPECT_EQ(slabs[k].high, slabs[k + 1].low);
+    EXPECT_EQ(slabs[k].axis, slabs[0].axis);
+  }
+  for (const double share : shares_of(mesh, slabs, work).of_slabs) EXPECT_NEAR(share, 0.25, 0.08);
+}
+
+TEST(RefinementPlanes, PlanesKeepOutOfCoarsePlaces) {
+  // Coarse stripes where equal shares would have the planes.
+  const RefinementMesh mesh(wavy_square(128));
+  std::vector<float> work(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < work.size(); ++t) work[t] = std::fmod(mesh.box_of(t).low.y + 2, 8) < 4 ? 100 : 1;
+  const std::vector<Slab> slabs = slabs_of_equal_work(mesh, work, 8192);
+  ASSERT_EQ(slabs.size(), 4u);
+  ASSERT_EQ(slabs[0].axis, 1u);
+  for (const double share : shares_of(mesh, slabs, work).of_planes) EXPECT_LT(share, 2.0 / 128 / 50);
 }
 
 TEST(RunTasks, RunsEachTaskOnceAndThrowsTheFirstError) {
