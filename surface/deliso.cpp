@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/memory.h"
 #include "delaunay/base/rng.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/boundary_curves.h"
@@ -212,7 +213,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   // The exact topology first: it says what a regular isovalue is.
   controls.report("index", 0, 0);
   const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
-  const RegularTopology regular = timed(result.topology, [&] {
+  RegularTopology regular = timed(result.topology, [&] {
     return needs_topology ? regular_topology(grid, isovalue, options.threads)
                           : RegularTopology{regular_isovalue(grid, isovalue), {}};
   });
@@ -246,8 +247,11 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   }
   take_counters(*restricted, result.recover);
 
-  // The tetrahedra and the facts go as soon as the surface mesh stands.
+  // The tetrahedra and the facts go as soon as the surface mesh stands; of the topology the components stay.
   SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
+  std::vector<EdgeCrossing>().swap(regular.topology.crossings);
+  regular.topology.index = {};
+  release_free_memory();
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {

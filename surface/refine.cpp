@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/crossing_guard.h"
 #include "surface/refinement.h"
@@ -89,6 +90,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, const Ta
   }
   run_tasks(parts.size(), task.options.threads,
             [&](std::size_t k) { refine_part(parts[k], Round::kFirst, task, limits[k], 1, counted[k]); });
+  release_free_memory();
   cut.join(mesh);
   task.controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
