@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "surface/self_intersection.h"
@@ -20,42 +19,55 @@ constexpr double kSuspectReach = 3;
 constexpr double kTightness = 1.5;
 // Other sheets matter when the clearance is below so many times what the mesh moves.
 constexpr double kReach = 20;
-constexpr double kFarthestPlace = 1e18;  // cells of doubled vertices are numbered up to this far from the origin
+// Side of the cells in which doubled vertices are sought: small beside edges, and few of its multiples are integers,
+// where samples are. Cells are counted up to so many from the origin.
+constexpr double kCellSide = 0.26;
+constexpr double kFarthestPlace = 1e15;
 // A star can fold over its neighbours when it moves by so much of the rim's distance from p.
 constexpr double kFoldingMove = 0.1;
 
-struct CellHash {
-  std::size_t operator()(const std::array<std::int64_t, 3>& c) const {
-    const auto mix = [](std::uint64_t h, std::int64_t x) {
-      return (h ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
-    };
-    return mix(mix(mix(0, c[0]), c[1]), c[2]) >> 7;
+// A number for a cell; that two cells get the same one does no harm.
+std::uint64_t cell_number(const std::array<std::int64_t, 3>& cell) {
+  std::uint64_t number = 0;
+  for (const std::int64_t place : cell) {
+    number = (number ^ static_cast<std::uint64_t>(place)) * 0x9E3779B97F4A7C15u;
+    number ^= number >> 32;
   }
-};
+  return number;
+}
 
-// Vertices with another one on top of them, found in a grid of cells just as large.
+// Calls visit(number) for the cells around p within half of kOnTop: two points that near have one in common.
+template <class Visit>
+void for_each_cell_around(const Vec3& p, Visit&& visit) {
+  const auto place = [](double x) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(x / kCellSide), -kFarthestPlace, kFarthestPlace));
+  };
+  const Vec3 half{kOnTop / 2, kOnTop / 2, kOnTop / 2};
+  const Vec3 low = p - half, high = p + half;
+  for (std::int64_t z = place(low.z); z <= place(high.z); ++z) {
+    for (std::int64_t y = place(low.y); y <= place(high.y); ++y) {
+      for (std::int64_t x = place(low.x); x <= place(high.x); ++x) visit(cell_number({x, y, z}));
+    }
+  }
+}
+
+// Vertices with another one on top of them.
 std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
   const auto& vertices = mesh.vertices;
-  const auto cell_of = [](const Vec3& p, int dx, int dy, int dz) {
-    const auto place = [](double x) {
-      return static_cast<std::int64_t>(std::clamp(std::floor(x / kOnTop), -kFarthestPlace, kFarthestPlace));
-    };
-    return std::array<std::int64_t, 3>{place(p.x) + dx, place(p.y) + dy, place(p.z) + dz};
-  };
-  std::unordered_map<std::array<std::int64_t, 3>, std::vector<std::uint32_t>, CellHash> cells;
-  cells.reserve(vertices.size());
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) cells[cell_of(vertices[v].point, 0, 0, 0)].push_back(v);
-  std::vector<std::uint32_t> doubled;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> in_cell;
+  in_cell.reserve(vertices.size() + vertices.size() / 4);
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    bool found = false;
-    for (int i = 0; i < 27 && !found; ++i) {
-      const auto at = cells.find(cell_of(vertices[v].point, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-      if (at == cells.end()) continue;
-      found = std::any_of(at->second.begin(), at->second.end(), [&](std::uint32_t w) {
-        return w != v && squared_distance(vertices[v].point, vertices[w].point) < kOnTop * kOnTop;
-      });
+    for_each_cell_around(vertices[v].point, [&](std::uint64_t cell) { in_cell.emplace_back(cell, v); });
+  }
+  std::sort(in_cell.begin(), in_cell.end());
+  std::vector<std::uint32_t> doubled;
+  for (std::size_t i = 0; i < in_cell.size(); ++i) {
+    for (std::size_t j = i + 1; j < in_cell.size() && in_cell[j].first == in_cell[i].first; ++j) {
+      const std::uint32_t v = in_cell[i].second, w = in_cell[j].second;
+      if (v == w || squared_distance(vertices[v].point, vertices[w].point) >= kOnTop * kOnTop) continue;
+      doubled.push_back(v);
+      doubled.push_back(w);
     }
-    if (found) doubled.push_back(v);
   }
   return doubled;
 }
