@@ -1,11 +1,9 @@
-// A tree of axis-aligned boxes over any things that have one: which of them may meet, which is nearest.
+// A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
 //
-// Splits along the longest side of the centres' box, such that every left subtree is complete: so the places of all
-// nodes, in depth-first order, are known beforehand, and subtrees can be built and searched on several threads.
-// Deterministic; results do not depend on rounding because boxes are only copied and merged.
+// The tree of halves of surface/halving_order.h. Deterministic; results do not depend on rounding because boxes are only
+// copied and merged.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "surface/halving_order.h"
 
 namespace deliso {
 
@@ -26,31 +25,15 @@ class BoxTree {
   // Of `count` things; box_of(i) gives the box of thing i, always the same.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
-    std::vector<Centre> centres(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Box3 box = box_of(i);
-      // Halved terms cannot overflow.
-      centres[i] = {0.5 * box.low + 0.5 * box.high, static_cast<std::uint32_t>(i)};
-    }
-    build(centres, threads);
+    Box3 all;
+    for (std::size_t i = 0; i < count; ++i) all.extend(centre(box_of(i)));
+    const CentreLattice lattice(all);
+    std::vector<LatticePlace> places(count);
+    for (std::size_t i = 0; i < count; ++i) places[i] = lattice.place(centre(box_of(i)), i);
+    things_ = halving_order(std::move(places), threads);
     boxes_.reserve(count);
     for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
-    enclose();
-  }
-
-  // Calls visit(i, j) once for each pair i < j of boxes that have a point in common, faces included.
-  template <class Visit>
-  void for_each_touching_pair(Visit&& visit) const {
-    if (!nodes_.empty()) pairs_within(0, visit);
-  }
-  // The same in independent tasks: each pair of boxes belongs to one of them.
-  struct PairTask {
-    std::uint32_t a = 0, b = 0;  // nodes; the same for pairs within one
-  };
-  [[nodiscard]] std::vector<PairTask> pair_tasks() const;
-  template <class Visit>
-  void for_each_touching_pair(const PairTask& task, Visit&& visit) const {
-    task.a == task.b ? pairs_within(task.a, visit) : pairs_between(task.a, task.b, visit);
+    build();
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -73,8 +56,6 @@ class BoxTree {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
  private:
-  static constexpr std::uint32_t kLeafSize = 8;
-  static constexpr int kTaskDepth = 4;          // subtrees of this depth are tasks
   static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
 
   struct Node {
@@ -85,67 +66,17 @@ class BoxTree {
 
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
-  struct Centre {
-    Vec3 point;
-    std::uint32_t thing = 0;
-  };
-  // The subtree of things first to last of the order of leaves, with its root at a place in nodes_.
-  struct Subtree {
-    std::uint32_t node = 0, first = 0, last = 0;
-    [[nodiscard]] bool is_leaf() const { return last - first <= kLeafSize; }
-  };
-  void build(std::vector<Centre>& centres, int threads);
-  void build(const Subtree& tree, std::span<Centre> centres);
-  std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
-  void enclose();
-  void append_tasks(std::uint32_t node, int depth, std::vector<PairTask>& tasks) const;
+  // Halved terms cannot overflow.
+  static Vec3 centre(const Box3& box) { return 0.5 * box.low + 0.5 * box.high; }
 
-  template <class Visit>
-  void pairs_within(std::uint32_t node, Visit&& visit) const;
-  template <class Visit>
-  void pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const;
-  template <class Visit>
-  void report(std::uint32_t place_a, std::uint32_t place_b, Visit&& visit) const {
-    if (!boxes_[place_a].meets(boxes_[place_b])) return;
-    const auto [i, j] = std::minmax(things_[place_a], things_[place_b]);
-    visit(i, j);
-  }
+  void build();
+  void lay_out(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+  void enclose();
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> things_;  // in the order of the leaves
   std::vector<Box3> boxes_;            // of things_, in the same order
 };
-
-template <class Visit>
-void BoxTree::pairs_within(std::uint32_t node, Visit&& visit) const {
-  const Node& n = nodes_[node];
-  if (n.count == 0) {
-    pairs_within(node + 1, visit);
-    pairs_within(n.first, visit);
-    pairs_between(node + 1, n.first, visit);
-    return;
-  }
-  for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-    for (std::uint32_t j = i + 1; j < n.first + n.count; ++j) report(i, j, visit);
-  }
-}
-
-template <class Visit>
-void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const {
-  const Node &na = nodes_[a], &nb = nodes_[b];
-  if (!na.box.meets(nb.box)) return;
-  if (na.count == 0 && (nb.count != 0 || squared_norm(na.box.size()) >= squared_norm(nb.box.size()))) {
-    pairs_between(a + 1, b, visit);
-    pairs_between(na.first, b, visit);
-  } else if (nb.count == 0) {
-    pairs_between(a, b + 1, visit);
-    pairs_between(a, nb.first, visit);
-  } else {
-    for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-      for (std::uint32_t j = nb.first; j < nb.first + nb.count; ++j) report(i, j, visit);
-    }
-  }
-}
 
 template <class Visit>
 void BoxTree::for_each_meeting(const Box3& box, Visit&& visit) const {
