@@ -1,7 +1,8 @@
 // A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
 //
-// The tree of halves of surface/halving_order.h. Deterministic; results do not depend on rounding because boxes are only
-// copied and merged.
+// Splits along the longest side of the centres' box, such that every left subtree is complete: so the places of all
+// nodes, in depth-first order, are known beforehand, and subtrees can be built on several threads.
+// Deterministic; results do not depend on rounding because boxes are only copied and merged.
 #pragma once
 
 #include <array>
@@ -12,7 +13,6 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
-#include "surface/halving_order.h"
 
 namespace deliso {
 
@@ -25,15 +25,16 @@ class BoxTree {
   // Of `count` things; box_of(i) gives the box of thing i, always the same.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
-    Box3 all;
-    for (std::size_t i = 0; i < count; ++i) all.extend(centre(box_of(i)));
-    const CentreLattice lattice(all);
-    std::vector<LatticePlace> places(count);
-    for (std::size_t i = 0; i < count; ++i) places[i] = lattice.place(centre(box_of(i)), i);
-    things_ = halving_order(std::move(places), threads);
+    std::vector<Centre> centres(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Box3 box = box_of(i);
+      // Halved terms cannot overflow.
+      centres[i] = {0.5 * box.low + 0.5 * box.high, static_cast<std::uint32_t>(i)};
+    }
+    build(centres, threads);
     boxes_.reserve(count);
     for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
-    build();
+    enclose();
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -56,6 +57,8 @@ class BoxTree {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
  private:
+  static constexpr std::uint32_t kLeafSize = 8;
+  static constexpr int kTaskDepth = 4;          // subtrees of this depth are tasks
   static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
 
   struct Node {
@@ -66,11 +69,18 @@ class BoxTree {
 
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
-  // Halved terms cannot overflow.
-  static Vec3 centre(const Box3& box) { return 0.5 * box.low + 0.5 * box.high; }
-
-  void build();
-  void lay_out(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+  struct Centre {
+    Vec3 point;
+    std::uint32_t thing = 0;
+  };
+  // The subtree of things first to last of the order of leaves, with its root at a place in nodes_.
+  struct Subtree {
+    std::uint32_t node = 0, first = 0, last = 0;
+    [[nodiscard]] bool is_leaf() const { return last - first <= kLeafSize; }
+  };
+  void build(std::vector<Centre>& centres, int threads);
+  void build(const Subtree& tree, std::span<Centre> centres);
+  std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
   void enclose();
 
   std::vector<Node> nodes_;

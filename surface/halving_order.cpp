@@ -14,8 +14,8 @@ namespace {
 
 using Places = std::span<LatticePlace>;
 
-constexpr int kTaskDepth = 4;             // parts of this depth are tasks
-constexpr unsigned kIndexBits = 5;        // so many are parted by counting
+constexpr int kTaskDepth = 4;       // parts of this depth are tasks
+constexpr unsigned kIndexBits = 5;  // so many are parted by counting
 constexpr std::size_t kSmall = std::size_t{1} << kIndexBits;
 constexpr std::size_t kMostSamples = 32;
 constexpr int kMostRounds = 24;
@@ -48,8 +48,8 @@ std::uint64_t key(const LatticePlace& p, std::size_t axis) {
   return std::uint64_t{static_cast<std::uint32_t>(p.at[axis])} << 32 | p.thing;
 }
 
-// Of few places: each goes to where as many are as lie before it. Their order is by the uppermost bits of what they have
-// above the least one, then by where they stand now.
+// Of few places: each goes to where as many are as lie before it. Their order is by the uppermost bits of what they
+// have above the least one, then by where they stand now.
 void part_few(Places places, const Extent& extent) {
   const int width = std::bit_width(extent.size), most = 31 - static_cast<int>(kIndexBits);
   const int shift = std::max(width - most, 0);

@@ -3,7 +3,8 @@
 //
 // The things are parted along the longest side of their centres' box, the parts again, down to leaves of eight. Every
 // left part has as many leaves as the largest power of two below the number of all: so eight leaves that begin at a
-// multiple of eight are a subtree, and so on upward, and the places of all subtrees are known from the number of things.
+// multiple of eight are a subtree, and so on upward, and the places of all subtrees are known from the number of
+// things.
 #pragma once
 
 #include <array>

@@ -52,9 +52,7 @@ class CellMarks {
   struct Cells {
     std::array<unsigned, 3> low{}, high{};
     // The bits low[0] to high[0].
-    [[nodiscard]] std::uint64_t row() const {
-      return ~std::uint64_t{0} >> (kCells - 1 - high[0] + low[0]) << low[0];
-    }
+    [[nodiscard]] std::uint64_t row() const { return ~std::uint64_t{0} >> (kCells - 1 - high[0] + low[0]) << low[0]; }
   };
   // Rounding keeps the order of numbers: boxes that have a point in common have a cell in common.
   [[nodiscard]] Cells cells_of(const Box3& box) const {

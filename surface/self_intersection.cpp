@@ -65,8 +65,8 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
   return middle;
 }
 
-// The number that follows that of a vertex the triangles share; 0 when there is none. Without branches, for nothing here
-// can be foretold.
+// The number that follows that of a vertex the triangles share; 0 when there is none. Without branches, for nothing
+// here can be foretold.
 std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
   std::uint32_t found = 0;
   for (const std::uint32_t v : s) {
@@ -76,8 +76,8 @@ std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const s
   return found;
 }
 
-// The triangles that have an area, in the order of halving, and their vertices in the order in which they come there: so
-// what lies near each other in space does so in memory.
+// The triangles that have an area, in the order of halving, and their vertices in the order in which they come there:
+// so what lies near each other in space does so in memory.
 class OrderedTriangles {
  public:
   using Corners = std::array<std::uint32_t, 3>;

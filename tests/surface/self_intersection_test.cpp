@@ -169,6 +169,29 @@ TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
   }
 }
 
+TEST(SelfIntersections, OfMarkedTrianglesAreAllPairsWithOne) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const TriangleMesh mesh = testing::random_soup(rng, 40, 60);
+    std::vector<std::uint8_t> marks(mesh.triangles.size());
+    for (std::uint8_t& mark : marks) mark = rng.below(4) == 0 ? 1 : 0;
+    constexpr std::size_t kAll = 10000;
+    const SelfIntersections all = self_intersections(mesh, kAll);
+    const SelfIntersections found = self_intersections_of(marks, mesh.points, mesh.triangles, kAll);
+    for (const auto kind : {&SelfIntersections::crossing, &SelfIntersections::touching}) {
+      std::vector<TrianglePair> expected = all.*kind;
+      std::erase_if(expected, [&](const TrianglePair& p) { return marks[p.first] == 0 && marks[p.second] == 0; });
+      ASSERT_EQ((found.*kind).size(), expected.size()) << "seed " << seed;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ((found.*kind)[i].first, expected[i].first) << "seed " << seed;
+        EXPECT_EQ((found.*kind)[i].second, expected[i].second) << "seed " << seed;
+      }
+    }
+    EXPECT_EQ(found.crossing_pairs, static_cast<std::int64_t>(found.crossing.size()));
+    EXPECT_EQ(found.touching_pairs, static_cast<std::int64_t>(found.touching.size()));
+  }
+}
+
 TEST(SelfIntersections, CleanMeshesHaveNoneAndOverlappingSpheresHaveSome) {
   const TriangleMesh sphere = testing::sphere_mesh(4);
   EXPECT_EQ(self_intersections(sphere).crossing_pairs + self_intersections(sphere).touching_pairs, 0);
