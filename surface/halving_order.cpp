@@ -51,7 +51,7 @@ std::uint64_t key(const LatticePlace& p, std::size_t axis) {
 // Of few places: each goes to where as many are as lie before it. Their order is by the uppermost bits of what they
 // have above the least one, then by where they stand now.
 void part_few(Places places, const Extent& extent) {
-  const int width = std::bit_width(extent.size), most = 31 - static_cast<int>(kIndexBits);
+  const int width = static_cast<int>(std::bit_width(extent.size)), most = 31 - static_cast<int>(kIndexBits);
   const int shift = std::max(width - most, 0);
   std::array<std::int32_t, kSmall> keys, before{};
   keys.fill(std::numeric_limits<std::int32_t>::max());

@@ -16,52 +16,61 @@ using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 constexpr std::size_t kMostTriangles = 16;  // of a vertex that is looked at
 constexpr std::size_t kVerticesPerTask = 8192;
 
-// What lies across from a vertex in one of its triangles.
+// The edge across from a corner of a triangle.
 struct LinkEdge {
   std::uint32_t from = 0, to = 0;
 };
 
-// The link edges of each vertex, in the order of the triangles. Precondition: indices of corners fit into 32 bits.
-class Links {
+// The corners at each vertex, in the order of the triangles. Precondition: four times the triangles fit into 32 bits.
+class CornersOfVertices {
  public:
-  Links(std::size_t vertices, Triangles triangles) : begin_(vertices + 2), edges_(3 * triangles.size()) {
+  CornersOfVertices(std::size_t vertices, Triangles triangles)
+      : triangles_(triangles), begin_(vertices + 2), corners_(3 * triangles.size()) {
     for (const auto& corners : triangles) {
       for (const std::uint32_t v : corners) ++begin_[v + 2];
     }
     for (std::size_t v = 2; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-    for (const auto& [a, b, c] : triangles) {
-      edges_[begin_[a + 1]++] = {b, c};
-      edges_[begin_[b + 1]++] = {c, a};
-      edges_[begin_[c + 1]++] = {a, b};
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      for (std::uint32_t i = 0; i < 3; ++i) corners_[begin_[triangles[t][i] + 1]++] = t << 2 | i;
     }
   }
-  [[nodiscard]] std::span<const LinkEdge> of(std::size_t v) const {
-    return std::span(edges_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
+  [[nodiscard]] std::size_t count(std::size_t v) const { return begin_[v + 1] - begin_[v]; }
+  // Across from corner i at v.
+  [[nodiscard]] LinkEdge edge(std::size_t v, std::size_t i) const {
+    constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
+    const std::uint32_t corner = corners_[begin_[v] + i];
+    const auto& triangle = triangles_[corner >> 2];
+    return {triangle[kNext[corner & 3]], triangle[kPrevious[corner & 3]]};
   }
 
  private:
-  std::vector<std::uint32_t> begin_;
-  std::vector<LinkEdge> edges_;
+  Triangles triangles_;
+  std::vector<std::uint32_t> begin_, corners_;
 };
 
-// The vertices of a link in a row, when its edges form one cycle. Precondition: at most kMostTriangles edges.
+// The vertices of a link in a row, when its edges form one cycle. Precondition: at least one, at most kMostTriangles.
 class LinkCycle {
  public:
-  explicit LinkCycle(std::span<const LinkEdge> link) {
-    std::array<std::uint32_t, kMostTriangles> from;
+  LinkCycle(const CornersOfVertices& corners, std::size_t v) {
+    const std::size_t count = corners.count(v);
+    std::array<std::uint32_t, kMostTriangles> from, to;
     from.fill(0xFFFFFFFFU);
-    for (std::size_t i = 0; i < link.size(); ++i) from[i] = link[i].from;
+    for (std::size_t i = 0; i < count; ++i) {
+      const LinkEdge edge = corners.edge(v, i);
+      from[i] = edge.from;
+      to[i] = edge.to;
+    }
     std::uint32_t seen = 0;
-    for (std::size_t next = 0; size_ < link.size(); ++size_) {
+    for (std::size_t next = 0; size_ < count; ++size_) {
       vertices_[size_] = from[next];
       // Without branches, for the next edge cannot be foretold.
       std::uint32_t places = 0;
-      for (std::size_t i = 0; i < kMostTriangles; ++i) places |= from[i] == link[next].to ? 1U << i : 0U;
+      for (std::size_t i = 0; i < kMostTriangles; ++i) places |= from[i] == to[next] ? 1U << i : 0U;
       if (places == 0 || (places & (places - 1)) != 0) return;
       next = static_cast<std::size_t>(std::countr_zero(places));
       seen |= places;
     }
-    is_closed_ = seen == (1U << link.size()) - 1;
+    is_closed_ = seen == (1U << count) - 1;
   }
   [[nodiscard]] bool is_closed() const { return is_closed_; }
   [[nodiscard]] std::span<const std::uint32_t> vertices() const { return std::span(vertices_).first(size_); }
@@ -92,14 +101,15 @@ bool go_around_once(std::span<const Vec3> spokes, std::size_t axis) {
   return (all_left || all_right) && changes == 2;
 }
 
-bool is_laid_out(std::span<const Vec3> points, std::uint32_t v, std::span<const LinkEdge> link) {
-  if (link.size() < 3 || link.size() > kMostTriangles) return false;
-  const LinkCycle cycle(link);
+bool is_laid_out(std::span<const Vec3> points, const CornersOfVertices& corners, std::size_t v) {
+  const std::size_t count = corners.count(v);
+  if (count < 3 || count > kMostTriangles) return false;
+  const LinkCycle cycle(corners, v);
   if (!cycle.is_closed()) return false;
 
   std::array<Vec3, kMostTriangles> differences;
-  const auto spokes = std::span(differences).first(link.size());
-  for (std::size_t i = 0; i < spokes.size(); ++i) spokes[i] = points[cycle.vertices()[i]] - points[v];
+  const auto spokes = std::span(differences).first(count);
+  for (std::size_t i = 0; i < count; ++i) spokes[i] = points[cycle.vertices()[i]] - points[v];
   Vec3 normal = cross(spokes.back(), spokes.front());
   for (std::size_t i = 1; i < spokes.size(); ++i) normal += cross(spokes[i - 1], spokes[i]);
   const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
@@ -110,13 +120,13 @@ bool is_laid_out(std::span<const Vec3> points, std::uint32_t v, std::span<const 
 
 std::vector<std::uint8_t> laid_out_umbrellas(std::span<const Vec3> points, Triangles triangles, int threads) {
   std::vector<std::uint8_t> laid_out(points.size());
-  if (triangles.size() > 0xFFFFFFFFU / 3) return laid_out;
-  const Links links(points.size(), triangles);
+  if (triangles.size() > 0xFFFFFFFFU / 4) return laid_out;
+  const CornersOfVertices corners(points.size(), triangles);
   const std::size_t tasks = (points.size() + kVerticesPerTask - 1) / kVerticesPerTask;
   run_tasks(tasks, threads, [&](std::size_t task) {
     const std::size_t end = std::min((task + 1) * kVerticesPerTask, points.size());
     for (std::size_t v = task * kVerticesPerTask; v < end; ++v) {
-      laid_out[v] = is_laid_out(points, static_cast<std::uint32_t>(v), links.of(v)) ? 1 : 0;
+      laid_out[v] = is_laid_out(points, corners, v) ? 1 : 0;
     }
   });
   return laid_out;

@@ -21,18 +21,35 @@ std::vector<Vec3> points_of(const RefinementMesh& mesh) {
   return points;
 }
 
+// The points of some triangles, which become corners of these points.
+std::vector<Vec3> take_points(const RefinementMesh& mesh, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> numbers(mesh.vertices.size(), kUnseen);
+  std::vector<Vec3> points;
+  for (auto& corners : triangles) {
+    for (std::uint32_t& v : corners) {
+      if (numbers[v] == kUnseen) {
+        numbers[v] = static_cast<std::uint32_t>(points.size());
+        points.push_back(mesh.vertices[v].point);
+      }
+      v = numbers[v];
+    }
+  }
+  return points;
+}
+
 // The cells of a coarse grid that boxes reach into, as rows of bits along x.
 class CellMarks {
  public:
   // Of a grid over a box.
-  explicit CellMarks(const Box3& all) : all_(all), rows_(std::size_t{kCells} * kCells) {
+  explicit CellMarks(const Box3& all) : all_(all), rows_(std::size_t{kCells[1]} * kCells[2]) {
     const Vec3 size = all.size();
-    for (std::size_t k = 0; k < 3; ++k) cells_per_unit_[k] = size[k] > 1e-290 ? kCells / size[k] : 0;
+    for (std::size_t k = 0; k < 3; ++k) cells_per_unit_[k] = size[k] > 1e-290 ? kCells[k] / size[k] : 0;
   }
   void add(const Box3& box) {
     const Cells cells = cells_of(box);
     for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
-      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) rows_[kCells * z + y] |= cells.row();
+      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) rows_[kCells[1] * z + y] |= cells.row();
     }
   }
   // Certain only when false: no box that was added has a point in common with this one.
@@ -41,18 +58,20 @@ class CellMarks {
     const Cells cells = cells_of(box);
     for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
       for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
-        if ((rows_[kCells * z + y] & cells.row()) != 0) return true;
+        if ((rows_[kCells[1] * z + y] & cells.row()) != 0) return true;
       }
     }
     return false;
   }
 
  private:
-  static constexpr unsigned kCells = 64;  // along each axis
+  static constexpr std::array<unsigned, 3> kCells = {64, 256, 256};  // along each axis
   struct Cells {
     std::array<unsigned, 3> low{}, high{};
     // The bits low[0] to high[0].
-    [[nodiscard]] std::uint64_t row() const { return ~std::uint64_t{0} >> (kCells - 1 - high[0] + low[0]) << low[0]; }
+    [[nodiscard]] std::uint64_t row() const {
+      return ~std::uint64_t{0} >> (kCells[0] - 1 - high[0] + low[0]) << low[0];
+    }
   };
   // Rounding keeps the order of numbers: boxes that have a point in common have a cell in common.
   [[nodiscard]] Cells cells_of(const Box3& box) const {
@@ -65,7 +84,7 @@ class CellMarks {
   }
   [[nodiscard]] unsigned cell(double x, std::size_t axis) const {
     const double at = (x - all_.low[axis]) * cells_per_unit_[axis];
-    return at > 0 ? static_cast<unsigned>(std::min(at, kCells - 1.0)) : 0;
+    return at > 0 ? static_cast<unsigned>(std::min(at, kCells[axis] - 1.0)) : 0;
   }
 
   Box3 all_;
@@ -111,7 +130,8 @@ SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threa
     corners.push_back(mesh.triangles[t].corners);
     is_renewed.push_back(mesh.triangles[t].is_renewed() ? 1 : 0);
   }
-  return self_intersections_of(is_renewed, points_of(mesh), corners, kMostMeetingPairs, threads);
+  const std::vector<Vec3> points = take_points(mesh, corners);
+  return self_intersections_of(is_renewed, points, corners, kMostMeetingPairs, threads);
 }
 
 }  // namespace deliso

@@ -70,8 +70,8 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
 std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
   std::uint32_t found = 0;
   for (const std::uint32_t v : s) {
-    const bool is_shared = (v == t[0]) | (v == t[1]) | (v == t[2]);
-    found = is_shared ? v + 1 : found;
+    const unsigned same = (v == t[0] ? 1U : 0U) | (v == t[1] ? 1U : 0U) | (v == t[2] ? 1U : 0U);
+    found = same != 0 ? v + 1 : found;
   }
   return found;
 }

@@ -64,7 +64,7 @@ void expect_halves(const std::vector<Box3>& boxes, const std::vector<std::uint32
 }
 
 TEST(HalvingOrder, PartsAlongTheLongestSideInCompleteHalvesForAnyNumberOfThreads) {
-  for (const std::size_t count : {0, 1, 8, 9, 31, 32, 33, 64, 65, 100, 257, 1000, 5000}) {
+  for (const std::size_t count : {0U, 1U, 8U, 9U, 31U, 32U, 33U, 64U, 65U, 100U, 257U, 1000U, 5000U}) {
     SCOPED_TRACE(count);
     Rng rng(count + 1);
     std::vector<Box3> boxes = random_boxes(rng, count, 0.1);
@@ -80,7 +80,7 @@ TEST(HalvingOrder, PartsAlongTheLongestSideInCompleteHalvesForAnyNumberOfThreads
 
 // Where all centres, or most of them, are the same there is no pivot that parts them.
 TEST(HalvingOrder, OrdersWhatStandsInOnePlace) {
-  for (const std::size_t others : {0, 1, 40}) {
+  for (const std::size_t others : {0U, 1U, 40U}) {
     Rng rng(others + 1);
     std::vector<Box3> boxes = random_boxes(rng, others, 0.1);
     Box3 point;
