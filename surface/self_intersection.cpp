@@ -155,19 +155,22 @@ SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std
   const std::vector<OrderedTriangles::Corners>& corners = ordered.corners();
   const BoxPairs pairs(ordered.size(), ordered.low(), [&](std::size_t i) { return ordered.box(i); });
   const std::vector<std::uint8_t> laid_out = laid_out_umbrellas(ordered.points(), corners, threads);
-  const auto is_marked = [&](std::uint32_t i) { return marks[ordered.number(i)] != 0; };
+  const auto examine = [&](std::uint32_t i, std::uint32_t j, PairCollector& found) {
+    if (!marks.empty() && marks[ordered.number(i)] == 0 && marks[ordered.number(j)] == 0) return;
+    const TriangleContact contact = triangle_contact(ordered.points(), corners[i], corners[j]);
+    if (contact != TriangleContact::kNone) found.add(ordered.pair(i, j, contact));
+  };
   // Broad phase: pairs of boxes that touch, but not pairs at a vertex around which nothing meets; narrow phase: exact
   // tests.
   const std::vector<BoxPairs::Task> tasks = pairs.tasks();
   std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
   run_tasks(tasks.size(), threads, [&](std::size_t task) {
-    pairs.for_each(tasks[task], [&](std::uint32_t i, std::uint32_t j) {
-      const std::uint32_t after_shared = after_shared_vertex(corners[i], corners[j]);
-      if (after_shared > 0 && laid_out[after_shared - 1] != 0) return;
-      if (!marks.empty() && !is_marked(i) && !is_marked(j)) return;
-      const TriangleContact contact = triangle_contact(ordered.points(), corners[i], corners[j]);
-      if (contact != TriangleContact::kNone) found[task].add(ordered.pair(i, j, contact));
-    });
+    pairs.for_each(tasks[task],
+                   [&, corners = corners.data(), laid_out = laid_out.data()](std::uint32_t i, std::uint32_t j) {
+                     const std::uint32_t after_shared = after_shared_vertex(corners[i], corners[j]);
+                     if (after_shared == 0 || laid_out[after_shared - 1] == 0) [[unlikely]]
+                       examine(i, j, found[task]);
+                   });
   });
   PairCollector all(keep);
   for (const PairCollector& part : found) all.add(part);
