@@ -1,5 +1,6 @@
 #include "surface/box_tree.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "delaunay/base/parallel.h"
@@ -73,22 +74,6 @@ void BoxTree::enclose() {
     }
     for (std::uint32_t i = 0; i < n.count; ++i) include(boxes_[n.first + i]);
   }
-}
-
-std::vector<BoxTree::PairTask> BoxTree::pair_tasks() const {
-  std::vector<PairTask> tasks;
-  if (!nodes_.empty()) append_tasks(0, kTaskDepth, tasks);
-  return tasks;
-}
-
-void BoxTree::append_tasks(std::uint32_t node, int depth, std::vector<PairTask>& tasks) const {
-  if (depth == 0 || nodes_[node].count != 0) {
-    tasks.push_back({node, node});
-    return;
-  }
-  append_tasks(node + 1, depth - 1, tasks);
-  append_tasks(nodes_[node].first, depth - 1, tasks);
-  tasks.push_back({node + 1, nodes_[node].first});
 }
 
 }  // namespace deliso

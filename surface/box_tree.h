@@ -1,11 +1,10 @@
-// A tree of axis-aligned boxes over any things that have one: which of them may meet, which is nearest.
+// A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
 //
 // Splits along the longest side of the centres' box, such that every left subtree is complete: so the places of all
-// nodes, in depth-first order, are known beforehand, and subtrees can be built and searched on several threads.
+// nodes, in depth-first order, are known beforehand, and subtrees can be built on several threads.
 // Deterministic; results do not depend on rounding because boxes are only copied and merged.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,21 +35,6 @@ class BoxTree {
     boxes_.reserve(count);
     for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
     enclose();
-  }
-
-  // Calls visit(i, j) once for each pair i < j of boxes that have a point in common, faces included.
-  template <class Visit>
-  void for_each_touching_pair(Visit&& visit) const {
-    if (!nodes_.empty()) pairs_within(0, visit);
-  }
-  // The same in independent tasks: each pair of boxes belongs to one of them.
-  struct PairTask {
-    std::uint32_t a = 0, b = 0;  // nodes; the same for pairs within one
-  };
-  [[nodiscard]] std::vector<PairTask> pair_tasks() const;
-  template <class Visit>
-  void for_each_touching_pair(const PairTask& task, Visit&& visit) const {
-    task.a == task.b ? pairs_within(task.a, visit) : pairs_between(task.a, task.b, visit);
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -98,54 +82,11 @@ class BoxTree {
   void build(const Subtree& tree, std::span<Centre> centres);
   std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
   void enclose();
-  void append_tasks(std::uint32_t node, int depth, std::vector<PairTask>& tasks) const;
-
-  template <class Visit>
-  void pairs_within(std::uint32_t node, Visit&& visit) const;
-  template <class Visit>
-  void pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const;
-  template <class Visit>
-  void report(std::uint32_t place_a, std::uint32_t place_b, Visit&& visit) const {
-    if (!boxes_[place_a].meets(boxes_[place_b])) return;
-    const auto [i, j] = std::minmax(things_[place_a], things_[place_b]);
-    visit(i, j);
-  }
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> things_;  // in the order of the leaves
   std::vector<Box3> boxes_;            // of things_, in the same order
 };
-
-template <class Visit>
-void BoxTree::pairs_within(std::uint32_t node, Visit&& visit) const {
-  const Node& n = nodes_[node];
-  if (n.count == 0) {
-    pairs_within(node + 1, visit);
-    pairs_within(n.first, visit);
-    pairs_between(node + 1, n.first, visit);
-    return;
-  }
-  for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-    for (std::uint32_t j = i + 1; j < n.first + n.count; ++j) report(i, j, visit);
-  }
-}
-
-template <class Visit>
-void BoxTree::pairs_between(std::uint32_t a, std::uint32_t b, Visit&& visit) const {
-  const Node &na = nodes_[a], &nb = nodes_[b];
-  if (!na.box.meets(nb.box)) return;
-  if (na.count == 0 && (nb.count != 0 || squared_norm(na.box.size()) >= squared_norm(nb.box.size()))) {
-    pairs_between(a + 1, b, visit);
-    pairs_between(na.first, b, visit);
-  } else if (nb.count == 0) {
-    pairs_between(a, b + 1, visit);
-    pairs_between(a, nb.first, visit);
-  } else {
-    for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-      for (std::uint32_t j = nb.first; j < nb.first + nb.count; ++j) report(i, j, visit);
-    }
-  }
-}
 
 template <class Visit>
 void BoxTree::for_each_meeting(const Box3& box, Visit&& visit) const {

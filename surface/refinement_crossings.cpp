@@ -1,15 +1,18 @@
 #include "surface/refinement_crossings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "surface/box_tree.h"
+#include "delaunay/base/box3.h"
+#include "delaunay/base/parallel.h"
 
 namespace deliso {
 
 namespace {
+
+constexpr std::size_t kTrianglesPerTask = 16384;
 
 std::vector<Vec3> points_of(const RefinementMesh& mesh) {
   std::vector<Vec3> points;
@@ -17,6 +20,77 @@ std::vector<Vec3> points_of(const RefinementMesh& mesh) {
   for (const RefinementMesh::Vertex& v : mesh.vertices) points.push_back(v.point);
   return points;
 }
+
+// The points of some triangles, which become corners of these points.
+std::vector<Vec3> take_points(const RefinementMesh& mesh, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> numbers(mesh.vertices.size(), kUnseen);
+  std::vector<Vec3> points;
+  for (auto& corners : triangles) {
+    for (std::uint32_t& v : corners) {
+      if (numbers[v] == kUnseen) {
+        numbers[v] = static_cast<std::uint32_t>(points.size());
+        points.push_back(mesh.vertices[v].point);
+      }
+      v = numbers[v];
+    }
+  }
+  return points;
+}
+
+// The cells of a coarse grid that boxes reach into, as rows of bits along x.
+class CellMarks {
+ public:
+  // Of a grid over a box.
+  explicit CellMarks(const Box3& all) : all_(all), rows_(std::size_t{kCells[1]} * kCells[2]) {
+    const Vec3 size = all.size();
+    for (std::size_t k = 0; k < 3; ++k) cells_per_unit_[k] = size[k] > 1e-290 ? kCells[k] / size[k] : 0;
+  }
+  void add(const Box3& box) {
+    const Cells cells = cells_of(box);
+    for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
+      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) rows_[kCells[1] * z + y] |= cells.row();
+    }
+  }
+  // Certain only when false: no box that was added has a point in common with this one.
+  [[nodiscard]] bool reached_by(const Box3& box) const {
+    if (!all_.meets(box)) return false;
+    const Cells cells = cells_of(box);
+    for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
+      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
+        if ((rows_[kCells[1] * z + y] & cells.row()) != 0) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::array<unsigned, 3> kCells = {64, 256, 256};  // along each axis
+  struct Cells {
+    std::array<unsigned, 3> low{}, high{};
+    // The bits low[0] to high[0].
+    [[nodiscard]] std::uint64_t row() const {
+      return ~std::uint64_t{0} >> (kCells[0] - 1 - high[0] + low[0]) << low[0];
+    }
+  };
+  // Rounding keeps the order of numbers: boxes that have a point in common have a cell in common.
+  [[nodiscard]] Cells cells_of(const Box3& box) const {
+    Cells cells;
+    for (std::size_t k = 0; k < 3; ++k) {
+      cells.low[k] = cell(box.low[k], k);
+      cells.high[k] = cell(box.high[k], k);
+    }
+    return cells;
+  }
+  [[nodiscard]] unsigned cell(double x, std::size_t axis) const {
+    const double at = (x - all_.low[axis]) * cells_per_unit_[axis];
+    return at > 0 ? static_cast<unsigned>(std::min(at, kCells[axis] - 1.0)) : 0;
+  }
+
+  Box3 all_;
+  Vec3 cells_per_unit_;
+  std::vector<std::uint64_t> rows_;
+};
 
 }  // namespace
 
@@ -28,34 +102,36 @@ SelfIntersections meeting_pairs(const RefinementMesh& mesh, int threads) {
 }
 
 SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threads) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::vector<std::uint32_t> renewed;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < count; ++t) {
     if (mesh.triangles[t].is_renewed()) renewed.push_back(t);
   }
   if (renewed.empty()) return {};
-  const BoxTree tree(
-      renewed.size(), [&](std::size_t i) { return mesh.box_of(renewed[i]); }, threads);
-  std::vector<std::uint32_t> near;
+  Box3 all;
+  for (const std::uint32_t t : renewed) {
+    for (const std::uint32_t v : mesh.triangles[t].corners) all.extend(mesh.vertices[v].point);
+  }
+  CellMarks marks(all);
+  for (const std::uint32_t t : renewed) marks.add(mesh.box_of(t));
+
+  // Whatever meets a renewed triangle reaches into a cell that one of them reaches into.
+  std::vector<std::uint8_t> is_near(count);
+  run_tasks((count + kTrianglesPerTask - 1) / kTrianglesPerTask, threads, [&](std::size_t task) {
+    const std::size_t end = std::min<std::size_t>((task + 1) * kTrianglesPerTask, count);
+    for (std::size_t t = task * kTrianglesPerTask; t < end; ++t) {
+      is_near[t] = marks.reached_by(mesh.box_of(static_cast<std::uint32_t>(t))) ? 1 : 0;
+    }
+  });
   std::vector<std::array<std::uint32_t, 3>> corners;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    bool is_near = mesh.triangles[t].is_renewed();
-    if (!is_near) tree.for_each_meeting(mesh.box_of(t), [&](std::uint32_t) { is_near = true; });
-    if (!is_near) continue;
-    near.push_back(t);
+  std::vector<std::uint8_t> is_renewed;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (is_near[t] == 0) continue;
     corners.push_back(mesh.triangles[t].corners);
+    is_renewed.push_back(mesh.triangles[t].is_renewed() ? 1 : 0);
   }
-  // Of the pairs among these the ones that were there before do not count. If there are more than are kept, all do.
-  SelfIntersections found = self_intersections(points_of(mesh), corners, kMostMeetingPairs, threads);
-  const auto is_old = [&](const TrianglePair& pair) {
-    return !mesh.triangles[near[pair.first]].is_renewed() && !mesh.triangles[near[pair.second]].is_renewed();
-  };
-  if (found.crossing_pairs == static_cast<std::int64_t>(found.crossing.size())) {
-    found.crossing_pairs -= static_cast<std::int64_t>(std::erase_if(found.crossing, is_old));
-  }
-  if (found.touching_pairs == static_cast<std::int64_t>(found.touching.size())) {
-    found.touching_pairs -= static_cast<std::int64_t>(std::erase_if(found.touching, is_old));
-  }
-  return found;
+  const std::vector<Vec3> points = take_points(mesh, corners);
+  return self_intersections_of(is_renewed, points, corners, kMostMeetingPairs, threads);
 }
 
 }  // namespace deliso

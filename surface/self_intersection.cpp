@@ -5,7 +5,9 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/base/parallel.h"
-#include "surface/box_tree.h"
+#include "surface/box_pairs.h"
+#include "surface/halving_order.h"
+#include "surface/laid_out_umbrellas.h"
 
 namespace deliso {
 
@@ -63,34 +65,124 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
   return middle;
 }
 
+// The number that follows that of a vertex the triangles share; 0 when there is none. Without branches, for nothing
+// here can be foretold.
+std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
+  std::uint32_t found = 0;
+  for (const std::uint32_t v : s) {
+    const unsigned same = (v == t[0] ? 1U : 0U) | (v == t[1] ? 1U : 0U) | (v == t[2] ? 1U : 0U);
+    found = same != 0 ? v + 1 : found;
+  }
+  return found;
+}
+
+// The triangles that have an area, in the order of halving, and their vertices in the order in which they come there:
+// so what lies near each other in space does so in memory.
+class OrderedTriangles {
+ public:
+  using Corners = std::array<std::uint32_t, 3>;
+
+  OrderedTriangles(std::span<const Vec3> points, std::span<const Corners> triangles, int threads) {
+    Box3 all;
+    for (const Vec3& p : points) all.extend(p);
+    low_ = all.low;
+    numbers_ = order(points, triangles, all, threads);
+    renumber(points, triangles);
+  }
+
+  [[nodiscard]] std::size_t size() const { return numbers_.size(); }
+  // In the numbers of the input.
+  [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
+  // In numbers of their own.
+  [[nodiscard]] const std::vector<Corners>& corners() const { return corners_; }
+  [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }
+  // No point lies below.
+  [[nodiscard]] const Vec3& low() const { return low_; }
+  [[nodiscard]] Box3 box(std::size_t i) const { return box_of(points_, corners_[i]); }
+
+  [[nodiscard]] TrianglePair pair(std::uint32_t i, std::uint32_t j, TriangleContact contact) const {
+    const auto [first, second] = std::minmax(numbers_[i], numbers_[j]);
+    return {first, second, contact, middle_of_common(box(i), box(j))};
+  }
+
+ private:
+  static std::vector<std::uint32_t> order(std::span<const Vec3> points, std::span<const Corners> triangles,
+                                          const Box3& all, int threads) {
+    const CentreLattice lattice(all);
+    std::vector<LatticePlace> places;
+    places.reserve(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      if (!has_area(points[a], points[b], points[c])) continue;
+      const Box3 box = box_of(points, triangles[t]);
+      // Halved terms cannot overflow.
+      places.push_back(lattice.place(0.5 * box.low + 0.5 * box.high, t));
+    }
+    return halving_order(std::move(places), threads);
+  }
+
+  void renumber(std::span<const Vec3> points, std::span<const Corners> triangles) {
+    constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> renumbered(points.size(), kUnseen);
+    points_.reserve(std::min(points.size(), 3 * size()));
+    corners_.reserve(size());
+    for (const std::uint32_t t : numbers_) {
+      Corners corners = triangles[t];
+      for (std::uint32_t& v : corners) {
+        std::uint32_t& number = renumbered[v];
+        if (number == kUnseen) {
+          number = static_cast<std::uint32_t>(points_.size());
+          points_.push_back(points[v]);
+        }
+        v = number;
+      }
+      corners_.push_back(corners);
+    }
+  }
+
+  std::vector<std::uint32_t> numbers_;
+  std::vector<Corners> corners_;
+  std::vector<Vec3> points_;
+  Vec3 low_;
+};
+
 }  // namespace
 
-SelfIntersections self_intersections(std::span<const Vec3> points,
-                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
-                                     int threads) {
-  std::vector<std::uint32_t> with_area;
-  with_area.reserve(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    if (has_area(points[a], points[b], points[c])) with_area.push_back(t);
-  }
-  // Broad phase: pairs of boxes that touch; narrow phase: exact tests.
-  const auto box = [&](std::size_t i) { return box_of(points, triangles[with_area[i]]); };
-  const BoxTree tree(with_area.size(), box, threads);
-  const std::vector<BoxTree::PairTask> tasks = tree.pair_tasks();
+SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std::span<const Vec3> points,
+                                        std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
+                                        int threads) {
+  const OrderedTriangles ordered(points, triangles, threads);
+  const std::vector<OrderedTriangles::Corners>& corners = ordered.corners();
+  const BoxPairs pairs(ordered.size(), ordered.low(), [&](std::size_t i) { return ordered.box(i); });
+  const std::vector<std::uint8_t> laid_out = laid_out_umbrellas(ordered.points(), corners, threads);
+  const auto examine = [&](std::uint32_t i, std::uint32_t j, PairCollector& found) {
+    if (!marks.empty() && marks[ordered.number(i)] == 0 && marks[ordered.number(j)] == 0) return;
+    const TriangleContact contact = triangle_contact(ordered.points(), corners[i], corners[j]);
+    if (contact != TriangleContact::kNone) found.add(ordered.pair(i, j, contact));
+  };
+  // Broad phase: pairs of boxes that touch, but not pairs at a vertex around which nothing meets; narrow phase: exact
+  // tests.
+  const std::vector<BoxPairs::Task> tasks = pairs.tasks();
   std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
   run_tasks(tasks.size(), threads, [&](std::size_t task) {
-    tree.for_each_touching_pair(tasks[task], [&](std::uint32_t i, std::uint32_t j) {
-      const std::uint32_t s = with_area[i], t = with_area[j];
-      const TriangleContact contact = triangle_contact(points, triangles[s], triangles[t]);
-      if (contact != TriangleContact::kNone) found[task].add({s, t, contact, middle_of_common(box(i), box(j))});
-    });
+    pairs.for_each(tasks[task],
+                   [&, corners = corners.data(), laid_out = laid_out.data()](std::uint32_t i, std::uint32_t j) {
+                     const std::uint32_t after_shared = after_shared_vertex(corners[i], corners[j]);
+                     if (after_shared == 0 || laid_out[after_shared - 1] == 0) [[unlikely]]
+                       examine(i, j, found[task]);
+                   });
   });
   PairCollector all(keep);
   for (const PairCollector& part : found) all.add(part);
   SelfIntersections result = std::move(all).sorted();
-  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - with_area.size());
+  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - ordered.size());
   return result;
+}
+
+SelfIntersections self_intersections(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
+                                     int threads) {
+  return self_intersections_of({}, points, triangles, keep, threads);
 }
 
 }  // namespace deliso

@@ -53,6 +53,11 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
                                      int threads = 1);
+// The same of the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
+// none: then all count.
+SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std::span<const Vec3> points,
+                                        std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
+                                        int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {
   return self_intersections(mesh.points, mesh.triangles, keep);
 }

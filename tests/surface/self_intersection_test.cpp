@@ -10,12 +10,15 @@
 #include "delaunay/predicates.h"
 #include "surface/box_tree.h"
 #include "tests/support/mesh_examples.h"
+#include "tests/support/random_boxes.h"
 #include "tests/support/triangle_oracle.h"
 
 namespace deliso {
 namespace {
 
+using testing::have_common_point;
 using testing::IntPoint;
+using testing::random_boxes;
 
 TriangleContact contact(const TriangleMesh& mesh) {
   const TriangleContact there = triangle_contact(mesh.points, mesh.triangles[0], mesh.triangles[1]),
@@ -106,26 +109,18 @@ TEST(TriangleContact, KnowsHandmadeConfigurations) {
   EXPECT_EQ(contact(at_vertex({-2, 0, 0}, {1, -1, 0})), C::kNone);
 }
 
-TEST(BoxTree, FindsThePairsAndTheNearestOfBruteForce) {
+TEST(BoxTree, FindsTheNearestAndWhatMeetsABoxLikeBruteForce) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Rng rng(seed);
-    std::vector<Box3> boxes(rng.below(120));
-    for (Box3& box : boxes) {
-      const Vec3 p{rng.uniform(), rng.uniform(), rng.uniform()};
-      box.extend(p);
-      box.extend(p + 0.2 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()});
-    }
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      for (std::uint32_t j = i + 1; j < boxes.size(); ++j) {
-        const Box3 &a = boxes[i], &b = boxes[j];
-        bool touch = true;
-        for (std::size_t k = 0; k < 3; ++k) touch = touch && a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
-        if (touch) expected.emplace_back(i, j);
-      }
-    }
+    const std::vector<Box3> boxes = random_boxes(rng, rng.below(120), 0.2);
     const BoxTree tree(boxes);
-    tree.for_each_touching_pair([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+
+    const Box3 around = random_boxes(rng, 1, 0.6)[0];
+    std::vector<std::uint32_t> expected, found;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (have_common_point(boxes[i], around)) expected.push_back(i);
+    }
+    tree.for_each_meeting(around, [&](std::uint32_t i) { found.push_back(i); });
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected) << "seed " << seed;
 
@@ -171,6 +166,29 @@ TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
       EXPECT_EQ(found.crossing[i].first, pairs[i].first) << "seed " << seed;
       EXPECT_EQ(found.crossing[i].second, pairs[i].second) << "seed " << seed;
     }
+  }
+}
+
+TEST(SelfIntersections, OfMarkedTrianglesAreAllPairsWithOne) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const TriangleMesh mesh = testing::random_soup(rng, 40, 60);
+    std::vector<std::uint8_t> marks(mesh.triangles.size());
+    for (std::uint8_t& mark : marks) mark = rng.below(4) == 0 ? 1 : 0;
+    constexpr std::size_t kAll = 10000;
+    const SelfIntersections all = self_intersections(mesh, kAll);
+    const SelfIntersections found = self_intersections_of(marks, mesh.points, mesh.triangles, kAll);
+    for (const auto kind : {&SelfIntersections::crossing, &SelfIntersections::touching}) {
+      std::vector<TrianglePair> expected = all.*kind;
+      std::erase_if(expected, [&](const TrianglePair& p) { return marks[p.first] == 0 && marks[p.second] == 0; });
+      ASSERT_EQ((found.*kind).size(), expected.size()) << "seed " << seed;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ((found.*kind)[i].first, expected[i].first) << "seed " << seed;
+        EXPECT_EQ((found.*kind)[i].second, expected[i].second) << "seed " << seed;
+      }
+    }
+    EXPECT_EQ(found.crossing_pairs, static_cast<std::int64_t>(found.crossing.size()));
+    EXPECT_EQ(found.touching_pairs, static_cast<std::int64_t>(found.touching.size()));
   }
 }
 

@@ -1,0 +1,53 @@
+// An order of things in space such that things near each other stand near each other: that of the leaves of a tree of
+// halves.
+//
+// The things are parted along the longest side of their centres' box, the parts again, down to leaves of eight. Every
+// left part has as many leaves as the largest power of two below the number of all: so eight leaves that begin at a
+// multiple of eight are a subtree, and so on upward, and the places of all subtrees are known from the number of
+// things.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+
+namespace deliso {
+
+inline constexpr std::uint32_t kThingsPerLeaf = 8;
+
+// A thing and its centre in steps of a lattice.
+struct LatticePlace {
+  std::array<std::int32_t, 3> at{};
+  std::uint32_t thing = 0;
+};
+
+// Steps along the longest side of a box, as many as go into 30 bits.
+class CentreLattice {
+ public:
+  explicit CentreLattice(const Box3& box);
+  // Precondition: p in the box.
+  [[nodiscard]] LatticePlace place(const Vec3& p, std::size_t thing) const {
+    return {{step(p.x - low_.x), step(p.y - low_.y), step(p.z - low_.z)}, static_cast<std::uint32_t>(thing)};
+  }
+
+ private:
+  [[nodiscard]] std::int32_t step(double offset) const {
+    const double steps = offset * steps_per_unit_;
+    return steps > 0 ? static_cast<std::int32_t>(steps < kMostSteps ? steps : kMostSteps) : 0;
+  }
+
+  static constexpr double kMostSteps = 0x3FFFFFFF;
+  Vec3 low_;
+  double steps_per_unit_ = 0;
+};
+
+// How many of `count` things the left part gets. Precondition: more than one leaf.
+std::uint32_t left_half(std::uint32_t count);
+
+// The things in the order of the leaves, the same for any number of threads.
+std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places, int threads);
+
+}  // namespace deliso
