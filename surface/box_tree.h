@@ -1,8 +1,7 @@
 // A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
 //
-// Splits along the longest side of the centres' box, such that every left subtree is complete: so the places of all
-// nodes, in depth-first order, are known beforehand, and subtrees can be built on several threads.
-// Deterministic; results do not depend on rounding because boxes are only copied and merged.
+// The things stand in the order of halving (surface/halving_order.h), whose parts are the nodes. What is found does not
+// depend on how that order was rounded: boxes are only copied and merged, and of equals the first is taken.
 #pragma once
 
 #include <array>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "surface/halving_order.h"
 
 namespace deliso {
 
@@ -25,16 +25,21 @@ class BoxTree {
   // Of `count` things; box_of(i) gives the box of thing i, always the same.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
-    std::vector<Centre> centres(count);
+    if (count == 0) return;
+    std::vector<Vec3> centres(count);
+    Box3 all;
     for (std::size_t i = 0; i < count; ++i) {
       const Box3 box = box_of(i);
-      // Halved terms cannot overflow.
-      centres[i] = {0.5 * box.low + 0.5 * box.high, static_cast<std::uint32_t>(i)};
+      centres[i] = 0.5 * box.low + 0.5 * box.high;  // halved terms cannot overflow
+      all.extend(centres[i]);
     }
-    build(centres, threads);
+    const CentreLattice lattice(all);
+    std::vector<LatticePlace> places(count);
+    for (std::size_t i = 0; i < count; ++i) places[i] = lattice.place(centres[i], i);
+    things_ = halving_order(std::move(places), threads);
     boxes_.reserve(count);
     for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
-    enclose();
+    make_nodes(0, static_cast<std::uint32_t>(count));
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -42,23 +47,21 @@ class BoxTree {
   void for_each_meeting(const Box3& box, Visit&& visit) const;
 
   // The thing nearest to p among those nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
-  // none. measure(i) gives the squared distance of thing i from p.
+  // none. measure(i) gives the squared distance of thing i from p. Of things at the same distance the first.
   template <class Measure>
   [[nodiscard]] std::pair<std::uint32_t, double> nearest(const Vec3& p, double bound, Measure&& measure) const {
     return least(
         bound, [&](const Box3& box) { return squared_gap(box, p); }, measure);
   }
 
-  // The thing with the least measure below `bound`, with its measure; {kNone, bound} when there is none. No thing in a
-  // box may measure less than gap(box).
+  // The thing with the least measure below `bound`, the first of equals, with its measure; {kNone, bound} when there is
+  // none. No thing in a box may measure less than gap(box).
   template <class Gap, class Measure>
   [[nodiscard]] std::pair<std::uint32_t, double> least(double bound, Gap&& gap, Measure&& measure) const;
 
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
  private:
-  static constexpr std::uint32_t kLeafSize = 8;
-  static constexpr int kTaskDepth = 4;          // subtrees of this depth are tasks
   static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
 
   struct Node {
@@ -69,21 +72,10 @@ class BoxTree {
 
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
-  struct Centre {
-    Vec3 point;
-    std::uint32_t thing = 0;
-  };
-  // The subtree of things first to last of the order of leaves, with its root at a place in nodes_.
-  struct Subtree {
-    std::uint32_t node = 0, first = 0, last = 0;
-    [[nodiscard]] bool is_leaf() const { return last - first <= kLeafSize; }
-  };
-  void build(std::vector<Centre>& centres, int threads);
-  void build(const Subtree& tree, std::span<Centre> centres);
-  std::pair<Subtree, Subtree> split(const Subtree& tree, std::span<Centre> centres);
-  void enclose();
+  // Of the `count` things from place `first` on. Returns their box.
+  Box3 make_nodes(std::uint32_t first, std::uint32_t count);
 
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;            // depth first, left before right
   std::vector<std::uint32_t> things_;  // in the order of the leaves
   std::vector<Box3> boxes_;            // of things_, in the same order
 };
@@ -118,7 +110,7 @@ std::pair<std::uint32_t, double> BoxTree::least(double bound, Gap&& gap, Measure
   stack[depth++] = {gap(nodes_[0].box), 0};
   while (depth > 0) {
     const auto [least_possible, node] = stack[--depth];
-    if (least_possible >= best.second) continue;
+    if (least_possible > best.second) continue;
     const Node& n = nodes_[node];
     if (n.count == 0) {
       std::pair<double, std::uint32_t> near = {gap(nodes_[node + 1].box), node + 1};
@@ -129,9 +121,10 @@ std::pair<std::uint32_t, double> BoxTree::least(double bound, Gap&& gap, Measure
       continue;
     }
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-      if (gap(boxes_[i]) >= best.second) continue;
+      if (gap(boxes_[i]) > best.second) continue;
       const double measured = measure(things_[i]);
-      if (measured < best.second) best = {things_[i], measured};
+      const bool is_first_of_equals = measured == best.second && best.first != kNone && things_[i] < best.first;
+      if (measured < best.second || is_first_of_equals) best = {things_[i], measured};
     }
   }
   return best;

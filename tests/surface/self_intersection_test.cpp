@@ -133,6 +133,26 @@ TEST(BoxTree, FindsTheNearestAndWhatMeetsABoxLikeBruteForce) {
   }
 }
 
+TEST(BoxTree, OfEquallyNearThingsTheFirstIsFound) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Rng rng(seed);
+    // Few places and measures, so that there are many equals.
+    std::vector<Box3> boxes(10 + rng.below(150));
+    for (Box3& box : boxes) {
+      const Vec3 p{std::floor(rng.uniform(0, 3)), std::floor(rng.uniform(0, 3)), 0};
+      box = {p, p};
+    }
+    const BoxTree tree(boxes);
+    const Vec3 p{1.5, 1.5, 0.5};
+    const auto measure = [&](std::uint32_t i) { return squared_distance(p, boxes[i].low); };
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 1; i < boxes.size(); ++i) {
+      if (measure(i) < measure(first)) first = i;
+    }
+    EXPECT_EQ(tree.nearest(p, 100, measure).first, first) << "seed " << seed;
+  }
+}
+
 TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
