@@ -48,7 +48,7 @@ void link_sides(SurfaceMesh& mesh) {
 
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
                                        const IsosurfaceTopology& topology) {
-  const MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings);
+  MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings);
   PolygonizedSurface surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
@@ -73,19 +73,20 @@ PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface&
     }
   }
 
+  // From world to mesh space, in place: there may be many.
   const Vec3& step = isosurface.step();
-  surface.mesh.points.reserve(cubes.points.size());
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
+    Vec3& p = cubes.points[v];
     if (v < cubes.crossing_count) {
-      surface.mesh.points.push_back(scaled(crossing_position(grid, topology.crossings[v]), step));
+      p = scaled(crossing_position(grid, topology.crossings[v]), step);
       continue;
     }
-    Vec3 p = cubes.points[v] - grid.origin();
+    p = p - grid.origin();
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
-    surface.mesh.points.push_back(p);
   }
-  surface.mesh.pole_heights.assign(cubes.points.size(), 1);
-  surface.mesh.triangles.assign(cubes.triangles.begin(), cubes.triangles.end());
+  surface.mesh.points = std::move(cubes.points);
+  surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
+  surface.mesh.triangles = std::move(cubes.triangles);
   link_sides(surface.mesh);
   return surface;
 }
