@@ -69,7 +69,8 @@ void Refinement::queue(std::uint32_t triangle, const NewTriangle& measured) {
 // edge.
 bool Refinement::treat(std::uint32_t triangle) {
   const SurfaceDelaunayBall ball = ball_of(triangle);
-  const Candidate candidate{ball.center, std::sqrt(ball.squared_radius), triangle, kNoSide};
+  const double radius = std::sqrt(ball.squared_radius);
+  const Candidate candidate{ball.center, radius, kNearestVertex * radius, triangle, kNoSide};
   const std::uint32_t state = mesh_.triangles[triangle].state;
   TriangleSide encroached = kNoSide;
   is_blocked_ = false;
@@ -130,14 +131,12 @@ std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSi
 // gradient, or a vertex is too near.
 std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
-  const double nearest = kNearestVertex * candidate.ball_radius;
+  const double nearest = candidate.nearest * candidate.nearest;
   const Vec3 gradient = isosurface_.gradient(p);
   for (const RimEdge& edge : disk_.rim()) {
     const Vec3& a = mesh_.vertices[edge.from].point;
     const Vec3& b = mesh_.vertices[edge.to].point;
-    if (squared_distance(p, a) < nearest * nearest || squared_distance(p, b) < nearest * nearest) {
-      return Refusal::kTooClose;
-    }
+    if (squared_distance(p, a) < nearest || squared_distance(p, b) < nearest) return Refusal::kTooClose;
     if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
   }
   const bool closed = candidate.split == kNoSide;

@@ -10,6 +10,8 @@ namespace {
 constexpr double kNearestEnd = 0.2;
 // Triangles with an edge of at least this length (mesh-space units) are coarse.
 constexpr double kCoarseEdge = 1.5;
+// The middle of an edge may be this near to a vertex, as a fraction of its length: coarse slivers have one there.
+constexpr double kNearestToMiddle = 0.03;
 
 }  // namespace
 
@@ -32,7 +34,7 @@ std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh
   const Line line{0.5 * (a + b), towards_lower / norm(towards_lower)};
   const auto hit = isosurface.nearest_falling_hit(line, length, counters);
   if (!hit || !box.contains(line.at(*hit))) return std::nullopt;
-  return RefinementCandidate{line.at(*hit), 2 * kNearestEnd * length, t, side};
+  return RefinementCandidate{line.at(*hit), 2 * kNearestEnd * length, kNearestEnd * length, t, side};
 }
 
 std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
@@ -56,7 +58,8 @@ std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh,
   const Line line{0.5 * (a + b), sum / norm(sum)};
   const auto hit = isosurface.nearest_falling_hit(line, 0.5 * edge, counters);
   if (!hit || !isosurface.box().contains(line.at(*hit))) return std::nullopt;
-  return RefinementCandidate{line.at(*hit), 0.5 * edge, triangle, kNoSide, 4 * triangle + longest};
+  const double nearest = std::max(kNearestToMiddle * edge, r_min);
+  return RefinementCandidate{line.at(*hit), 0.5 * edge, nearest, triangle, kNoSide, 4 * triangle + longest};
 }
 
 }  // namespace deliso

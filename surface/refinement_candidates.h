@@ -13,6 +13,7 @@ namespace deliso {
 struct RefinementCandidate {
   Vec3 point;
   double ball_radius = 0;
+  double nearest = 0;  // no vertex may be nearer to the point
   std::uint32_t seed = 0;
   TriangleSide split = kNoSide;   // the boundary edge on which the point lies
   TriangleSide halved = kNoSide;  // the inner edge whose two triangles alone make up E

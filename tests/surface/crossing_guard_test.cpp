@@ -40,7 +40,7 @@ Vec3 centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
 
 // What the guard says of splitting one triangle at p.
 bool guard_crosses(RefinementDisk& disk, CrossingGuard& guard, const Vec3& p, double moved, std::uint32_t seed) {
-  const RefinementCandidate candidate{p, 1, seed, kNoSide, kNoSide};
+  const RefinementCandidate candidate{.point = p, .ball_radius = 1, .seed = seed};
   disk.grow(candidate, [](std::uint32_t) { return SurfaceDelaunayBall{}; });
   EXPECT_EQ(disk.order_rim(candidate), RefinementDisk::Shape::kDisk);
   return guard.crosses(p, moved, disk);
