@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "surface/blocks.h"
 #include "surface/component_match.h"
+#include "surface/mesh_differences.h"
 #include "surface/poles.h"
 #include "surface/raised_cells.h"
 #include "surface/repair_round.h"
@@ -15,7 +18,6 @@
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
 #include "surface/sign_trials.h"
-#include "surface/sweep_difference.h"
 #include "surface/trouble.h"
 
 namespace deliso {
@@ -43,23 +45,26 @@ class Repair {
         round_(std::in_place, grid_, topology_, raised_, std::move(restricted), threads),
         samples_(round_->restricted()),
         done_(topology_.components.size(), false),
-        best_(topology_.components.size(), Agreement::kNone) {}
+        best_(topology_.components.size(), Agreement::kNone),
+        differences_(facts, isosurface_) {}
 
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
  private:
   struct KeptMesh {
     std::shared_ptr<MatchedMesh> mesh;
-    std::vector<bool> signs;  // that it was made with; empty once it has its pole heights
+    TetSigns signs;  // that it was made with; empty once it has its pole heights
   };
 
   SurfaceMesh as_it_is();
   void resample();
   bool try_rule(SignRule rule);
+  bool take(RepairRound::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
-  const std::vector<Places>& places_of_difference(std::size_t most);
-  void keep();
+  const std::vector<Places>& places_of_difference(std::size_t most) { return differences_.find(mesh_, done_, most); }
+  [[nodiscard]] bool completes(const MatchedMesh& mesh) const;
+  void keep(TetSigns signs);
   void drop_outdone();
   void give_poles();
   [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
@@ -79,15 +84,13 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;
-  bool is_own_ = false;                   // whether the triangulation is repair's own, not that of stage 1
-  RepairSamples samples_;                 // its vertices
-  std::shared_ptr<MatchedMesh> mesh_;     // the latest
-  std::vector<bool> done_;                // of each exact component: needs no more work
-  std::vector<Agreement> best_;           // of each: the best, kWithStrays at most, reached by some mesh in history_
-  std::vector<Places> places_;            // of difference, as last found
-  std::weak_ptr<MatchedMesh> places_of_;  // in this mesh,
-  std::size_t most_places_ = 0;           // of each component if they were no more
-  std::vector<KeptMesh> history_;         // meshes that brought a component further
+  bool is_own_ = false;                // whether the triangulation is repair's own, not that of stage 1
+  RepairSamples samples_;              // its vertices
+  std::shared_ptr<MatchedMesh> mesh_;  // the latest
+  std::vector<bool> done_;             // of each exact component: needs no more work
+  std::vector<Agreement> best_;        // of each: the best, kWithStrays at most, reached by some mesh in history_
+  MeshDifferences differences_;
+  std::vector<KeptMesh> history_;  // meshes that brought a component further
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -97,7 +100,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
   if (controls.stopped()) return as_it_is();
-  keep();
+  keep(round_->restricted().signs());
   for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
@@ -105,7 +108,6 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
                           places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
                           round_->critical_places(facts_.critical_cells())}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
-    give_poles();
     resample();
     try_rules(controls);
     try_signs(controls);
@@ -127,47 +129,68 @@ SurfaceMesh Repair::as_it_is() {
   return std::move(built.mesh);
 }
 
-// Exchanges samples: in the triangulation as it is when few change, else in one made anew.
+// Exchanges samples: in the triangulation as it is when few change, else in one made anew, before the present one goes
+// where there are threads for both.
 void Repair::resample() {
   const Resampling resampling = samples_.resampling(raised_, lattice_, isosurface_);
+  const bool is_continued = is_own_ && samples_.changes_few(resampling);
+  if (is_continued || threads_ == 1) give_poles();
   ExchangedPoints exchanged;
-  if (is_own_ && samples_.changes_few(resampling) &&
-      round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
   samples_.replace(resampling);
-  round_.reset();
+  if (is_continued || threads_ == 1) round_.reset();
   std::vector<VertexId> vertex_of;
-  round_.emplace(grid_, topology_, raised_,
-                 std::make_unique<SignedDelaunay>(isosurface_, samples_.points(), threads_, &vertex_of), threads_);
+  std::unique_ptr<SignedDelaunay> next;
+  run_tasks(2, threads_, [&](std::size_t task) {
+    if (task == 0) next = std::make_unique<SignedDelaunay>(isosurface_, samples_.points(), threads_, &vertex_of);
+    if (task == 1 && round_) give_poles();
+  });
+  round_.emplace(grid_, topology_, raised_, std::move(next), threads_);
   samples_.take_vertices(vertex_of);
   is_own_ = true;
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
 bool Repair::try_rule(SignRule rule) {
-  round_->take_signs(rule);
-  std::optional<MatchedMesh> mesh = round_->assemble();
-  if (!mesh) return false;
-  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
-  keep();
+  return take(round_->attempts(std::span(&rule, 1), [](const MatchedMesh&) { return true; }).front());
+}
+
+bool Repair::take(RepairRound::Attempt& attempt) {
+  if (!attempt.mesh) return false;
+  mesh_ = std::make_shared<MatchedMesh>(*std::move(attempt.mesh));
+  keep(attempt.signs);
   return is_done();
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
-  std::vector<bool> signs;
-  for (const SignRule rule : kSignRules) {
-    if (try_rule(rule)) return;
-    if (best && mesh_->match.error >= best->match.error) continue;
-    best = mesh_;
-    signs = round_->restricted().signs();
-    if (controls.poll()) break;
+  TetSigns signs;
+  const std::size_t at_once = threads_ > 1 ? kSignRules.size() : 1;
+  for (std::size_t first = 0; first < kSignRules.size(); first += at_once) {
+    for (RepairRound::Attempt& attempt :
+         round_->attempts(std::span(kSignRules).subspan(first, at_once), [&](const auto& m) { return completes(m); })) {
+      if (take(attempt)) return;
+      if (best && mesh_->match.error >= best->match.error) continue;
+      best = mesh_;
+      signs = std::move(attempt.signs);
+      if (controls.poll()) first = kSignRules.size();
+      if (first == kSignRules.size()) break;
+    }
   }
   mesh_ = std::move(best);
   round_->set_signs(signs);
+}
+
+// Whether nothing is left to do with this mesh.
+bool Repair::completes(const MatchedMesh& mesh) const {
+  for (std::size_t c = 0; c < done_.size(); ++c) {
+    if (!done_[c] && mesh.match.agreement[c] < Agreement::kWithStrays) return false;
+  }
+  return true;
 }
 
 // Single signs near the places where a component is wrong.
@@ -180,35 +203,15 @@ void Repair::try_signs(Controls& controls) {
     if (!trials) trials.emplace(*round_, topology_, raised_, kSignRules);
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
-      keep();
+      keep(round_->restricted().signs());
       return static_cast<bool>(done_[c]);
     };
     trials->mend(c, places[c], mesh_, improved, controls);
   }
 }
 
-// Where sweeps along the axes see main pieces part from their components: at so many places at most.
-const std::vector<Places>& Repair::places_of_difference(std::size_t most) {
-  if (places_of_.lock() == mesh_ && most_places_ == most) return places_;
-  places_of_ = mesh_;
-  most_places_ = most;
-  places_.assign(done_.size(), {});
-  const ComponentMatch& match = mesh_->match;
-  for (std::uint32_t c = 0; c < done_.size(); ++c) {
-    const std::uint32_t main = match.main_piece[c];
-    if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
-    auto& layers = places_[c].layers;
-    const PolygonizedSurface& exact = facts_.polygonized();
-    layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
-                           {exact.mesh, [&](std::uint32_t v) { return exact.component[v] == c; }}, isosurface_.step(),
-                           grid_.dims());
-    if (places_[c].count() > most) places_[c] = {};
-  }
-  return places_;
-}
-
 // Keeps the latest mesh when some component agrees with it that agreed with no earlier one.
-void Repair::keep() {
+void Repair::keep(TetSigns signs) {
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (mesh_->match.agreement[c] <= best_[c]) continue;
@@ -217,7 +220,7 @@ void Repair::keep() {
     helps = true;
   }
   if (!helps) return;
-  history_.push_back({mesh_, round_->restricted().signs()});
+  history_.push_back({mesh_, std::move(signs)});
   drop_outdone();
 }
 

@@ -53,7 +53,7 @@ std::int64_t amount(const ComponentTopology& missing) {
 SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
                        std::span<const SignRule> rules)
     : round_(round), topology_(topology), cells_(cells) {
-  const std::vector<bool> signs = round_.restricted().signs();
+  const TetSigns signs = round_.restricted().signs();
   for (const SignRule rule : rules) {
     round_.take_signs(rule);
     signs_by_rule_.push_back(round_.restricted().signs());
@@ -79,7 +79,7 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
     return layers <= kReach ? layers : -1;
   };
   std::vector<DisputedCluster> clusters;
-  for (const std::vector<bool>& signs : signs_by_rule_) {
+  for (const TetSigns& signs : signs_by_rule_) {
     for (DisputedCluster& cluster : disputed_clusters(restricted, signs, distance)) {
       clusters.push_back(std::move(cluster));
     }
@@ -113,7 +113,7 @@ void SignTrials::mend(std::uint32_t component, const Places& places, std::shared
 // Returns whether there is still something to mend.
 bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
                          std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls) {
-  std::vector<bool> signs = round_.restricted().signs();
+  TetSigns signs = round_.restricted().signs();
   int trials = 0;
   for (const DisputedCluster& cluster : clusters) {
     const ComponentTopology lacks = missing(*mesh, component);
@@ -125,8 +125,11 @@ bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most,
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;
     ++trials;
     round_.overturn(cluster.tets);
-    std::optional<MatchedMesh> trial = round_.assemble();
-    if (trial && amount(missing(*trial, component)) < amount(lacks) && trial->match.error <= mesh->match.error) {
+    const auto is_better = [&](const MatchedMesh& trial) {
+      return amount(missing(trial, component)) < amount(lacks) && trial.match.error <= mesh->match.error;
+    };
+    std::optional<MatchedMesh> trial = round_.assemble(is_better);
+    if (trial && is_better(*trial)) {
       mesh = std::make_shared<MatchedMesh>(*std::move(trial));
       signs = round_.restricted().signs();
       if (improved(mesh)) return false;
