@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/free_memory.h"
 #include "surface/blocks.h"
 #include "surface/component_match.h"
 #include "surface/mesh_differences.h"
@@ -106,7 +107,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     raised_.raise(
         cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
                           places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
-                          round_->critical_places(facts_.critical_cells())}));
+                          round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     try_rules(controls);
@@ -296,7 +297,9 @@ SurfaceMesh Repair::assemble_kept() {
 
 SurfaceMesh repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
                    int threads, Controls& controls, RepairStats& stats) {
-  return Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
+  SurfaceMesh mesh = Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
+  give_back_free_memory();
+  return mesh;
 }
 
 }  // namespace deliso

@@ -67,7 +67,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   }
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
-  if (critical_) critical_->renew(exchanged);
+  if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
   has_assembled_ = false;
   return true;
@@ -90,11 +90,6 @@ void RepairRound::take_signs(SignRule rule) {
 void RepairRound::overturn(std::span<const TetId> tets) {
   for (const TetId t : tets) restricted_->overturn_sign(t);
   unfounded_.overturn(*restricted_);
-}
-
-const std::vector<CriticalPlace>& RepairRound::critical_places(std::span<const CellIndex> cells) {
-  if (!critical_) critical_.emplace(*restricted_, grid_, cells, threads_);
-  return critical_->places();
 }
 
 // None when they would be the same as the last time in this round.

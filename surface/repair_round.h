@@ -63,8 +63,10 @@ class RepairRound {
   };
   std::vector<Attempt> attempts(std::span<const SignRule> rules,
                                 const std::function<bool(const MatchedMesh&)>& is_last);
-  // The saddles and critical samples of the cells that have some (surface_facts.h) in the triangulation.
-  const std::vector<CriticalPlace>& critical_places(std::span<const CellIndex> cells);
+  // The saddles and critical samples of the volume (SurfaceFacts) in the triangulation.
+  LocatedPlaces& located(const std::vector<CriticalPlace>& places) {
+    return located_ ? *located_ : located_.emplace(*restricted_, places);
+  }
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
@@ -96,7 +98,7 @@ class RepairRound {
   bool has_assembled_ = false;  // in this round
   // Of each vertex: the facet of a triangle that covered it when it was last left out; kNoFacet when there was none.
   std::vector<std::uint32_t> covered_by_;
-  std::optional<CriticalPlaces> critical_;
+  std::optional<LocatedPlaces> located_;
   KnownPoles poles_;
 };
 

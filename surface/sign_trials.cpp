@@ -74,8 +74,9 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
 std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
+  const DistanceFromPlaces distance_from_places(places, cells_.dims());
   const auto distance = [&](TetId t) {
-    const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
+    const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
   };
   std::vector<DisputedCluster> clusters;
@@ -92,12 +93,13 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
 std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
+  const DistanceFromPlaces distance_from_places(places, cells_.dims());
   std::vector<DisputedCluster> singles;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     const TetId t(i);
     const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
     if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) continue;
-    const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
+    const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     if (layers <= kReachOfSingles) singles.push_back({{t}, layers});
   }
   std::stable_sort(singles.begin(), singles.end(), is_nearer);
