@@ -251,8 +251,8 @@ BuiltMesh build_triangle_mesh(const FacetPairing& pairing) {
   return build_triangle_mesh(pairing.restricted(), pairing.triangles());
 }
 
-BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) {
-  return build_triangle_mesh(FacetPairing(restricted));
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads) {
+  return build_triangle_mesh(FacetPairing(restricted, threads));
 }
 
 }  // namespace deliso

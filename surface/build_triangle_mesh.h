@@ -24,6 +24,6 @@ struct BuiltMesh {
 BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
 // The same from triangles taken before; whatever signs `restricted` has by now.
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, PairedTriangles paired);
-BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted);
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads = 1);
 
 }  // namespace deliso

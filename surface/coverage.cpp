@@ -211,7 +211,7 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
                               std::vector<std::uint32_t>& suspects, int threads) {
-  const SurfaceMesh mesh = build_triangle_mesh(restricted).mesh;
+  const SurfaceMesh mesh = build_triangle_mesh(restricted, threads).mesh;
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/free_memory.h"
 #include "delaunay/base/rng.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/boundary_curves.h"
@@ -248,6 +249,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
 
   // The tetrahedra and the facts go as soon as the surface mesh stands.
   SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
+  give_back_free_memory();
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {

@@ -1,10 +1,12 @@
 #include "surface/facet_pairing.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -43,14 +45,16 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
   return {restricted.isosurface().is_above(0.5 * sum) ? around_below : around_above, true};
 }
 
-FacetPairing::FacetPairing(const SignedDelaunay& restricted)
+FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
   restricted_.for_each_change(signs_, [](TetId) {});
   place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
-  for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
+  facets_ = collect_in_blocks<PairedFacet>(
+      delaunay_.tet_slots(), threads,
+      [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
   for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
   // Guards may share an edge with two facets that are not ours.
-  if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides();
+  if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides();
   is_split_.resize(delaunay_.vertex_count());
   find_split_vertices(std::vector<bool>(delaunay_.vertex_count(), true));
@@ -189,27 +193,47 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
 
 // Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
 // above will do. It is taken for all edges; those that seem to have more than one way are left for pair_sides. Edges
-// are counted by a hash: where two of them share it the only loss is time.
-void FacetPairing::pair_uncontested_sides() {
+// are counted by a hash: where two of them share it the only loss is time. Between the shares of two threads each takes
+// the walk from its own side.
+void FacetPairing::pair_uncontested_sides(int threads) {
   const std::size_t least = kCountsPerFacet * facets_.size() + 2;
   const unsigned shift = 64u - static_cast<unsigned>(std::bit_width(least));
-  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge: 0, 1, 2 for more
+  constexpr std::uint8_t kOne = 1, kMore = 2;
+  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge, as flags
   const auto ways_around = [&](const PairedFacet& facet, unsigned side) -> std::uint8_t& {
     const auto [low, high] = std::minmax(facet.vertices[(side + 1) % 3].value, facet.vertices[(side + 2) % 3].value);
     const std::uint64_t edge = std::uint64_t{high} << 32 | low;
     return ways[edge * std::uint64_t{0x9E3779B97F4A7C15} >> shift];
   };
-  for (PairedFacet& facet : facets_) {
-    for (unsigned side = 0; side < 3; ++side) {
-      if (facet.known[side]) continue;
-      join(facet, side, next_restricted_facet(restricted_, facet.facet, facet.vertices[side]), false);
-      std::uint8_t& count = ways_around(facet, side);
-      count = count == 0 ? 1 : 2;
+  const Shares shares(facets_.size(), threads);
+  const auto count_way = [&](std::uint8_t& flags) {
+    if (shares.count() == 1) {
+      flags = flags == 0 ? kOne : kMore;
+    } else if (std::atomic_ref(flags).fetch_or(kOne, std::memory_order_relaxed) != 0) {
+      std::atomic_ref(flags).fetch_or(kMore, std::memory_order_relaxed);
     }
-  }
-  for (PairedFacet& facet : facets_) {
-    for (unsigned side = 0; side < 3; ++side) facet.known[side] = ways_around(facet, side) < 2;
-  }
+  };
+  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      PairedFacet& facet = facets_[i];
+      for (unsigned side = 0; side < 3; ++side) {
+        if (facet.known[side]) continue;
+        const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
+        const std::uint32_t place = place_of(partner);
+        if (place == kNoPlace || (first <= place && place < last)) {
+          join(facet, side, partner, false);
+        } else {
+          facet.across[side] = side_across(facet, side, place);
+        }
+        if (i < place) count_way(ways_around(facet, side));
+      }
+    }
+  });
+  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (unsigned side = 0; side < 3; ++side) facets_[i].known[side] = ways_around(facets_[i], side) < kMore;
+    }
+  });
 }
 
 void FacetPairing::pair_sides() {
@@ -234,17 +258,23 @@ void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool
   const std::uint32_t place = place_of(partner);
   if (place == kNoPlace) return;
 
-  // Our edge runs the other way over there.
-  const VertexId a = facet.vertices[(side + 1) % 3];
-  const VertexId b = facet.vertices[(side + 2) % 3];
   PairedFacet& there = facets_[place];
-  unsigned i = 0;
-  while (i < 3 && !(there.vertices[(i + 1) % 3] == b && there.vertices[(i + 2) % 3] == a)) ++i;
-  DELISO_CHECK(i < 3, "paired facets must share an edge");
-  facet.across[side] = 4 * place + i;
+  facet.across[side] = side_across(facet, side, place);
+  const unsigned i = facet.across[side] & 3u;
   there.across[i] = 4 * static_cast<std::uint32_t>(&facet - facets_.data()) + side;
   there.contested[i] = is_contested;
   there.known[i] = true;
+}
+
+// The side of another facet that has the same edge; it runs the other way over there.
+TriangleSide FacetPairing::side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const {
+  const VertexId a = facet.vertices[(side + 1) % 3];
+  const VertexId b = facet.vertices[(side + 2) % 3];
+  const PairedFacet& there = facets_[place];
+  unsigned i = 0;
+  while (i < 3 && !(there.vertices[(i + 1) % 3] == b && there.vertices[(i + 2) % 3] == a)) ++i;
+  DELISO_CHECK(i < 3, "paired facets must share an edge");
+  return 4 * place + i;
 }
 
 }  // namespace deliso

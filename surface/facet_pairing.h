@@ -43,8 +43,8 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 
 class FacetPairing {
  public:
-  // Keeps a reference.
-  explicit FacetPairing(const SignedDelaunay& restricted);
+  // Keeps a reference. The same for any number of threads.
+  explicit FacetPairing(const SignedDelaunay& restricted, int threads = 1);
 
   // Takes account of signs that have changed since the last time: only the facets at the vertices of their tetrahedra
   // are paired anew. Returns whether any have.
@@ -64,10 +64,11 @@ class FacetPairing {
   void renew_facets(std::span<const TetId> tets);
   void forget_sides_between(const std::vector<bool>& has_changed);
   void find_split_vertices(const std::vector<bool>& has_changed);
-  void pair_uncontested_sides();
+  void pair_uncontested_sides(int threads);
   void pair_sides();
   void pair_side(PairedFacet& facet, unsigned side);
   void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
+  [[nodiscard]] TriangleSide side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const;
 
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "delaunay/base/free_memory.h"
 #include "surface/blocks.h"
 #include "surface/component_match.h"
 #include "surface/mesh_differences.h"
@@ -72,6 +71,7 @@ class Repair {
     return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
   }
   SurfaceMesh assemble_kept();
+  void append_given(std::vector<bool>& left, SurfaceMesh& kept);
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
@@ -263,43 +263,49 @@ void Repair::give_poles() {
 // dropped.
 SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
-  std::vector<bool> taken(done_.size(), false);
+  std::vector<bool> left(done_.size(), true);
   stats_.components_polygonized = std::count(best_.begin(), best_.end(), Agreement::kNone);
   // Pieces of two meshes may cross where components come near each other; a small surface is polygonized as a whole.
   if (stats_.components_polygonized > 0 && topology_.crossings.size() <= kSmallSurface) {
-    stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
-    taken.flip();
-    append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
-    return kept;
+    stats_.components_polygonized = static_cast<std::int64_t>(left.size());
+  } else {
+    append_given(left, kept);
   }
-  for (auto at = history_.rbegin(); at != history_.rend(); ++at) {
-    MatchedMesh* const mesh = at->mesh.get();
-    const ComponentMatch& match = mesh->match;
-    std::vector<bool> wanted(match.pieces.size(), false);
+  if (stats_.components_polygonized == 0) return kept;
+  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, left, kept);
+  return kept;
+}
+
+// Those that some mesh gives; the others are left.
+void Repair::append_given(std::vector<bool>& left, SurfaceMesh& kept) {
+  std::vector<std::vector<bool>> wanted(history_.size());  // pieces of each mesh
+  for (std::size_t i = history_.size(); i-- > 0;) {
+    const ComponentMatch& match = history_[i].mesh->match;
+    wanted[i].assign(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (taken[c] || !may_give(*mesh, c)) continue;
-      taken[c] = wanted[match.main_piece[c]] = true;
+      if (!left[c] || !may_give(*history_[i].mesh, c)) continue;
+      left[c] = false;
+      wanted[i][match.main_piece[c]] = true;
       stats_.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
       stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
-    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
-    separate_copies(mesh->built.mesh, mesh->built.groups, mesh->built.vertex_of, isosurface_.box());
-    append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
   }
-  if (stats_.components_polygonized == 0) return kept;
-  taken.flip();
-  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
-  return kept;
+  run_tasks(history_.size(), threads_, [&](std::size_t i) {
+    BuiltMesh& built = history_[i].mesh->built;
+    if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
+    separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box());
+  });
+  for (std::size_t i = history_.size(); i-- > 0;) {
+    append_pieces(history_[i].mesh->built.mesh, history_[i].mesh->match.piece_of, wanted[i], kept);
+  }
 }
 
 }  // namespace
 
 SurfaceMesh repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
                    int threads, Controls& controls, RepairStats& stats) {
-  SurfaceMesh mesh = Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
-  give_back_free_memory();
-  return mesh;
+  return Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
 }
 
 }  // namespace deliso

@@ -95,7 +95,7 @@ void RepairRound::overturn(std::span<const TetId> tets) {
 // None when they would be the same as the last time in this round.
 std::optional<PairedTriangles> RepairRound::take_triangles() {
   if (!pairing_) {
-    pairing_.emplace(*restricted_);
+    pairing_.emplace(*restricted_, threads_);
   } else if (!pairing_->update() && has_assembled_) {
     return std::nullopt;
   }
