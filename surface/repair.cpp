@@ -292,9 +292,11 @@ void Repair::append_given(std::vector<bool>& left, SurfaceMesh& kept) {
     }
   }
   run_tasks(history_.size(), threads_, [&](std::size_t i) {
-    BuiltMesh& built = history_[i].mesh->built;
+    auto& [built, component, match] = *history_[i].mesh;
     if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
-    separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box());
+    separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box(), [&, &match = match](std::uint32_t v) {
+      return match.piece_of[v] != kNoPiece && wanted[i][match.piece_of[v]];
+    });
   });
   for (std::size_t i = history_.size(); i-- > 0;) {
     append_pieces(history_[i].mesh->built.mesh, history_[i].mesh->match.piece_of, wanted[i], kept);

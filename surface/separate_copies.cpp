@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -31,7 +32,11 @@ class Separation {
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
       : mesh_(mesh), groups_(groups), origin_of_(origin_of), box_(box) {
     find_fans();
+    for (std::size_t i = 0; i < groups_.size(); ++i) chosen_.push_back(i);
   }
+
+  // Leaves groups out that have no wanted copy and make no difference to one that has.
+  void choose(const std::function<bool(std::uint32_t)>& is_wanted);
 
   void run() {
     Sweep last{true, true};
@@ -55,6 +60,7 @@ class Separation {
   };
   Sweep sweep_over_groups(bool all, bool is_stubborn);
   void find_fans();
+  [[nodiscard]] std::vector<std::uint32_t> triangles_around(const CopyGroup& group) const;
   void find_surroundings(const CopyGroup& group);
   void look_again_at(std::uint32_t copy);
   void move(const Copy& copy, int fewest, bool is_stubborn);
@@ -85,12 +91,14 @@ class Separation {
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin: triangles around its copies
   std::vector<Surrounding> surroundings_;                             // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
+  std::vector<std::size_t> chosen_;                                   // groups to separate, ascending
 };
 
 // Moves all copies, or those with conflicts.
 Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   Sweep sweep;
-  for (const CopyGroup& group : groups_) {
+  for (const std::size_t i : chosen_) {
+    const CopyGroup& group = groups_[i];
     find_surroundings(group);
     for (const Copy& copy : group) {
       const Vec3 before = mesh_.points[copy.vertex];
@@ -129,7 +137,36 @@ void Separation::find_fans() {
   }
 }
 
-void Separation::find_surroundings(const CopyGroup& group) {
+// What is done with a group depends on the vertices of the triangles around it alone. So groups that have copies among
+// these hang together, and each set of groups that do fares as it would without the others: a sweep that it does not
+// need moves none of its copies.
+void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
+  std::unordered_map<std::uint32_t, std::size_t> group_of;  // of each copy
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    for (const Copy& copy : groups_[i]) group_of[copy.vertex] = i;
+  }
+  std::vector<std::size_t> set(groups_.size());
+  std::iota(set.begin(), set.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (set[i] != i) i = set[i] = set[set[i]];
+    return i;
+  };
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    for (const std::uint32_t t : triangles_around(groups_[i])) {
+      for (const std::uint32_t v : mesh_.triangles[t]) {
+        if (const auto other = group_of.find(v); other != group_of.end()) set[find(other->second)] = find(i);
+      }
+    }
+  }
+  std::vector<bool> matters(groups_.size(), false);
+  for (const auto& [v, i] : group_of) {
+    if (is_wanted(v)) matters[find(i)] = true;
+  }
+  std::erase_if(chosen_, [&](std::size_t i) { return !matters[find(i)]; });
+}
+
+// Those at the vertices of the triangles at its copies, ascending.
+std::vector<std::uint32_t> Separation::triangles_around(const CopyGroup& group) const {
   std::vector<std::uint32_t> triangles;
   for (const Copy& copy : group) {
     for (const std::uint32_t t : fan(copy.vertex)) {
@@ -139,8 +176,12 @@ void Separation::find_surroundings(const CopyGroup& group) {
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+void Separation::find_surroundings(const CopyGroup& group) {
   surroundings_.clear();
-  for (const std::uint32_t t : triangles) surroundings_.push_back({t, box_of(t), has_area_at(t)});
+  for (const std::uint32_t t : triangles_around(group)) surroundings_.push_back({t, box_of(t), has_area_at(t)});
 }
 
 // A copy may have moved, and the triangles at it with it.
@@ -262,8 +303,10 @@ int Separation::conflicts(std::uint32_t copy) {
 }  // namespace
 
 void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
-                     const Box3& box) {
-  Separation(mesh, groups, origin_of, box).run();
+                     const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted) {
+  Separation separation(mesh, groups, origin_of, box);
+  if (is_wanted) separation.choose(is_wanted);
+  separation.run();
 }
 
 }  // namespace deliso

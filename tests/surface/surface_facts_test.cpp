@@ -87,7 +87,8 @@ TEST(LocatedPlaces, AreTheSameForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < all.size(); i += 100) few.locate(std::span(all).subspan(i, 1), 1);
   for (std::uint32_t i = 0; i < places.size(); i += 100) {
     ASSERT_FALSE(few.tet(i).is_none());
-    if (!restricted.delaunay().is_ghost(one.tet(i))) ASSERT_EQ(few.tet(i), one.tet(i));
+    if (restricted.delaunay().is_ghost(one.tet(i))) continue;
+    ASSERT_EQ(few.tet(i), one.tet(i));
   }
   for (const int threads : {2, 3, 5}) {
     LocatedPlaces many(restricted, places);
