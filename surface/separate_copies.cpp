@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
+#include "surface/copy_groups.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -137,32 +137,15 @@ void Separation::find_fans() {
   }
 }
 
-// What is done with a group depends on the vertices of the triangles around it alone. So groups that have copies among
-// these hang together, and each set of groups that do fares as it would without the others: a sweep that it does not
-// need moves none of its copies.
+// What is done with a group depends on the vertices of the triangles around it alone, and sweeps that only others need
+// move none of its copies.
 void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
-  std::unordered_map<std::uint32_t, std::size_t> group_of;  // of each copy
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    for (const Copy& copy : groups_[i]) group_of[copy.vertex] = i;
-  }
-  std::vector<std::size_t> set(groups_.size());
-  std::iota(set.begin(), set.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (set[i] != i) i = set[i] = set[set[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    for (const std::uint32_t t : triangles_around(groups_[i])) {
-      for (const std::uint32_t v : mesh_.triangles[t]) {
-        if (const auto other = group_of.find(v); other != group_of.end()) set[find(other->second)] = find(i);
-      }
+  const auto visit_vertices_around = [&](std::size_t group, const auto& visit) {
+    for (const std::uint32_t t : triangles_around(groups_[group])) {
+      for (const std::uint32_t v : mesh_.triangles[t]) visit(v);
     }
-  }
-  std::vector<bool> matters(groups_.size(), false);
-  for (const auto& [v, i] : group_of) {
-    if (is_wanted(v)) matters[find(i)] = true;
-  }
-  std::erase_if(chosen_, [&](std::size_t i) { return !matters[find(i)]; });
+  };
+  chosen_ = groups_that_matter(groups_, visit_vertices_around, is_wanted);
 }
 
 // Those at the vertices of the triangles at its copies, ascending.

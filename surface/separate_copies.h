@@ -4,20 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "delaunay/base/box3.h"
 #include "delaunay/ids.h"
+#include "surface/copy_groups.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
-
-// A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first.
-struct Copy {
-  std::uint32_t vertex = 0;
-  std::vector<Vec3> other_homes;
-};
-using CopyGroup = std::vector<Copy>;
 
 // Each copy moves a hair's breadth (at most 2e-4 mesh-space units) towards one side of its own triangles, in a
 // direction that all of them see from that side, so that its fan shrinks away from the others; vertices on the box stay
