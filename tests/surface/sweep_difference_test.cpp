@@ -54,5 +54,19 @@ TEST(SweepDifference, FindsWhereAHoleIsPunched) {
   }
 }
 
+TEST(SweepDifference, PartsSweptAtOnceAreLikePartsSweptAlone) {
+  const auto scene = field_scene("bubbles", 26);
+  const PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
+  const std::size_t parts = scene->topology.components.size();
+  ASSERT_GT(parts, 1u);
+  const auto all = swept_characteristics(surface.mesh, surface.component, parts, {1, 1, 1}, scene->grid.dims());
+  for (std::uint32_t c = 0; c < parts; ++c) {
+    std::vector<std::uint32_t> alone(surface.component.size(), kNoPart);
+    for (std::size_t v = 0; v < alone.size(); ++v) alone[v] = surface.component[v] == c ? 0 : kNoPart;
+    EXPECT_EQ(swept_characteristics(surface.mesh, alone, 1, {1, 1, 1}, scene->grid.dims()).front(), all[c]);
+    for (const auto& along : all[c]) EXPECT_EQ(along.back(), scene->topology.components[c].euler_characteristic);
+  }
+}
+
 }  // namespace
 }  // namespace deliso
