@@ -70,6 +70,7 @@ class RepairRound {
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
+  [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }

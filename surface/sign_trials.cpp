@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "surface/blocks.h"
 #include "surface/evidence.h"
 
 namespace deliso {
@@ -94,14 +95,14 @@ std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) co
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
   const DistanceFromPlaces distance_from_places(places, cells_.dims());
-  std::vector<DisputedCluster> singles;
-  for (std::size_t i = 0; i < evidence.size(); ++i) {
+  const auto append_if_near = [&](std::size_t i, std::vector<DisputedCluster>& singles) {
     const TetId t(i);
     const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
-    if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) continue;
+    if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
     const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     if (layers <= kReachOfSingles) singles.push_back({{t}, layers});
-  }
+  };
+  auto singles = collect_in_blocks<DisputedCluster>(evidence.size(), round_.threads(), append_if_near);
   std::stable_sort(singles.begin(), singles.end(), is_nearer);
   return singles;
 }
