@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -40,6 +41,28 @@ class Shares {
   std::size_t elements_;
   std::size_t count_;
 };
+
+// Tasks of two steps: first(i) one after the other in order, second(i) after it, beside the steps of later tasks. When
+// a step throws, its task ends; the others go on, and the exception of the lowest number is thrown on after all.
+template <class First, class Second>
+void run_in_turn(std::size_t count, int threads, First&& first, Second&& second) {
+  std::atomic<std::size_t> turn{0};
+  struct Pass {  // the turn on, whatever happens
+    std::atomic<std::size_t>& turn;
+    ~Pass() {
+      ++turn;
+      turn.notify_all();
+    }
+  };
+  run_tasks(count, threads, [&](std::size_t i) {
+    for (std::size_t now = turn; now != i; now = turn) turn.wait(now);
+    {
+      const Pass pass{turn};
+      first(i);
+    }
+    second(i);
+  });
+}
 
 // What append(element, items) appends for the elements below `count`, in their order.
 template <class Item, class Append>

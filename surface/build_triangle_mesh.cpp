@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "delaunay/base/check.h"
 
@@ -11,15 +13,20 @@ namespace deliso {
 
 namespace {
 
-constexpr std::uint32_t kNoClass = 0xFFFFFFFFu;
+constexpr std::uint32_t kNoFan = 0xFFFFFFFFu;
 
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const FacetPairing& pairing)
-      : pairing_(pairing), restricted_(pairing.restricted()), delaunay_(restricted_.delaunay()) {}
+  MeshBuilder(const SignedDelaunay& restricted, PairedTriangles paired)
+      : restricted_(restricted),
+        delaunay_(restricted_.delaunay()),
+        contested_sides_(std::move(paired.contested)),
+        is_split_(std::move(paired.is_split)) {
+    mesh_.triangles = std::move(paired.triangles);
+    mesh_.neighbours = std::move(paired.neighbours);
+  }
 
   BuiltMesh build() {
-    collect_triangles();
     name_vertices();
     subdivide_shared_edges();
     group_copies();
@@ -27,9 +34,8 @@ class MeshBuilder {
   }
 
  private:
-  void collect_triangles();
   void name_vertices();
-  void mark_fan(std::uint32_t corner, std::uint32_t name, std::vector<std::uint32_t>& class_of) const;
+  [[nodiscard]] std::vector<std::uint32_t> number_fans(std::vector<std::uint32_t>& fans_before) const;
   void subdivide_shared_edges();
 
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
@@ -40,74 +46,67 @@ class MeshBuilder {
   [[nodiscard]] Vec3 normal_of(std::uint32_t triangle) const;
   void group_copies();
 
-  const FacetPairing& pairing_;
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   BuiltMesh built_;
   SurfaceMesh& mesh_ = built_.mesh;
-  std::vector<TriangleSide> contested_sides_;                   // whose edge has more than two restricted facets
+  std::vector<TriangleSide> contested_sides_;
+  std::vector<bool> is_split_;                                  // of each vertex of the triangulation
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
-// One triangle for each restricted facet, counterclockwise seen from below.
-void MeshBuilder::collect_triangles() {
-  const std::span<const PairedFacet> facets = pairing_.facets();
-  mesh_.triangles.reserve(facets.size());
-  mesh_.neighbours.assign(facets.size(), {kNoSide, kNoSide, kNoSide});
-  for (std::uint32_t t = 0; t < facets.size(); ++t) {
-    const auto& v = facets[t].vertices;
-    mesh_.triangles.push_back({v[0].value, v[1].value, v[2].value});
-    for (unsigned i = 0; i < 3; ++i) {
-      const std::uint32_t across = facets[t].across[i];
-      if (across != PairedFacet::kUnpaired) {
-        mesh_.neighbours[t][i] = 4 * pairing_.place_of(FacetId(across >> 2)) + (across & 3u);
-      }
-      if (facets[t].contested[i]) contested_sides_.push_back(4 * t + i);
-    }
-  }
-}
-
 // Corners that paired edges join are one vertex; every other class of corners at the same point is a copy of its own.
+// Named in order of (vertex of the triangulation, first corner).
 void MeshBuilder::name_vertices() {
-  // Step 1: the classes, in the order of their first corners.
-  std::vector<std::uint32_t> class_of(3 * mesh_.triangles.size(), kNoClass);
-  std::vector<VertexId> classes;  // the vertex that each is at
-  for (std::uint32_t c = 0; c < class_of.size(); ++c) {
-    if (class_of[c] != kNoClass) continue;
-    mark_fan(c, static_cast<std::uint32_t>(classes.size()), class_of);
-    classes.push_back(VertexId{mesh_.triangles[c / 3][c % 3]});
+  // Step 1: how many vertices there are at each of the triangulation, and which of them a corner has if not the first.
+  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // one further on
+  const std::vector<std::uint32_t> fan_of = number_fans(first);
+  const std::size_t count = std::accumulate(first.begin(), first.end(), std::size_t{0});
+  mesh_.points.reserve(count);
+  built_.vertex_of.reserve(count);
+  // Step 2: points and names; first[v] becomes the name of the first vertex at v.
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    const bool is_split = first[v + 1] > 1;
+    first[v + 1] += first[v];
+    for (std::uint32_t name = first[v]; name < first[v + 1]; ++name) {
+      mesh_.points.push_back(delaunay_.point(VertexId(v)));
+      built_.vertex_of.emplace_back(v);
+      if (is_split) built_.copies.push_back(name);
+    }
   }
-  // Step 2: a name for each, in order of (vertex of the triangulation, first corner).
-  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // name of each vertex's first class, moved on
-  for (const VertexId v : classes) ++first[v.index() + 1];
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<std::uint32_t> name(classes.size());
-  mesh_.points.resize(classes.size());
-  built_.vertex_of.resize(classes.size());
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    name[i] = first[classes[i].index()]++;
-    mesh_.points[name[i]] = delaunay_.point(classes[i]);
-    built_.vertex_of[name[i]] = classes[i];
-  }
-  for (std::uint32_t c = 0; c < class_of.size(); ++c) mesh_.triangles[c / 3][c % 3] = name[class_of[c]];
-  for (std::uint32_t v = 1; v < built_.vertex_of.size(); ++v) {
-    if (built_.vertex_of[v] != built_.vertex_of[v - 1]) continue;
-    if (built_.copies.empty() || built_.copies.back() != v - 1) built_.copies.push_back(v - 1);
-    built_.copies.push_back(v);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      std::uint32_t& v = mesh_.triangles[t][i];
+      v = is_split_[v] ? first[v] + fan_of[3 * t + i] : first[v];
+    }
   }
 }
 
-// The corners joined to one by paired edges: walks around their vertex one way and, if the fan is open, the other.
-void MeshBuilder::mark_fan(std::uint32_t corner, std::uint32_t name, std::vector<std::uint32_t>& class_of) const {
-  for (const unsigned turn : {1u, 2u}) {
-    for (std::uint32_t c = corner;;) {
-      class_of[c] = name;
-      const TriangleSide side = mesh_.neighbours[c / 3][(c % 3 + turn) % 3];
-      if (side == kNoSide) break;
-      c = 3 * (side >> 2) + ((side & 3u) + turn) % 3;
-      if (class_of[c] != kNoClass) return;
+// Counts the fans at each vertex, and numbers them where there are more than one: a number for each corner at such a
+// vertex. Corner 3 t + i is that of triangle t at its vertex i.
+std::vector<std::uint32_t> MeshBuilder::number_fans(std::vector<std::uint32_t>& fans_before) const {
+  std::vector<std::uint32_t> split_corners;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_.triangles[t][i];
+      if (is_split_[v]) {
+        split_corners.push_back(3 * t + i);
+      } else {
+        fans_before[v + 1] = 1;
+      }
     }
   }
+  std::vector<std::uint32_t> fan_of;
+  if (split_corners.empty()) return fan_of;
+  fan_of.assign(3 * mesh_.triangles.size(), kNoFan);
+  for (const std::uint32_t corner : split_corners) {
+    if (fan_of[corner] != kNoFan) continue;
+    const std::uint32_t fan = fans_before[mesh_.triangles[corner / 3][corner % 3] + 1]++;
+    for_each_corner_of_fan(
+        corner, [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
+        [&](std::uint32_t c) { return std::exchange(fan_of[c], fan) == kNoFan; });
+  }
+  return fan_of;
 }
 
 // Contested edges whose two ends were not both split leave two pairs on the same two vertices.
@@ -244,10 +243,16 @@ void MeshBuilder::group_copies() {
 
 }  // namespace
 
-BuiltMesh build_triangle_mesh(const FacetPairing& pairing) { return MeshBuilder(pairing).build(); }
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, PairedTriangles paired) {
+  return MeshBuilder(restricted, std::move(paired)).build();
+}
 
-BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted) {
-  return build_triangle_mesh(FacetPairing(restricted));
+BuiltMesh build_triangle_mesh(const FacetPairing& pairing) {
+  return build_triangle_mesh(pairing.restricted(), pairing.triangles());
+}
+
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads) {
+  return build_triangle_mesh(FacetPairing(restricted, threads));
 }
 
 }  // namespace deliso

@@ -22,6 +22,8 @@ struct BuiltMesh {
 // construction. Vertices without triangles are left out. It touches itself at the copies until separate_copies has
 // moved them apart.
 BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
-BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted);
+// The same from triangles taken before; whatever signs `restricted` has by now.
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, PairedTriangles paired);
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads = 1);
 
 }  // namespace deliso

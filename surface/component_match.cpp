@@ -33,6 +33,8 @@ std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t
 
 // Boundary loops of each piece: on a manifold every boundary vertex is left by one boundary edge, so loops are cycles.
 void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
+  const auto is_open = [](const auto& sides) { return std::find(sides.begin(), sides.end(), kNoSide) != sides.end(); };
+  if (std::none_of(mesh.neighbours.begin(), mesh.neighbours.end(), is_open)) return;
   std::vector<std::uint32_t> next(mesh.points.size(), kNoPiece);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -51,22 +53,33 @@ void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
   }
 }
 
-// The component that most vertices of each piece lie on, by counting votes.
+// The component that most vertices of each piece lie on, the first of equals: nearly all lie on that of its first
+// vertex, so the votes of the others are counted.
 void find_components(const std::vector<std::uint32_t>& component_of, ComponentMatch& match) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> votes;  // (piece, component) of each vertex
+  std::vector<bool> has_first(match.pieces.size(), false);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> others;  // (piece, component) of each vertex off the first one's
   for (std::size_t v = 0; v < component_of.size(); ++v) {
-    if (match.piece_of[v] != kNoPiece) votes.emplace_back(match.piece_of[v], component_of[v]);
+    const std::uint32_t i = match.piece_of[v];
+    if (i == kNoPiece) continue;
+    if (!has_first[i]) match.pieces[i].component = component_of[v];
+    has_first[i] = true;
+    if (component_of[v] != match.pieces[i].component) others.emplace_back(i, component_of[v]);
   }
-  std::sort(votes.begin(), votes.end());
-  std::vector<std::size_t> most(match.pieces.size(), 0);
-  for (std::size_t first = 0; first < votes.size();) {
-    std::size_t last = first;
-    while (last < votes.size() && votes[last] == votes[first]) ++last;
-    MeshPiece& piece = match.pieces[votes[first].first];
-    if (most[votes[first].first] != 0) piece.mixed = true;
-    if (last - first > most[votes[first].first]) {
-      most[votes[first].first] = last - first;
-      piece.component = votes[first].second;
+  std::sort(others.begin(), others.end());
+  std::vector<std::int64_t> most(match.pieces.size());
+  for (std::size_t i = 0; i < most.size(); ++i) most[i] = match.pieces[i].vertices;
+  for (const auto& [i, component] : others) {
+    match.pieces[i].mixed = true;
+    --most[i];
+  }
+  for (auto first = others.begin(); first != others.end();) {
+    const auto [i, component] = *first;
+    const auto last = std::upper_bound(first, others.end(), *first);
+    const std::int64_t votes = last - first;
+    MeshPiece& piece = match.pieces[i];
+    if (votes > most[i] || (votes == most[i] && component < piece.component)) {
+      most[i] = votes;
+      piece.component = component;
     }
     first = last;
   }

@@ -94,6 +94,26 @@ double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
   return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
 }
 
+// How far a triangle covers points.
+double reach_of(const SurfaceMesh& mesh, std::uint32_t t) {
+  const double radius = circumradius(mesh, t);
+  return std::isfinite(radius) ? std::max(kNear, kFewRadii * radius) : kNear;
+}
+
+Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t, double reach) {
+  Box3 around;
+  for (const std::uint32_t q : mesh.triangles[t]) {
+    around.extend(mesh.points[q] - Vec3{reach, reach, reach});
+    around.extend(mesh.points[q] + Vec3{reach, reach, reach});
+  }
+  return around;
+}
+
+bool is_within(double reach, const Vec3& p, const SurfaceMesh& mesh, std::uint32_t t) {
+  const auto& v = mesh.triangles[t];
+  return squared_distance_to_triangle(p, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= reach * reach;
+}
+
 }  // namespace
 
 MeshCover::MeshCover(const SurfaceMesh& mesh, int threads)
@@ -139,10 +159,15 @@ std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uin
   return best;
 }
 
-std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                 const std::function<bool(std::uint32_t)>& takes, int threads) {
-  std::vector<bool> covered(points.size(), false);
-  if (points.empty()) return covered;
+bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle) {
+  const double reach = reach_of(mesh, triangle);
+  return box_around(mesh, triangle, reach).contains(p) && is_within(reach, p, mesh, triangle);
+}
+
+std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                                              const std::function<bool(std::uint32_t)>& takes, int threads) {
+  std::vector<std::uint32_t> covering(points.size(), kNoTriangle);
+  if (points.empty()) return covering;
   std::vector<Box3> boxes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) boxes[i].extend(points[i]);
   const BoxTree tree(boxes);
@@ -154,21 +179,12 @@ std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceM
     if (takes(t)) near.push_back(t);
   };
   for (const std::uint32_t t : collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, append_if_near)) {
-    const auto& v = mesh.triangles[t];
-    const double radius = circumradius(mesh, t);
-    const double reach = std::isfinite(radius) ? std::max(kNear, kFewRadii * radius) : kNear;
-    Box3 around;
-    for (const std::uint32_t q : v) {
-      around.extend(mesh.points[q] - Vec3{reach, reach, reach});
-      around.extend(mesh.points[q] + Vec3{reach, reach, reach});
-    }
-    tree.for_each_meeting(around, [&](std::uint32_t i) {
-      if (covered[i]) return;
-      covered[i] = squared_distance_to_triangle(points[i], mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <=
-                   reach * reach;
+    const double reach = reach_of(mesh, t);
+    tree.for_each_meeting(box_around(mesh, t, reach), [&](std::uint32_t i) {
+      if (covering[i] == kNoTriangle && is_within(reach, points[i], mesh, t)) covering[i] = t;
     });
   }
-  return covered;
+  return covering;
 }
 
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads) {
@@ -195,7 +211,7 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
                               std::vector<std::uint32_t>& suspects, int threads) {
-  const SurfaceMesh mesh = build_triangle_mesh(restricted).mesh;
+  const SurfaceMesh mesh = build_triangle_mesh(restricted, threads).mesh;
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };

@@ -36,10 +36,13 @@ class MeshCover {
   BoxTree tree_;
 };
 
-// For a few points, on several threads: which lie within 0.8 mesh-space units, or within half its circumradius, of a
-// triangle t for which takes(t) holds.
-std::vector<bool> covered_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                 const std::function<bool(std::uint32_t)>& takes, int threads = 1);
+// Whether a point lies within 0.8 mesh-space units of a triangle, or within half its circumradius.
+bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);
+// For each of a few points, on several threads: the first triangle t that covers it so and for which takes(t) holds;
+// kNoTriangle when there is none.
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
+std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                                              const std::function<bool(std::uint32_t)>& takes, int threads = 1);
 
 // Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
 // nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are

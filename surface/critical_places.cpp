@@ -9,15 +9,17 @@ namespace deliso {
 
 namespace {
 
-// Appends the critical points of a cell, not yet located.
+// Places that one thread looks for at a time.
+constexpr std::size_t kPlacesAtOnce = 4096;
+
 void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const CellIndex& cell,
-                   std::vector<CriticalPlace>& places) {
+                   std::vector<CriticalPoint>& saddles, std::vector<CriticalPlace>& places) {
   const auto append = [&](const Vec3& uvw, bool is_above) {
     const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
-    places.push_back({scaled(p, isosurface.step()), cell, TetId::none(), is_above});
+    places.push_back({scaled(p, isosurface.step()), cell, is_above});
   };
   const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
-  std::vector<CriticalPoint> saddles;
+  saddles.clear();
   append_critical_points(corners, saddles);
   for (const CriticalPoint& saddle : saddles) {
     const int side = side_of_saddle(corners, isosurface.isovalue(), saddle);
@@ -32,29 +34,37 @@ void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const C
 
 }  // namespace
 
-CriticalPlaces::CriticalPlaces(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                               std::span<const CellIndex> cells, int threads)
-    : restricted_(restricted) {
-  places_ =
-      collect_in_blocks<CriticalPlace>(cells.size(), threads, [&](std::size_t i, std::vector<CriticalPlace>& places) {
-        const TetId first = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
-        TetId hint = places.empty() ? first : places.back().tet;
-        const std::size_t known = places.size();
-        append_places(restricted_.isosurface(), grid, cells[i], places);
-        for (std::size_t at = known; at < places.size(); ++at) places[at].tet = hint = located(places[at], hint);
-      });
+std::vector<CriticalPlace> critical_places(const ScalarGrid& grid, const Isosurface& isosurface,
+                                           const CrossingIndex& index) {
+  std::vector<CriticalPlace> places;
+  std::vector<CriticalPoint> saddles;
+  index.for_each_active_cell(
+      [&](const CellIndex& cell, std::uint8_t) { append_places(isosurface, grid, cell, saddles, places); });
+  return places;
 }
 
-void CriticalPlaces::renew(const ExchangedPoints& exchanged) {
-  TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+void LocatedPlaces::renew(const ExchangedPoints& exchanged) {
   std::vector<bool> is_renewed(restricted_.delaunay().tet_slots(), false);
   for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
-  for (CriticalPlace& place : places_) {
-    if (is_renewed[place.tet.index()]) place.tet = hint = located(place, hint);
+  for (TetId& t : tets_) {
+    if (!t.is_none() && is_renewed[t.index()]) t = TetId::none();
   }
 }
 
-TetId CriticalPlaces::located(const CriticalPlace& place, TetId hint) const {
+void LocatedPlaces::locate(std::span<const std::uint32_t> wanted, int threads) {
+  for_each_block(
+      wanted.size(), threads,
+      [&](std::size_t first, std::size_t last) {
+        TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+        for (const std::uint32_t i : wanted.subspan(first, last - first)) {
+          if (tets_[i].is_none()) tets_[i] = located(places_[i], hint);
+          hint = tets_[i];
+        }
+      },
+      kPlacesAtOnce);
+}
+
+TetId LocatedPlaces::located(const CriticalPlace& place, TetId hint) const {
   const CellIndex& cell = place.cell;
   const Vec3 center = scaled({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}, restricted_.isosurface().step());
   return restricted_.locate(place.point, center, hint);

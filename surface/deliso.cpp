@@ -167,7 +167,7 @@ void check_parameters(const Parameters& parameters) {
 // Without one sign per tetrahedron: gives the tetrahedra the signs that the restricted facets ask for, if there are
 // any.
 bool take_sides_of_facets(RestrictedDelaunay& restricted) {
-  const std::optional<std::vector<bool>> above = sides_of_facets(restricted);
+  const std::optional<TetSigns> above = sides_of_facets(restricted);
   if (above) restricted.set_signs(*above);
   return above.has_value();
 }

@@ -5,14 +5,14 @@
 
 namespace deliso {
 
-std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const std::vector<bool>& signs,
+std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
                                                const std::function<std::int32_t(TetId)>& distance) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   constexpr std::int32_t kNotDisputed = -1;
   std::vector<std::int32_t> distance_of(delaunay.tet_slots(), kNotDisputed);
   for (std::size_t i = 0; i < distance_of.size(); ++i) {
     const TetId t(i);
-    if (delaunay.is_live(t) && restricted.is_above(t) != signs[i]) distance_of[i] = distance(t);
+    if (delaunay.is_live(t) && restricted.is_above(t) != (signs[i] != 0)) distance_of[i] = distance(t);
   }
   std::vector<DisputedCluster> clusters;
   for (std::size_t seed = 0; seed < distance_of.size(); ++seed) {

@@ -19,7 +19,7 @@ struct DisputedCluster {
 
 // The tetrahedra with a sign other than in `signs` (by slot) that are near: distance(t) gives how far away one is, as a
 // negative number when it is too far to count. The nearest clusters come first.
-std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const std::vector<bool>& signs,
+std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
                                                const std::function<std::int32_t(TetId)>& distance);
 
 }  // namespace deliso

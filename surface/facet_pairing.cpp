@@ -1,10 +1,12 @@
 #include "surface/facet_pairing.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -43,15 +45,37 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
   return {restricted.isosurface().is_above(0.5 * sum) ? around_below : around_above, true};
 }
 
-FacetPairing::FacetPairing(const SignedDelaunay& restricted)
+FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
   restricted_.for_each_change(signs_, [](TetId) {});
   place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
-  for (std::size_t i = 0; i < delaunay_.tet_slots(); ++i) append_facets_of(TetId(i), facets_);
+  facets_ = collect_in_blocks<PairedFacet>(
+      delaunay_.tet_slots(), threads,
+      [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
   for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
   // Guards may share an edge with two facets that are not ours.
-  if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides();
+  if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides();
+  is_split_.resize(delaunay_.vertex_count());
+  find_split_vertices(std::vector<bool>(delaunay_.vertex_count(), true));
+}
+
+PairedTriangles FacetPairing::triangles() const {
+  PairedTriangles all;
+  all.facets.reserve(facets_.size());
+  all.triangles.reserve(facets_.size());
+  all.neighbours.reserve(facets_.size());
+  for (std::uint32_t t = 0; t < facets_.size(); ++t) {
+    const PairedFacet& facet = facets_[t];
+    all.facets.push_back(facet.facet);
+    all.triangles.push_back({facet.vertices[0].value, facet.vertices[1].value, facet.vertices[2].value});
+    all.neighbours.push_back(facet.across);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (facet.contested[i]) all.contested.push_back(4 * t + i);
+    }
+  }
+  all.is_split = is_split_;
+  return all;
 }
 
 // A facet may come or go at a tetrahedron that has another sign or is new, and at its neighbours.
@@ -70,6 +94,12 @@ void FacetPairing::renew(const ExchangedPoints& exchanged) {
   for (PairedFacet& facet : facets_) {
     for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
   }
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < exchanged.renamed.size(); ++v) {
+    if (!exchanged.renamed[v].is_none()) is_split_[kept++] = is_split_[v];
+  }
+  is_split_.resize(kept);
+  is_split_.resize(delaunay_.vertex_count(), false);
   // The vertices of a tetrahedron that has gone are those of new ones, if they are left.
   for (const TetId t : exchanged.renewed) {
     signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
@@ -87,15 +117,36 @@ bool FacetPairing::update() {
   for (const VertexId v : touched_vertices_) has_changed[v.index()] = true;
   touched_.clear();
   touched_vertices_.clear();
+  forget_sides_between(has_changed);
+  pair_sides();
+  find_split_vertices(has_changed);
+  return true;
+}
 
-  // The tetrahedra around an edge are at both its ends.
+// The tetrahedra around an edge are at both its ends.
+void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
   for (PairedFacet& facet : facets_) {
     std::array<bool, 3> changed{};
     for (unsigned i = 0; i < 3; ++i) changed[i] = has_changed[facet.vertices[i].index()];
     for (unsigned i = 0; i < 3; ++i) facet.known[i] = facet.known[i] && !(changed[(i + 1) % 3] && changed[(i + 2) % 3]);
   }
-  pair_sides();
-  return true;
+}
+
+// Of those around which something has changed: walks around a vertex from one of its corners, one way and, if the fan
+// is open, the other; a corner left out belongs to another fan. Corner 3 t + i is that of facet t at its vertex i.
+void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed) {
+  std::vector<bool> has_fan(has_changed.size(), false);
+  std::vector<std::uint8_t> is_in_fan(3 * facets_.size(), 0);
+  for (std::size_t v = 0; v < has_changed.size(); ++v) is_split_[v] = is_split_[v] && !has_changed[v];
+  for (std::uint32_t corner = 0; corner < is_in_fan.size(); ++corner) {
+    const std::size_t v = facets_[corner / 3].vertices[corner % 3].index();
+    if (!has_changed[v] || is_split_[v] || is_in_fan[corner] != 0) continue;
+    if (has_fan[v]) is_split_[v] = true;
+    has_fan[v] = true;
+    for_each_corner_of_fan(
+        corner, [&](TriangleSide side) { return facets_[side >> 2].across[side & 3u]; },
+        [&](std::uint32_t c) { return std::exchange(is_in_fan[c], std::uint8_t{1}) == 0; });
+  }
 }
 
 void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) const {
@@ -113,39 +164,76 @@ void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) c
 void FacetPairing::renew_facets(std::span<const TetId> tets) {
   std::vector<PairedFacet> facets;
   facets.reserve(facets_.size() + tets.size());
-  auto old = facets_.begin();
+  std::vector<std::uint32_t> place(facets_.size(), kNoPlace);  // of each old facet that stays: its new place
+  std::uint32_t old = 0;
+  const auto keep_those_before = [&](TetId t) {
+    for (; old < facets_.size() && facets_[old].facet.tet() < t; ++old) {
+      place[old] = static_cast<std::uint32_t>(facets.size());
+      facets.push_back(facets_[old]);
+    }
+  };
   for (const TetId t : tets) {
-    for (; old != facets_.end() && old->facet.tet() < t; ++old) facets.push_back(*old);
-    for (; old != facets_.end() && old->facet.tet() == t; ++old) place_of_[old->facet.index()] = kNoPlace;
+    keep_those_before(t);
+    for (; old < facets_.size() && facets_[old].facet.tet() == t; ++old)
+      place_of_[facets_[old].facet.index()] = kNoPlace;
     append_facets_of(t, facets);
   }
-  facets.insert(facets.end(), old, facets_.end());
+  keep_those_before(TetId(delaunay_.tet_slots()));
+  // What was paired with a facet that has gone, or come anew, is going to be paired again.
+  for (PairedFacet& facet : facets) {
+    for (unsigned side = 0; side < 3; ++side) {
+      TriangleSide& across = facet.across[side];
+      if (!facet.known[side] || across == kNoSide) continue;
+      const std::uint32_t there = place[across >> 2];
+      across = there == kNoPlace ? kNoSide : 4 * there + (across & 3u);
+    }
+  }
   facets_ = std::move(facets);
 }
 
 // Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
 // above will do. It is taken for all edges; those that seem to have more than one way are left for pair_sides. Edges
-// are counted by a hash: where two of them share it the only loss is time.
-void FacetPairing::pair_uncontested_sides() {
+// are counted by a hash: where two of them share it the only loss is time. Between the shares of two threads each takes
+// the walk from its own side.
+void FacetPairing::pair_uncontested_sides(int threads) {
   const std::size_t least = kCountsPerFacet * facets_.size() + 2;
   const unsigned shift = 64u - static_cast<unsigned>(std::bit_width(least));
-  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge: 0, 1, 2 for more
+  constexpr std::uint8_t kOne = 1, kMore = 2;
+  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge, as flags
   const auto ways_around = [&](const PairedFacet& facet, unsigned side) -> std::uint8_t& {
     const auto [low, high] = std::minmax(facet.vertices[(side + 1) % 3].value, facet.vertices[(side + 2) % 3].value);
     const std::uint64_t edge = std::uint64_t{high} << 32 | low;
     return ways[edge * std::uint64_t{0x9E3779B97F4A7C15} >> shift];
   };
-  for (PairedFacet& facet : facets_) {
-    for (unsigned side = 0; side < 3; ++side) {
-      if (facet.known[side]) continue;
-      join(facet, side, next_restricted_facet(restricted_, facet.facet, facet.vertices[side]), false);
-      std::uint8_t& count = ways_around(facet, side);
-      count = count == 0 ? 1 : 2;
+  const Shares shares(facets_.size(), threads);
+  const auto count_way = [&](std::uint8_t& flags) {
+    if (shares.count() == 1) {
+      flags = flags == 0 ? kOne : kMore;
+    } else if (std::atomic_ref(flags).fetch_or(kOne, std::memory_order_relaxed) != 0) {
+      std::atomic_ref(flags).fetch_or(kMore, std::memory_order_relaxed);
     }
-  }
-  for (PairedFacet& facet : facets_) {
-    for (unsigned side = 0; side < 3; ++side) facet.known[side] = ways_around(facet, side) < 2;
-  }
+  };
+  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      PairedFacet& facet = facets_[i];
+      for (unsigned side = 0; side < 3; ++side) {
+        if (facet.known[side]) continue;
+        const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
+        const std::uint32_t place = place_of(partner);
+        if (place == kNoPlace || (first <= place && place < last)) {
+          join(facet, side, partner, false);
+        } else {
+          facet.across[side] = side_across(facet, side, place);
+        }
+        if (i < place) count_way(ways_around(facet, side));
+      }
+    }
+  });
+  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (unsigned side = 0; side < 3; ++side) facets_[i].known[side] = ways_around(facets_[i], side) < kMore;
+    }
+  });
 }
 
 void FacetPairing::pair_sides() {
@@ -166,20 +254,27 @@ void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
 void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested) {
   facet.contested[side] = is_contested;
   facet.known[side] = true;
-  facet.across[side] = PairedFacet::kUnpaired;
-  if (place_of(partner) == kNoPlace) return;
+  facet.across[side] = kNoSide;
+  const std::uint32_t place = place_of(partner);
+  if (place == kNoPlace) return;
 
-  // Our edge runs the other way over there.
+  PairedFacet& there = facets_[place];
+  facet.across[side] = side_across(facet, side, place);
+  const unsigned i = facet.across[side] & 3u;
+  there.across[i] = 4 * static_cast<std::uint32_t>(&facet - facets_.data()) + side;
+  there.contested[i] = is_contested;
+  there.known[i] = true;
+}
+
+// The side of another facet that has the same edge; it runs the other way over there.
+TriangleSide FacetPairing::side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const {
   const VertexId a = facet.vertices[(side + 1) % 3];
   const VertexId b = facet.vertices[(side + 2) % 3];
-  PairedFacet& there = facets_[place_of(partner)];
+  const PairedFacet& there = facets_[place];
   unsigned i = 0;
   while (i < 3 && !(there.vertices[(i + 1) % 3] == b && there.vertices[(i + 2) % 3] == a)) ++i;
   DELISO_CHECK(i < 3, "paired facets must share an edge");
-  facet.across[side] = 4 * there.facet.value + i;
-  there.across[i] = 4 * facet.facet.value + side;
-  there.contested[i] = is_contested;
-  there.known[i] = true;
+  return 4 * place + i;
 }
 
 }  // namespace deliso

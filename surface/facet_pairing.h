@@ -11,18 +11,26 @@
 #include <vector>
 
 #include "surface/signed_delaunay.h"
+#include "surface/surface_mesh.h"
 
 namespace deliso {
 
 // A restricted facet without virtual vertices, seen from the tetrahedron above. Side i lies opposite vertices[i].
 struct PairedFacet {
   FacetId facet;
-  std::array<VertexId, 3> vertices;     // counterclockwise seen from below
-  std::array<std::uint32_t, 3> across;  // the paired side as 4 * facet + side; kUnpaired: that facet is virtual
-  std::array<bool, 3> contested;        // whether the edge has more than two restricted facets
-  std::array<bool, 3> known;            // whether the two above are
+  std::array<VertexId, 3> vertices;    // counterclockwise seen from below
+  std::array<TriangleSide, 3> across;  // the paired side, of the facet at that place in facets(); kNoSide: is virtual
+  std::array<bool, 3> contested;       // whether the edge has more than two restricted facets
+  std::array<bool, 3> known;           // whether the two above are
+};
 
-  static constexpr std::uint32_t kUnpaired = 0xFFFFFFFFu;
+// The paired facets as a mesh that still has to be given its vertices (build_triangle_mesh.h).
+struct PairedTriangles {
+  std::vector<FacetId> facets;                          // of each triangle, ascending
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // vertices of the triangulation, as in PairedFacet
+  std::vector<std::array<TriangleSide, 3>> neighbours;  // across the sides
+  std::vector<TriangleSide> contested;                  // whose edge has more than two restricted facets, ascending
+  std::vector<bool> is_split;                           // of each vertex: its triangles form more than one fan
 };
 
 // The facet that a restricted facet is paired with across its edge opposite `third`; both seen from the tetrahedron
@@ -35,8 +43,8 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 
 class FacetPairing {
  public:
-  // Keeps a reference.
-  explicit FacetPairing(const SignedDelaunay& restricted);
+  // Keeps a reference. The same for any number of threads.
+  explicit FacetPairing(const SignedDelaunay& restricted, int threads = 1);
 
   // Takes account of signs that have changed since the last time: only the facets at the vertices of their tetrahedra
   // are paired anew. Returns whether any have.
@@ -46,6 +54,7 @@ class FacetPairing {
 
   [[nodiscard]] const SignedDelaunay& restricted() const { return restricted_; }
   [[nodiscard]] std::span<const PairedFacet> facets() const { return facets_; }  // in order
+  [[nodiscard]] PairedTriangles triangles() const;
   // The place of a facet in facets().
   [[nodiscard]] std::uint32_t place_of(FacetId f) const { return place_of_[f.index()]; }
 
@@ -53,21 +62,25 @@ class FacetPairing {
   void touch(TetId t);
   void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
   void renew_facets(std::span<const TetId> tets);
-  void pair_uncontested_sides();
+  void forget_sides_between(const std::vector<bool>& has_changed);
+  void find_split_vertices(const std::vector<bool>& has_changed);
+  void pair_uncontested_sides(int threads);
   void pair_sides();
   void pair_side(PairedFacet& facet, unsigned side);
   void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
+  [[nodiscard]] TriangleSide side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const;
 
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  std::vector<std::uint8_t> signs_;  // by slot, as of the last update
+  TetSigns signs_;  // by slot, as of the last update
   // What update() has to look at, from renew(): tetrahedra that are new, gone, or next to such ones; and the vertices
   // of the new ones.
   std::vector<TetId> touched_;
   std::vector<VertexId> touched_vertices_;
   std::vector<PairedFacet> facets_;
+  std::vector<bool> is_split_;          // of each vertex: its facets form more than one fan
   LargeArray<std::uint32_t> place_of_;  // of each facet of the triangulation; kNoPlace when it is not in facets_
 };
 

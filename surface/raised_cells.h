@@ -19,6 +19,7 @@ class RaisedCells {
  public:
   RaisedCells(const ScalarGrid& grid, const Isosurface& isosurface) : grid_(grid), isosurface_(isosurface) {}
 
+  [[nodiscard]] const Dims& dims() const { return grid_.dims(); }
   [[nodiscard]] CellName name(const CellIndex& c) const { return grid_.index(c[0], c[1], c[2]); }
   [[nodiscard]] CellIndex cell(CellName name) const;
   // The cell that holds a point of mesh space; points beyond the box count to the nearest cell.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "surface/component_match.h"
+#include "surface/blocks.h"
+#include "surface/kept_meshes.h"
+#include "surface/mesh_differences.h"
 #include "surface/poles.h"
 #include "surface/raised_cells.h"
 #include "surface/repair_round.h"
@@ -15,7 +18,6 @@
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
 #include "surface/sign_trials.h"
-#include "surface/sweep_difference.h"
 #include "surface/trouble.h"
 
 namespace deliso {
@@ -42,33 +44,22 @@ class Repair {
         raised_(grid_, isosurface_),
         round_(std::in_place, grid_, topology_, raised_, std::move(restricted), threads),
         samples_(round_->restricted()),
-        done_(topology_.components.size(), false),
-        best_(topology_.components.size(), Agreement::kNone) {}
+        kept_(topology_.components.size()),
+        differences_(facts, isosurface_) {}
 
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
  private:
-  struct KeptMesh {
-    std::shared_ptr<MatchedMesh> mesh;
-    std::vector<bool> signs;  // that it was made with; empty once it has its pole heights
-  };
-
   SurfaceMesh as_it_is();
   void resample();
   bool try_rule(SignRule rule);
+  bool take(RepairRound::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
-  const std::vector<Places>& places_of_difference(std::size_t most);
-  void keep();
-  void drop_outdone();
-  void give_poles();
-  [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
-    return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
+  const std::vector<Places>& places_of_difference(std::size_t most) {
+    return differences_.find(mesh_, kept_.done(), most);
   }
   SurfaceMesh assemble_kept();
-  [[nodiscard]] bool is_done() const {
-    return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
-  }
 
   const SurfaceFacts& facts_;
   const ScalarGrid& grid_;
@@ -79,15 +70,11 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;
-  bool is_own_ = false;                   // whether the triangulation is repair's own, not that of stage 1
-  RepairSamples samples_;                 // its vertices
-  std::shared_ptr<MatchedMesh> mesh_;     // the latest
-  std::vector<bool> done_;                // of each exact component: needs no more work
-  std::vector<Agreement> best_;           // of each: the best, kWithStrays at most, reached by some mesh in history_
-  std::vector<Places> places_;            // of difference, as last found
-  std::weak_ptr<MatchedMesh> places_of_;  // in this mesh,
-  std::size_t most_places_ = 0;           // of each component if they were no more
-  std::vector<KeptMesh> history_;         // meshes that brought a component further
+  bool is_own_ = false;                // whether the triangulation is repair's own, not that of stage 1
+  RepairSamples samples_;              // its vertices
+  std::shared_ptr<MatchedMesh> mesh_;  // the latest
+  KeptMeshes kept_;
+  MeshDifferences differences_;
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -97,21 +84,20 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
   if (controls.stopped()) return as_it_is();
-  keep();
-  for (std::int32_t round = 1; round <= max_rounds && !is_done() && !controls.poll(); ++round) {
+  kept_.keep(mesh_, round_->restricted().signs());
+  for (std::int32_t round = 1; round <= max_rounds && !kept_.is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(
-        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), done_,
-                          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
-                          round_->critical_places(facts_.critical_cells())}));
+        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(),
+                          kept_.done(), places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
+                          round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
-    give_poles();
     resample();
     try_rules(controls);
     try_signs(controls);
     stats_.rounds = round;
   }
-  give_poles();
+  kept_.give_poles(*round_);
   SurfaceMesh kept = assemble_kept();
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
@@ -127,44 +113,57 @@ SurfaceMesh Repair::as_it_is() {
   return std::move(built.mesh);
 }
 
-// Exchanges samples: in the triangulation as it is when few change, else in one made anew.
+// Exchanges samples: in the triangulation as it is when few change, else in one made anew, before the present one goes
+// where there are threads for both.
 void Repair::resample() {
   const Resampling resampling = samples_.resampling(raised_, lattice_, isosurface_);
+  const bool is_continued = is_own_ && samples_.changes_few(resampling);
+  if (is_continued || threads_ == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
-  if (is_own_ && samples_.changes_few(resampling) &&
-      round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
   samples_.replace(resampling);
-  round_.reset();
+  if (is_continued || threads_ == 1) round_.reset();
   std::vector<VertexId> vertex_of;
-  round_.emplace(grid_, topology_, raised_,
-                 std::make_unique<SignedDelaunay>(isosurface_, samples_.points(), threads_, &vertex_of), threads_);
+  std::unique_ptr<SignedDelaunay> next;
+  run_tasks(2, threads_, [&](std::size_t task) {
+    if (task == 0) next = std::make_unique<SignedDelaunay>(isosurface_, samples_.points(), threads_, &vertex_of);
+    if (task == 1 && round_) kept_.give_poles(*round_);
+  });
+  round_.emplace(grid_, topology_, raised_, std::move(next), threads_);
   samples_.take_vertices(vertex_of);
   is_own_ = true;
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
 bool Repair::try_rule(SignRule rule) {
-  round_->take_signs(rule);
-  std::optional<MatchedMesh> mesh = round_->assemble();
-  if (!mesh) return false;
-  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
-  keep();
-  return is_done();
+  return take(round_->attempts(std::span(&rule, 1), [](const MatchedMesh&) { return true; }).front());
+}
+
+bool Repair::take(RepairRound::Attempt& attempt) {
+  if (!attempt.mesh) return false;
+  mesh_ = std::make_shared<MatchedMesh>(*std::move(attempt.mesh));
+  kept_.keep(mesh_, attempt.signs);
+  return kept_.is_done();
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
 void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
-  std::vector<bool> signs;
-  for (const SignRule rule : kSignRules) {
-    if (try_rule(rule)) return;
-    if (best && mesh_->match.error >= best->match.error) continue;
-    best = mesh_;
-    signs = round_->restricted().signs();
-    if (controls.poll()) break;
+  TetSigns signs;
+  const std::size_t at_once = threads_ > 1 ? kSignRules.size() : 1;
+  for (std::size_t first = 0; first < kSignRules.size(); first += at_once) {
+    for (RepairRound::Attempt& attempt : round_->attempts(std::span(kSignRules).subspan(first, at_once),
+                                                          [&](const auto& m) { return kept_.would_be_done(m); })) {
+      if (take(attempt)) return;
+      if (best && mesh_->match.error >= best->match.error) continue;
+      best = mesh_;
+      signs = std::move(attempt.signs);
+      if (controls.poll()) first = kSignRules.size();
+      if (first == kSignRules.size()) break;
+    }
   }
   mesh_ = std::move(best);
   round_->set_signs(signs);
@@ -172,86 +171,18 @@ void Repair::try_rules(Controls& controls) {
 
 // Single signs near the places where a component is wrong.
 void Repair::try_signs(Controls& controls) {
-  if (is_done() || controls.poll()) return;
+  if (kept_.is_done() || controls.poll()) return;
   const std::vector<Places> places = places_of_difference(kMostPlaces);
   std::optional<SignTrials> trials;
-  for (std::uint32_t c = 0; c < done_.size(); ++c) {
-    if (done_[c] || places[c].empty()) continue;
+  for (std::uint32_t c = 0; c < places.size(); ++c) {
+    if (kept_.done()[c] || places[c].empty()) continue;
     if (!trials) trials.emplace(*round_, topology_, raised_, kSignRules);
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
-      keep();
-      return static_cast<bool>(done_[c]);
+      kept_.keep(mesh_, round_->restricted().signs());
+      return static_cast<bool>(kept_.done()[c]);
     };
     trials->mend(c, places[c], mesh_, improved, controls);
-  }
-}
-
-// Where sweeps along the axes see main pieces part from their components: at so many places at most.
-const std::vector<Places>& Repair::places_of_difference(std::size_t most) {
-  if (places_of_.lock() == mesh_ && most_places_ == most) return places_;
-  places_of_ = mesh_;
-  most_places_ = most;
-  places_.assign(done_.size(), {});
-  const ComponentMatch& match = mesh_->match;
-  for (std::uint32_t c = 0; c < done_.size(); ++c) {
-    const std::uint32_t main = match.main_piece[c];
-    if (done_[c] || main == kNoPiece || match.agreement[c] != Agreement::kNone) continue;
-    auto& layers = places_[c].layers;
-    const PolygonizedSurface& exact = facts_.polygonized();
-    layers = jumps_between({mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }},
-                           {exact.mesh, [&](std::uint32_t v) { return exact.component[v] == c; }}, isosurface_.step(),
-                           grid_.dims());
-    if (places_[c].count() > most) places_[c] = {};
-  }
-  return places_;
-}
-
-// Keeps the latest mesh when some component agrees with it that agreed with no earlier one.
-void Repair::keep() {
-  bool helps = false;
-  for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (mesh_->match.agreement[c] <= best_[c]) continue;
-    best_[c] = std::min(mesh_->match.agreement[c], Agreement::kWithStrays);
-    done_[c] = best_[c] == Agreement::kWithStrays;
-    helps = true;
-  }
-  if (!helps) return;
-  history_.push_back({mesh_, round_->restricted().signs()});
-  drop_outdone();
-}
-
-// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be.
-void Repair::drop_outdone() {
-  std::vector<bool> given(done_.size(), false);
-  for (auto kept = history_.end(); kept != history_.begin();) {
-    --kept;
-    bool gives = false;
-    for (std::size_t c = 0; c < given.size(); ++c) {
-      if (given[c] || !may_give(*kept->mesh, c)) continue;
-      given[c] = gives = true;
-    }
-    if (!gives) kept = history_.erase(kept);
-  }
-}
-
-// Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
-// from them.
-void Repair::give_poles() {
-  for (KeptMesh& kept : history_) {
-    if (kept.signs.empty()) continue;
-    round_->set_signs(kept.signs);
-    kept.signs.clear();
-    BuiltMesh& built = kept.mesh->built;
-    std::vector<bool> wanted(round_->restricted().delaunay().vertex_count(), false);
-    for (std::size_t v = 0; v < built.vertex_of.size(); ++v) {
-      const std::uint32_t piece = kept.mesh->match.piece_of[v];
-      if (piece != kNoPiece && may_give(*kept.mesh, kept.mesh->match.pieces[piece].component)) {
-        wanted[built.vertex_of[v].index()] = true;
-      }
-    }
-    const std::vector<double>& heights = round_->pole_heights(wanted);
-    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   }
 }
 
@@ -259,33 +190,16 @@ void Repair::give_poles() {
 // dropped.
 SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
-  std::vector<bool> taken(done_.size(), false);
-  stats_.components_polygonized = std::count(best_.begin(), best_.end(), Agreement::kNone);
+  std::vector<bool> left(topology_.components.size(), true);
+  stats_.components_polygonized = kept_.count_missing();
   // Pieces of two meshes may cross where components come near each other; a small surface is polygonized as a whole.
   if (stats_.components_polygonized > 0 && topology_.crossings.size() <= kSmallSurface) {
-    stats_.components_polygonized = static_cast<std::int64_t>(taken.size());
-    taken.flip();
-    append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
-    return kept;
-  }
-  for (auto at = history_.rbegin(); at != history_.rend(); ++at) {
-    MatchedMesh* const mesh = at->mesh.get();
-    const ComponentMatch& match = mesh->match;
-    std::vector<bool> wanted(match.pieces.size(), false);
-    for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (taken[c] || !may_give(*mesh, c)) continue;
-      taken[c] = wanted[match.main_piece[c]] = true;
-      stats_.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
-      stats_.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
-      stats_.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
-    }
-    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
-    separate_copies(mesh->built.mesh, mesh->built.groups, mesh->built.vertex_of, isosurface_.box());
-    append_pieces(mesh->built.mesh, match.piece_of, wanted, kept);
+    stats_.components_polygonized = static_cast<std::int64_t>(left.size());
+  } else {
+    kept_.append_to(kept, left, isosurface_.box(), threads_, stats_);
   }
   if (stats_.components_polygonized == 0) return kept;
-  taken.flip();
-  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, taken, kept);
+  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, left, kept);
   return kept;
 }
 

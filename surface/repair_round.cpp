@@ -1,5 +1,7 @@
 #include "surface/repair_round.h"
 
+#include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "surface/blocks.h"
@@ -8,6 +10,12 @@
 #include "surface/coverage.h"
 
 namespace deliso {
+
+namespace {
+
+constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
+
+}  // namespace
 
 RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
                          std::unique_ptr<SignedDelaunay> restricted, int threads)
@@ -27,6 +35,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), 0);
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
+  covered_by_.resize(component_of_vertex_.size(), kNoFacet);
   for_each_block(component_of_vertex_.size() - first_vertex, threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first_vertex + first; i < first_vertex + last; ++i) {
       if (restricted_->is_virtual(VertexId(i))) continue;
@@ -40,12 +49,16 @@ void RepairRound::find_components(std::size_t first_vertex) {
 bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
                            ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
-  at_circumcenters_.resize(restricted_->delaunay().tet_slots(), false);
-  for (const TetId t : exchanged.renewed) at_circumcenters_[t.index()] = restricted_->is_above(t);
+  for (TetSigns& signs : signs_by_rule_) signs.clear();
+  at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
+  for (const TetId t : exchanged.renewed) at_circumcenters_[t.index()] = restricted_->is_above(t) ? 1 : 0;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < exchanged.renamed.size(); ++i) {
-    if (!exchanged.renamed[i].is_none()) component_of_vertex_[kept++] = component_of_vertex_[i];
+    if (exchanged.renamed[i].is_none()) continue;
+    covered_by_[kept] = covered_by_[i];
+    component_of_vertex_[kept++] = component_of_vertex_[i];
   }
+  covered_by_.resize(kept);
   component_of_vertex_.resize(kept);
   find_components(kept);
   if (rules_) {
@@ -54,7 +67,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   }
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
-  if (critical_) critical_->renew(exchanged);
+  if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
   has_assembled_ = false;
   return true;
@@ -66,9 +79,12 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs(SignRule rule) {
+  TetSigns& known = signs_by_rule_[static_cast<std::size_t>(rule)];
+  if (!known.empty()) return restricted_->set_signs(known);
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
   rules_->take_signs(rule, at_circumcenters_);
   unfounded_.overturn(*restricted_);
+  known = restricted_->signs();
 }
 
 void RepairRound::overturn(std::span<const TetId> tets) {
@@ -76,51 +92,92 @@ void RepairRound::overturn(std::span<const TetId> tets) {
   unfounded_.overturn(*restricted_);
 }
 
-const std::vector<CriticalPlace>& RepairRound::critical_places(std::span<const CellIndex> cells) {
-  if (!critical_) critical_.emplace(*restricted_, grid_, cells, threads_);
-  return critical_->places();
-}
-
-std::optional<MatchedMesh> RepairRound::assemble() {
+// None when they would be the same as the last time in this round.
+std::optional<PairedTriangles> RepairRound::take_triangles() {
   if (!pairing_) {
-    pairing_.emplace(*restricted_);
+    pairing_.emplace(*restricted_, threads_);
   } else if (!pairing_->update() && has_assembled_) {
     return std::nullopt;
   }
   has_assembled_ = true;
-  MatchedMesh mesh{build_triangle_mesh(*pairing_), {}, {}};
+  return pairing_->triangles();
+}
+
+std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
+  std::optional<PairedTriangles> triangles = take_triangles();
+  if (!triangles) return std::nullopt;
+  return finished(*std::move(triangles), is_of_use, threads_);
+}
+
+std::vector<RepairRound::Attempt> RepairRound::attempts(std::span<const SignRule> rules,
+                                                        const std::function<bool(const MatchedMesh&)>& is_last) {
+  std::vector<Attempt> attempts(rules.size());
+  std::vector<std::optional<PairedTriangles>> triangles(rules.size());
+  std::atomic<bool> has_last = false;
+  const int threads = rules.size() > 1 ? 1 : threads_;
+  run_in_turn(
+      rules.size(), threads_,
+      [&](std::size_t i) {
+        if (has_last) return;
+        take_signs(rules[i]);
+        attempts[i].signs = restricted_->signs();
+        triangles[i] = take_triangles();
+      },
+      [&](std::size_t i) {
+        if (!triangles[i]) return;
+        attempts[i].mesh = finished(*std::exchange(triangles[i], std::nullopt), {}, threads);
+        if (attempts[i].mesh && is_last(*attempts[i].mesh)) has_last = true;
+      });
+  return attempts;
+}
+
+// Takes no account of signs, so that several threads may finish one mesh each while signs change.
+std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads) {
+  const std::vector<FacetId> facets = std::move(triangles.facets);
+  MatchedMesh mesh{build_triangle_mesh(*restricted_, std::move(triangles)), {}, {}};
+  mesh.component.reserve(mesh.built.vertex_of.size());
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
-  find_missing_parts(mesh);
+  if (is_of_use && !is_of_use(mesh)) return std::nullopt;
+  find_missing_parts(mesh, facets, threads);
   return mesh;
 }
 
 // A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
-// tell: each must have one of their triangles near.
-void RepairRound::find_missing_parts(MatchedMesh& mesh) const {
+// tell: each must have one of their triangles near. `facets`: of the triangles, ascending, but for the last ones.
+void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads) {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
     const std::uint32_t piece = match.piece_of[v];
     return piece != kNoPiece && match.main_piece[match.pieces[piece].component] == piece;
   };
+  const auto takes = [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); };
   std::vector<bool> used(restricted_->delaunay().vertex_count(), false);
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
     if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
   }
-  std::vector<Vec3> left_out;
-  std::vector<std::uint32_t> component;
+  // Most are covered by the triangle that covered them in an earlier mesh.
+  const auto is_still_covered = [&](std::size_t vertex, std::uint32_t facet) {
+    const auto at = std::lower_bound(facets.begin(), facets.end(), FacetId(facet));
+    if (facet == kNoFacet || at == facets.end() || *at != FacetId(facet)) return false;
+    const auto t = static_cast<std::uint32_t>(at - facets.begin());
+    return takes(t) && is_covered_by(restricted_->delaunay().point(VertexId(vertex)), mesh.built.mesh, t);
+  };
+  std::vector<std::size_t> left_out;
+  std::vector<Vec3> points;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
     if (match.agreement[component_of_vertex_[i]] <= Agreement::kPartial) continue;
-    left_out.push_back(restricted_->delaunay().point(VertexId(i)));
-    component.push_back(component_of_vertex_[i]);
+    if (is_still_covered(i, std::atomic_ref(covered_by_[i]).load(std::memory_order_relaxed))) continue;
+    left_out.push_back(i);
+    points.push_back(restricted_->delaunay().point(VertexId(i)));
   }
-  const std::vector<bool> covered = covered_points(
-      left_out, mesh.built.mesh, [&](std::uint32_t t) { return on_main_piece(mesh.built.mesh.triangles[t][0]); },
-      threads_);
+  const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, threads);
   for (std::size_t i = 0; i < left_out.size(); ++i) {
-    Agreement& agreement = match.agreement[component[i]];
-    if (covered[i] || agreement == Agreement::kPartial) continue;
+    const std::uint32_t facet = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
+    std::atomic_ref(covered_by_[left_out[i]]).store(facet, std::memory_order_relaxed);
+    Agreement& agreement = match.agreement[component_of_vertex_[left_out[i]]];
+    if (covering[i] != kNoTriangle || agreement == Agreement::kPartial) continue;
     agreement = Agreement::kPartial;
     ++match.error;
   }

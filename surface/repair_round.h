@@ -5,7 +5,9 @@
 // changed from one rule to the next.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,7 +42,7 @@ class RepairRound {
   // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less those without
   // foundation.
   void take_signs(SignRule rule);
-  void set_signs(const std::vector<bool>& signs) { restricted_->set_signs(signs); }
+  void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Turns some signs over; then those without foundation.
   void overturn(std::span<const TetId> tets);
   // What that would change (local_characteristic.h).
@@ -49,13 +51,26 @@ class RepairRound {
   }
 
   // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
-  // as the last time in this round.
-  std::optional<MatchedMesh> assemble();
-  // The saddles and critical samples of the cells that have some (surface_facts.h) in the triangulation.
-  const std::vector<CriticalPlace>& critical_places(std::span<const CellIndex> cells);
+  // as the last time in this round, or is of no use: is_of_use(mesh) may be asked before missing parts have been looked
+  // for, which can only make the error larger and agreements partial.
+  using IsOfUse = std::function<bool(const MatchedMesh&)>;
+  std::optional<MatchedMesh> assemble(const IsOfUse& is_of_use = {});
+  // Takes signs by each of several rules and assembles the meshes, beside each other on several threads. Those after
+  // the first one for which is_last(mesh) holds may be left out; it is called by several threads.
+  struct Attempt {
+    TetSigns signs;
+    std::optional<MatchedMesh> mesh;  // as assemble() gives it
+  };
+  std::vector<Attempt> attempts(std::span<const SignRule> rules,
+                                const std::function<bool(const MatchedMesh&)>& is_last);
+  // The saddles and critical samples of the volume (SurfaceFacts) in the triangulation.
+  LocatedPlaces& located(const std::vector<CriticalPlace>& places) {
+    return located_ ? *located_ : located_.emplace(*restricted_, places);
+  }
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
+  [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
@@ -66,20 +81,25 @@ class RepairRound {
 
  private:
   void find_components(std::size_t first);
-  void find_missing_parts(MatchedMesh& mesh) const;
+  std::optional<PairedTriangles> take_triangles();
+  std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
+  void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
 
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& raised_;
   int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
-  std::vector<bool> at_circumcenters_;  // signs, by slot of the tetrahedron
+  TetSigns at_circumcenters_;
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRules> rules_;
+  std::array<TetSigns, kSignRules.size()> signs_by_rule_;  // in this round; empty for a rule that has not been tried
   UnfoundedPockets unfounded_;
   std::optional<FacetPairing> pairing_;
   bool has_assembled_ = false;  // in this round
-  std::optional<CriticalPlaces> critical_;
+  // Of each vertex: the facet of a triangle that covered it when it was last left out; kNoFacet when there was none.
+  std::vector<std::uint32_t> covered_by_;
+  std::optional<LocatedPlaces> located_;
   KnownPoles poles_;
 };
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "surface/copy_groups.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -31,7 +32,11 @@ class Separation {
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
       : mesh_(mesh), groups_(groups), origin_of_(origin_of), box_(box) {
     find_fans();
+    for (std::size_t i = 0; i < groups_.size(); ++i) chosen_.push_back(i);
   }
+
+  // Leaves groups out that have no wanted copy and make no difference to one that has.
+  void choose(const std::function<bool(std::uint32_t)>& is_wanted);
 
   void run() {
     Sweep last{true, true};
@@ -55,6 +60,7 @@ class Separation {
   };
   Sweep sweep_over_groups(bool all, bool is_stubborn);
   void find_fans();
+  [[nodiscard]] std::vector<std::uint32_t> triangles_around(const CopyGroup& group) const;
   void find_surroundings(const CopyGroup& group);
   void look_again_at(std::uint32_t copy);
   void move(const Copy& copy, int fewest, bool is_stubborn);
@@ -85,12 +91,14 @@ class Separation {
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin: triangles around its copies
   std::vector<Surrounding> surroundings_;                             // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
+  std::vector<std::size_t> chosen_;                                   // groups to separate, ascending
 };
 
 // Moves all copies, or those with conflicts.
 Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   Sweep sweep;
-  for (const CopyGroup& group : groups_) {
+  for (const std::size_t i : chosen_) {
+    const CopyGroup& group = groups_[i];
     find_surroundings(group);
     for (const Copy& copy : group) {
       const Vec3 before = mesh_.points[copy.vertex];
@@ -129,7 +137,19 @@ void Separation::find_fans() {
   }
 }
 
-void Separation::find_surroundings(const CopyGroup& group) {
+// What is done with a group depends on the vertices of the triangles around it alone, and sweeps that only others need
+// move none of its copies.
+void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
+  const auto visit_vertices_around = [&](std::size_t group, const auto& visit) {
+    for (const std::uint32_t t : triangles_around(groups_[group])) {
+      for (const std::uint32_t v : mesh_.triangles[t]) visit(v);
+    }
+  };
+  chosen_ = groups_that_matter(groups_, visit_vertices_around, is_wanted);
+}
+
+// Those at the vertices of the triangles at its copies, ascending.
+std::vector<std::uint32_t> Separation::triangles_around(const CopyGroup& group) const {
   std::vector<std::uint32_t> triangles;
   for (const Copy& copy : group) {
     for (const std::uint32_t t : fan(copy.vertex)) {
@@ -139,8 +159,12 @@ void Separation::find_surroundings(const CopyGroup& group) {
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+void Separation::find_surroundings(const CopyGroup& group) {
   surroundings_.clear();
-  for (const std::uint32_t t : triangles) surroundings_.push_back({t, box_of(t), has_area_at(t)});
+  for (const std::uint32_t t : triangles_around(group)) surroundings_.push_back({t, box_of(t), has_area_at(t)});
 }
 
 // A copy may have moved, and the triangles at it with it.
@@ -262,8 +286,10 @@ int Separation::conflicts(std::uint32_t copy) {
 }  // namespace
 
 void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
-                     const Box3& box) {
-  Separation(mesh, groups, origin_of, box).run();
+                     const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted) {
+  Separation separation(mesh, groups, origin_of, box);
+  if (is_wanted) separation.choose(is_wanted);
+  separation.run();
 }
 
 }  // namespace deliso

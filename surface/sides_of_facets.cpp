@@ -21,7 +21,7 @@ std::optional<Side> side_behind(const SignedDelaunay& restricted, FacetId f, Sid
 
 }  // namespace
 
-std::optional<std::vector<bool>> sides_of_facets(const SignedDelaunay& restricted) {
+std::optional<TetSigns> sides_of_facets(const SignedDelaunay& restricted) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   std::vector<Side> sides(delaunay.tet_slots(), Side::kUnknown);
   std::vector<TetId> waiting;
@@ -50,8 +50,8 @@ std::optional<std::vector<bool>> sides_of_facets(const SignedDelaunay& restricte
       if (sides[neighbour.index()] != *behind) return std::nullopt;
     }
   }
-  std::vector<bool> above(sides.size());
-  for (std::size_t i = 0; i < sides.size(); ++i) above[i] = sides[i] == Side::kAbove;
+  TetSigns above(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) above[i] = sides[i] == Side::kAbove ? 1 : 0;
   return above;
 }
 

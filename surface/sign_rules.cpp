@@ -136,7 +136,7 @@ void SignRules::update_candidates() {
   candidates_.insert(candidates_.end(), found.begin(), found.end());
 }
 
-void SignRules::take_signs(SignRule rule, const std::vector<bool>& at_circumcenters) {
+void SignRules::take_signs(SignRule rule, const TetSigns& at_circumcenters) {
   restricted_.set_signs(at_circumcenters);
   if (rule != SignRule::kCircumcenter) {
     update_candidates();

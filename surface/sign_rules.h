@@ -41,7 +41,7 @@ class SignRules {
   // Gives every tetrahedron its sign by a rule; then each small one that segments of known side cross takes their side:
   // evidence that no rule may overrule. `at_circumcenters`: the signs that every rule starts from
   // (SignedDelaunay::signs).
-  void take_signs(SignRule rule, const std::vector<bool>& at_circumcenters);
+  void take_signs(SignRule rule, const TetSigns& at_circumcenters);
 
   // What is known of the sides in each tetrahedron (evidence.h).
   [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }

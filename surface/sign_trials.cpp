@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "surface/blocks.h"
 #include "surface/evidence.h"
 
 namespace deliso {
@@ -53,7 +54,7 @@ std::int64_t amount(const ComponentTopology& missing) {
 SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
                        std::span<const SignRule> rules)
     : round_(round), topology_(topology), cells_(cells) {
-  const std::vector<bool> signs = round_.restricted().signs();
+  const TetSigns signs = round_.restricted().signs();
   for (const SignRule rule : rules) {
     round_.take_signs(rule);
     signs_by_rule_.push_back(round_.restricted().signs());
@@ -74,12 +75,13 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
 std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
+  const DistanceFromPlaces distance_from_places(places, cells_.dims());
   const auto distance = [&](TetId t) {
-    const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
+    const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
   };
   std::vector<DisputedCluster> clusters;
-  for (const std::vector<bool>& signs : signs_by_rule_) {
+  for (const TetSigns& signs : signs_by_rule_) {
     for (DisputedCluster& cluster : disputed_clusters(restricted, signs, distance)) {
       clusters.push_back(std::move(cluster));
     }
@@ -92,14 +94,15 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
 std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
-  std::vector<DisputedCluster> singles;
-  for (std::size_t i = 0; i < evidence.size(); ++i) {
+  const DistanceFromPlaces distance_from_places(places, cells_.dims());
+  const auto append_if_near = [&](std::size_t i, std::vector<DisputedCluster>& singles) {
     const TetId t(i);
     const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
-    if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) continue;
-    const std::int32_t layers = places.distance(cells_.cell_of(centre_of(restricted, t)));
+    if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
+    const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     if (layers <= kReachOfSingles) singles.push_back({{t}, layers});
-  }
+  };
+  auto singles = collect_in_blocks<DisputedCluster>(evidence.size(), round_.threads(), append_if_near);
   std::stable_sort(singles.begin(), singles.end(), is_nearer);
   return singles;
 }
@@ -113,7 +116,7 @@ void SignTrials::mend(std::uint32_t component, const Places& places, std::shared
 // Returns whether there is still something to mend.
 bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
                          std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls) {
-  std::vector<bool> signs = round_.restricted().signs();
+  TetSigns signs = round_.restricted().signs();
   int trials = 0;
   for (const DisputedCluster& cluster : clusters) {
     const ComponentTopology lacks = missing(*mesh, component);
@@ -125,8 +128,11 @@ bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most,
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;
     ++trials;
     round_.overturn(cluster.tets);
-    std::optional<MatchedMesh> trial = round_.assemble();
-    if (trial && amount(missing(*trial, component)) < amount(lacks) && trial->match.error <= mesh->match.error) {
+    const auto is_better = [&](const MatchedMesh& trial) {
+      return amount(missing(trial, component)) < amount(lacks) && trial.match.error <= mesh->match.error;
+    };
+    std::optional<MatchedMesh> trial = round_.assemble(is_better);
+    if (trial && is_better(*trial)) {
       mesh = std::make_shared<MatchedMesh>(*std::move(trial));
       signs = round_.restricted().signs();
       if (improved(mesh)) return false;

@@ -44,7 +44,7 @@ class SignTrials {
   RepairRound& round_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& cells_;
-  std::vector<std::vector<bool>> signs_by_rule_;  // by slot of the tetrahedron
+  std::vector<TetSigns> signs_by_rule_;
 };
 
 }  // namespace deliso

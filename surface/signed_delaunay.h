@@ -19,6 +19,9 @@
 
 namespace deliso {
 
+// The signs of tetrahedra by slot: 1 for above, 0 for below.
+using TetSigns = std::vector<std::uint8_t>;
+
 // What an exchange of points has changed.
 struct ExchangedPoints {
   std::vector<VertexId> renamed;    // of each vertex before: what it is called now, or none if it went
@@ -66,17 +69,17 @@ class SignedDelaunay {
   // Gives a tetrahedron another sign than that of the field at its circumcenter.
   void set_sign(TetId t, bool above) { sign_[t.index()] = above ? Sign::kAbove : Sign::kBelow; }
   // All signs as they stand, by slot of their tetrahedron; and back again.
-  [[nodiscard]] std::vector<bool> signs() const {
-    std::vector<bool> above(sign_.size());
-    for (std::size_t i = 0; i < sign_.size(); ++i) above[i] = sign_[i] == Sign::kAbove;
+  [[nodiscard]] TetSigns signs() const {
+    TetSigns above(sign_.size());
+    if (!above.empty()) std::memcpy(above.data(), sign_.data(), above.size());
     return above;
   }
-  void set_signs(const std::vector<bool>& above) {
-    for (std::size_t i = 0; i < sign_.size(); ++i) sign_[i] = above[i] ? Sign::kAbove : Sign::kBelow;
+  void set_signs(const TetSigns& above) {
+    if (!sign_.empty()) std::memcpy(sign_.data(), above.data(), sign_.size());
   }
-  // Calls visit(t) for every slot t whose sign is not that in `known`, 1 for above and 0 for below; and takes it over.
+  // Calls visit(t) for every slot t whose sign is not that in `known`; and takes it over.
   template <class Visit>
-  void for_each_change(std::vector<std::uint8_t>& known, Visit visit) const;
+  void for_each_change(TetSigns& known, Visit visit) const;
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
@@ -99,7 +102,7 @@ class SignedDelaunay {
 };
 
 template <class Visit>
-void SignedDelaunay::for_each_change(std::vector<std::uint8_t>& known, Visit visit) const {
+void SignedDelaunay::for_each_change(TetSigns& known, Visit visit) const {
   constexpr std::size_t kAtOnce = 64;
   for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
     const std::size_t last = std::min(known.size(), first + kAtOnce);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
+#include "surface/critical_places.h"
 #include "surface/polygonized_components.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
@@ -21,15 +22,14 @@ class SurfaceFacts {
 
   [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
   [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
-  // The active cells with a critical point (volume/critical_points.h), x fastest.
-  [[nodiscard]] const std::vector<CellIndex>& critical_cells() const { return critical_cells_.get(); }
+  [[nodiscard]] const std::vector<CriticalPlace>& critical_places() const { return critical_.get(); }
   [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
 
  private:
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   // Deferred: whoever asks first does the work, anyone else waits for it.
-  std::shared_future<std::vector<CellIndex>> critical_cells_;
+  std::shared_future<std::vector<CriticalPlace>> critical_;
   std::shared_future<PolygonizedSurface> polygonized_;
   std::jthread finder_;
 };

@@ -24,6 +24,23 @@ struct SurfaceMesh {
   std::vector<std::array<TriangleSide, 3>> neighbours;
 };
 
+// The corners that sides joined by `across` (which names the side across a side, or kNoSide) make one vertex with a
+// corner; corner 3 t + i is that of triangle t at its vertex i. Walks around the vertex one way and, if the fan is
+// open, the other. visit(corner) marks it and tells whether that is news; each corner is named once, and the first one
+// once more at the end of a closed fan.
+template <class Across, class Visit>
+void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Visit& visit) {
+  visit(corner);
+  for (const unsigned turn : {1u, 2u}) {
+    for (std::uint32_t c = corner;;) {
+      const TriangleSide side = across(4 * (c / 3) + (c % 3 + turn) % 3);
+      if (side == kNoSide) break;
+      c = 3 * (side >> 2) + ((side & 3u) + turn) % 3;
+      if (!visit(c)) return;
+    }
+  }
+}
+
 // Appends the wanted pieces of a mesh to another; `piece_of`: of each vertex of `from`.
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);

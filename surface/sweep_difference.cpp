@@ -15,45 +15,6 @@ constexpr std::int64_t kLasting = 6;
 // Levels looked at beyond those of the start and the end.
 constexpr std::int64_t kSlack = 1;
 
-// For each axis, the Euler characteristic of what lies below each layer: V - E + F of the simplices whose vertices all
-// do.
-std::array<std::vector<std::int64_t>, 3> swept_characteristics(const MeshPart& part, const Vec3& step,
-                                                               const std::array<std::int32_t, 3>& dims) {
-  const SurfaceMesh& mesh = part.mesh;
-  std::array<std::vector<std::int64_t>, 3> change;
-  for (std::size_t axis = 0; axis < 3; ++axis) change[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
-  // A vertex counts when a triangle has it; its layers are found then.
-  constexpr std::int32_t kUnseen = -1;
-  std::vector<std::array<std::int32_t, 3>> layers(mesh.points.size(), {kUnseen, 0, 0});
-  const auto see = [&](std::uint32_t v) {
-    if (layers[v][0] != kUnseen) return;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double layer = std::ceil(mesh.points[v][axis] / step[axis]);
-      layers[v][axis] = static_cast<std::int32_t>(std::clamp(layer, 0.0, dims[axis] - 1.0));
-      ++change[axis][static_cast<std::size_t>(layers[v][axis])];
-    }
-  };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t];
-    if (!part.counts(v[0])) continue;
-    std::array<bool, 3> counts_edge{};  // an edge counts from the larger of its two sides
-    for (unsigned i = 0; i < 3; ++i) {
-      see(v[i]);
-      const TriangleSide across = mesh.neighbours[t][i];
-      counts_edge[i] = across == kNoSide || across < 4 * t + i;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::array<std::int32_t, 3> at = {layers[v[0]][axis], layers[v[1]][axis], layers[v[2]][axis]};
-      for (unsigned i = 0; i < 3; ++i) {
-        if (counts_edge[i]) --change[axis][static_cast<std::size_t>(std::max(at[(i + 1) % 3], at[(i + 2) % 3]))];
-      }
-      ++change[axis][static_cast<std::size_t>(std::max({at[0], at[1], at[2]}))];
-    }
-  }
-  for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
-  return change;
-}
-
 // Where the piecewise constant function from 0 to the last value that fits `gap` best jumps: dynamic programming over
 // (place, level) with the sum of the deviations plus kLasting for each jump by one as the cost.
 std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
@@ -88,14 +49,55 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
 
 }  // namespace
 
-std::array<std::vector<std::int32_t>, 3> jumps_between(const MeshPart& mesh, const MeshPart& exact, const Vec3& step,
-                                                       const std::array<std::int32_t, 3>& dims) {
-  const std::array<std::vector<std::int64_t>, 3> ours = swept_characteristics(mesh, step, dims);
-  const std::array<std::vector<std::int64_t>, 3> right = swept_characteristics(exact, step, dims);
+// V - E + F of the simplices whose vertices all lie below.
+std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
+                                                        const std::vector<std::uint32_t>& part_of_vertex,
+                                                        std::size_t parts, const Vec3& step,
+                                                        const std::array<std::int32_t, 3>& dims) {
+  SweptCharacteristics none;
+  for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
+  std::vector<SweptCharacteristics> changes(parts, none);
+  // A vertex counts when a triangle has it; its layers are found then.
+  constexpr std::int32_t kUnseen = -1;
+  std::vector<std::array<std::int32_t, 3>> layers(mesh.points.size(), {kUnseen, 0, 0});
+  const auto see = [&](std::uint32_t v, SweptCharacteristics& change) {
+    if (layers[v][0] != kUnseen) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double layer = std::ceil(mesh.points[v][axis] / step[axis]);
+      layers[v][axis] = static_cast<std::int32_t>(std::clamp(layer, 0.0, dims[axis] - 1.0));
+      ++change[axis][static_cast<std::size_t>(layers[v][axis])];
+    }
+  };
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    if (part_of_vertex[v[0]] == kNoPart) continue;
+    SweptCharacteristics& change = changes[part_of_vertex[v[0]]];
+    std::array<bool, 3> counts_edge{};  // an edge counts from the larger of its two sides
+    for (unsigned i = 0; i < 3; ++i) {
+      see(v[i], change);
+      const TriangleSide across = mesh.neighbours[t][i];
+      counts_edge[i] = across == kNoSide || across < 4 * t + i;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::array<std::int32_t, 3> at = {layers[v[0]][axis], layers[v[1]][axis], layers[v[2]][axis]};
+      for (unsigned i = 0; i < 3; ++i) {
+        if (counts_edge[i]) --change[axis][static_cast<std::size_t>(std::max(at[(i + 1) % 3], at[(i + 2) % 3]))];
+      }
+      ++change[axis][static_cast<std::size_t>(std::max({at[0], at[1], at[2]}))];
+    }
+  }
+  for (SweptCharacteristics& change : changes) {
+    for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
+  }
+  return changes;
+}
+
+std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristics& mesh,
+                                                       const SweptCharacteristics& exact) {
   std::array<std::vector<std::int32_t>, 3> jumps;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::vector<std::int64_t> gap = ours[axis];
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= right[axis][i];
+    std::vector<std::int64_t> gap = mesh[axis];
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= exact[axis][i];
     jumps[axis] = lasting_jumps(gap);
   }
   return jumps;

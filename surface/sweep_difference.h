@@ -8,22 +8,26 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "surface/surface_mesh.h"
 
 namespace deliso {
 
-// A mesh and which of its vertices count (the pieces that they belong to count as a whole).
-struct MeshPart {
-  const SurfaceMesh& mesh;
-  std::function<bool(std::uint32_t)> counts;
-};
+// Along each axis, for each sample layer, the Euler characteristic of what lies below it.
+using SweptCharacteristics = std::array<std::vector<std::int64_t>, 3>;
 
-// Along each axis the sample layers (ascending) at which the two part for good or meet again. `step` is the size of a
-// voxel in mesh space, `dims` the number of samples.
-std::array<std::vector<std::int32_t>, 3> jumps_between(const MeshPart& mesh, const MeshPart& exact, const Vec3& step,
-                                                       const std::array<std::int32_t, 3>& dims);
+// Of several parts of a mesh, in one go over its triangles. `part_of_vertex`: below `parts`, the same for all vertices
+// of a piece; kNoPart where it does not count. `step` is the size of a voxel in mesh space, `dims` the number of
+// samples.
+inline constexpr std::uint32_t kNoPart = 0xFFFFFFFFu;
+std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
+                                                        const std::vector<std::uint32_t>& part_of_vertex,
+                                                        std::size_t parts, const Vec3& step,
+                                                        const std::array<std::int32_t, 3>& dims);
+
+// Along each axis the sample layers (ascending) at which the two part for good or meet again.
+std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristics& mesh,
+                                                       const SweptCharacteristics& exact);
 
 }  // namespace deliso

@@ -9,14 +9,30 @@
 
 namespace deliso {
 
+namespace {
+
+std::int32_t distance_along_axis(const std::vector<std::int32_t>& layers, std::int32_t from) {
+  std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t layer : layers) nearest = std::min(nearest, std::abs(from - layer));
+  return nearest;
+}
+
+}  // namespace
+
 std::int32_t Places::distance(const CellIndex& cell) const {
   std::int32_t farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
-    for (const std::int32_t layer : layers[axis]) nearest = std::min(nearest, std::abs(cell[axis] - layer));
-    farthest = std::max(farthest, nearest);
+    farthest = std::max(farthest, distance_along_axis(layers[axis], cell[axis]));
   }
   return farthest;
+}
+
+DistanceFromPlaces::DistanceFromPlaces(const Places& places, const std::array<std::int32_t, 3>& dims) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::int32_t layer = 0; layer < dims[axis]; ++layer) {
+      layers_[axis].push_back(distance_along_axis(places.layers[axis], layer));
+    }
+  }
 }
 
 namespace {
@@ -39,6 +55,7 @@ class TroubleFinder {
         places_(context.places),
         evidence_(context.evidence),
         critical_(context.critical),
+        threads_(context.threads),
         has_sign_(context.done.size(), false) {}
 
   std::vector<CellName> find() {
@@ -63,12 +80,15 @@ class TroubleFinder {
 
   // What a sign of trouble tells of: of a component whose piece has the right topology only some signs matter.
   enum class Tells { kTopology, kMissingPart, kMixing };
-  void flag(const Vec3& p, std::uint32_t component, Tells tells) {
-    if (done_[component]) return;
+  [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, Tells tells) const {
+    if (done_[component]) return false;
     const Agreement agreement = mesh_.match.agreement[component];
-    if (agreement == Agreement::kMixed && tells != Tells::kMixing) return;
-    if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return;
-    if (!places_[component].empty() && !places_[component].near(cells_.cell_of(p), kNear)) return;
+    if (agreement == Agreement::kMixed && tells != Tells::kMixing) return false;
+    if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return false;
+    return places_[component].empty() || places_[component].near(cells_.cell_of(p), kNear);
+  }
+  void flag(const Vec3& p, std::uint32_t component, Tells tells) {
+    if (!matters(p, component, tells)) return;
     has_sign_[component] = true;
     cells_.append_cells_of(p, found_);
   }
@@ -82,7 +102,8 @@ class TroubleFinder {
   const std::vector<bool>& done_;
   const std::vector<Places>& places_;  // of each exact component
   std::span<const std::uint8_t> evidence_;
-  const std::vector<CriticalPlace>& critical_;
+  LocatedPlaces& critical_;
+  int threads_;
   std::vector<bool> has_sign_;  // of each exact component
   std::vector<CellName> found_;
 };
@@ -142,9 +163,21 @@ void TroubleFinder::flag_unused_vertices() {
 // Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
 // way.
 void TroubleFinder::flag_critical_points() {
-  for (const CriticalPlace& place : critical_) {
-    if (restricted_.is_above(place.tet) == place.is_above) continue;
-    if (const auto component = open_component_in(place.cell)) flag(place.point, *component, Tells::kTopology);
+  const std::vector<CriticalPlace>& places = critical_.places();
+  std::vector<std::uint32_t> wanted;
+  std::vector<std::uint32_t> component_of;  // of each of these
+  std::optional<std::uint32_t> component;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (i == 0 || places[i].cell != places[i - 1].cell) component = open_component_in(places[i].cell);
+    if (!component || !matters(places[i].point, *component, Tells::kTopology)) continue;
+    wanted.push_back(i);
+    component_of.push_back(*component);
+  }
+  critical_.locate(wanted, threads_);
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const CriticalPlace& place = places[wanted[k]];
+    if (restricted_.is_above(critical_.tet(wanted[k])) == place.is_above) continue;
+    flag(place.point, component_of[k], Tells::kTopology);
   }
 }
 

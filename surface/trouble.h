@@ -1,6 +1,7 @@
 // Where a mesh differs from the isosurface, as far as signs of it can be seen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -34,6 +35,19 @@ struct Places {
   [[nodiscard]] bool near(const CellIndex& cell, std::int32_t reach) const { return distance(cell) <= reach; }
 };
 
+// Places::distance of many cells of a volume with so many samples.
+class DistanceFromPlaces {
+ public:
+  DistanceFromPlaces(const Places& places, const std::array<std::int32_t, 3>& dims);
+  [[nodiscard]] std::int32_t operator()(const CellIndex& cell) const {
+    return std::max({layers_[0][static_cast<std::size_t>(cell[0])], layers_[1][static_cast<std::size_t>(cell[1])],
+                     layers_[2][static_cast<std::size_t>(cell[2])]});
+  }
+
+ private:
+  std::array<std::vector<std::int32_t>, 3> layers_;  // along each axis: of each layer, how many layers it is away
+};
+
 // What trouble is looked for in. References must outlive the search.
 struct TroubleContext {
   const ScalarGrid& grid;
@@ -45,7 +59,8 @@ struct TroubleContext {
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   std::vector<Places> places;                             // of each exact component
   std::span<const std::uint8_t> evidence;                 // in the raised cells, by slot (evidence.h); may be empty
-  const std::vector<CriticalPlace>& critical;             // of the volume, in the triangulation
+  LocatedPlaces& critical;                                // of the volume, in the triangulation
+  int threads = 1;                                        // nothing but the time depends on it
 };
 
 // The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices

@@ -53,18 +53,20 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   const MeshCover cover(mesh);
   std::uint32_t guess = 0;
   const auto takes = [](std::uint32_t t) { return t % 3 != 0; };
-  const std::vector<bool> few = covered_points(points, mesh, takes);
-  EXPECT_EQ(covered_points(points, mesh, takes, 3), few);
+  const std::vector<std::uint32_t> few = covering_triangles(points, mesh, takes);
+  EXPECT_EQ(covering_triangles(points, mesh, takes, 3), few);
   int covered = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = 0;
-    bool by_some = false;
+    std::uint32_t by_some = kNoTriangle;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const double d = distance_to(mesh, t, points[i]);
       if (d < nearest) triangle = t;
       nearest = std::min(nearest, d);
-      by_some |= takes(t) && d <= std::max(0.8, 0.5 * radius_of(mesh, t));
+      const bool is_covered = d <= std::max(0.8, 0.5 * radius_of(mesh, t));
+      EXPECT_EQ(is_covered_by(points[i], mesh, t), is_covered);
+      if (is_covered && takes(t) && by_some == kNoTriangle) by_some = t;
     }
     const bool expected = nearest < 0.8 || nearest <= 0.3 * radius_of(mesh, triangle);
     EXPECT_EQ(cover.covers(points[i], guess), expected);
@@ -78,7 +80,7 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   for (std::size_t i = 0; i < points.size(); i += 3) {
     const std::vector<Vec3> some(points.begin() + static_cast<std::ptrdiff_t>(i),
                                  points.begin() + static_cast<std::ptrdiff_t>(std::min(i + 1 + i % 2, points.size())));
-    const std::vector<bool> answers = covered_points(some, mesh, takes);
+    const std::vector<std::uint32_t> answers = covering_triangles(some, mesh, takes);
     for (std::size_t j = 0; j < some.size(); ++j) EXPECT_EQ(answers[j], few[i + j]);
   }
 }

@@ -37,6 +37,7 @@ void expect_same(const FacetPairing& a, const FacetPairing& b, std::uint64_t see
     ASSERT_EQ(f.contested, g.contested) << "seed " << seed;
     ASSERT_EQ(a.place_of(f.facet), i) << "seed " << seed;
   }
+  ASSERT_EQ(a.triangles().is_split, b.triangles().is_split) << "seed " << seed;
 }
 
 TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
@@ -47,7 +48,7 @@ TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
     EXPECT_FALSE(pairing.update());
     Rng rng(seed);
     for (const std::uint64_t count : {1u, 3u, 30u, 300u, 2u}) {
-      const std::vector<bool> before = restricted.signs();
+      const TetSigns before = restricted.signs();
       turn_some(restricted, count, rng);
       EXPECT_EQ(pairing.update(), restricted.signs() != before) << "seed " << seed;
       expect_same(pairing, FacetPairing(restricted), seed);
@@ -94,10 +95,10 @@ TEST(FacetPairing, PairsSidesOfTheSameEdgeWithEachOther) {
     std::size_t paired = 0;
     for (const PairedFacet& facet : pairing.facets()) {
       for (unsigned i = 0; i < 3; ++i) {
-        if (facet.across[i] == PairedFacet::kUnpaired) continue;
-        const PairedFacet& there = pairing.facets()[pairing.place_of(FacetId(facet.across[i] >> 2))];
+        if (facet.across[i] == kNoSide) continue;
+        const PairedFacet& there = pairing.facets()[facet.across[i] >> 2];
         const unsigned j = facet.across[i] & 3u;
-        EXPECT_EQ(there.across[j], 4 * facet.facet.value + i) << "seed " << seed;
+        EXPECT_EQ(there.across[j], 4 * pairing.place_of(facet.facet) + i) << "seed " << seed;
         EXPECT_EQ(there.contested[j], facet.contested[i]) << "seed " << seed;
         EXPECT_EQ(there.vertices[(j + 1) % 3], facet.vertices[(i + 2) % 3]) << "seed " << seed;
         EXPECT_EQ(there.vertices[(j + 2) % 3], facet.vertices[(i + 1) % 3]) << "seed " << seed;

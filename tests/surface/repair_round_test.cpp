@@ -168,6 +168,34 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
+// Beside each other on several threads or one after the other by hand; and missing parts that were covered before.
+TEST(RepairRound, AttemptsAreTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({11, 10, 9}, seed);
+    Rng rng(seed);
+    RaisedCells raised(scene->grid, *scene->isosurface);
+    raise_some(*scene, raised, rng);
+    const auto never = [](const MatchedMesh&) { return false; };
+    for (const int threads : {1, 2, 3}) {
+      RepairRound beside(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), threads);
+      RepairRound fresh(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+      const std::vector<RepairRound::Attempt> attempts = beside.attempts(kRules, never);
+      ASSERT_EQ(attempts.size(), kRules.size());
+      for (std::size_t i = 0; i < attempts.size(); ++i) {
+        fresh.take_signs(kRules[i]);
+        EXPECT_EQ(attempts[i].signs, fresh.restricted().signs()) << "seed " << seed;
+        const auto expected = fresh.assemble();
+        ASSERT_EQ(attempts[i].mesh.has_value(), expected.has_value()) << "seed " << seed;
+        if (!expected) continue;
+        EXPECT_EQ(attempts[i].mesh->built.mesh.points, expected->built.mesh.points) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->built.mesh.triangles, expected->built.mesh.triangles) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->match.agreement, expected->match.agreement) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->match.error, expected->match.error) << "seed " << seed;
+      }
+    }
+  }
+}
+
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};

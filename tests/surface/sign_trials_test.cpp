@@ -65,7 +65,7 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
     std::int64_t before = characteristic(restricted);
     for (int trial = 0; trial < 60; ++trial) {
       const std::vector<TetId> tets = some_tets(restricted, rng);
-      const std::vector<bool> signs = restricted.signs();
+      const TetSigns signs = restricted.signs();
       const std::int64_t change = change_of_characteristic(restricted, tets);
       EXPECT_EQ(restricted.signs(), signs);
       for (const TetId t : tets) restricted.overturn_sign(t);
@@ -82,7 +82,7 @@ TEST(DisputedClusters, AreTheFacetConnectedSetsOfOtherSign) {
   const auto scene = noise_scene({8, 8, 8}, 3);
   SignedDelaunay restricted = dense(*scene);
   const Tetrahedralization& delaunay = restricted.delaunay();
-  const std::vector<bool> signs = restricted.signs();
+  const TetSigns signs = restricted.signs();
   Rng rng(5);
   for (int i = 0; i < 400; ++i) {
     const TetId t(static_cast<std::size_t>(rng.below(delaunay.tet_slots())));
@@ -145,7 +145,7 @@ TEST(SignTrials, MendASpoiltPlace) {
                       std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)), 1);
     round.take_signs(SignRule::kCircumcenter);
     const MatchedMesh before = *round.assemble();
-    const std::vector<bool> signs = round.restricted().signs();
+    const TetSigns signs = round.restricted().signs();
     const Tetrahedralization& delaunay = round.restricted().delaunay();
     for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
       const std::vector<TetId> spoilt = {TetId(i)};

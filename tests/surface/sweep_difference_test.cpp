@@ -10,12 +10,14 @@ namespace {
 
 using testing::field_scene;
 
-const auto kAll = [](std::uint32_t) { return true; };
+SweptCharacteristics swept(const SurfaceMesh& mesh, const std::array<std::int32_t, 3>& dims) {
+  return swept_characteristics(mesh, std::vector<std::uint32_t>(mesh.points.size(), 0), 1, {1, 1, 1}, dims).front();
+}
 
 TEST(SweepDifference, EqualMeshesNeverPart) {
   const auto scene = field_scene("gyroid", 24);
   const SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
-  for (const auto& layers : jumps_between({mesh, kAll}, {mesh, kAll}, {1, 1, 1}, scene->grid.dims())) {
+  for (const auto& layers : jumps_between(swept(mesh, scene->grid.dims()), swept(mesh, scene->grid.dims()))) {
     EXPECT_TRUE(layers.empty());
   }
 }
@@ -45,10 +47,24 @@ TEST(SweepDifference, FindsWhereAHoleIsPunched) {
       if (side != kNoSide) side = renamed[side >> 2] == kNoSide ? kNoSide : 4 * renamed[side >> 2] + (side & 3u);
     }
   }
-  const auto jumps = jumps_between({left, kAll}, {exact, kAll}, {1, 1, 1}, scene->grid.dims());
+  const auto jumps = jumps_between(swept(left, scene->grid.dims()), swept(exact, scene->grid.dims()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ASSERT_EQ(jumps[axis].size(), 1u) << "axis " << axis;
     EXPECT_NEAR(jumps[axis][0], place[axis], 3) << "axis " << axis;
+  }
+}
+
+TEST(SweepDifference, PartsSweptAtOnceAreLikePartsSweptAlone) {
+  const auto scene = field_scene("bubbles", 26);
+  const PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
+  const std::size_t parts = scene->topology.components.size();
+  ASSERT_GT(parts, 1u);
+  const auto all = swept_characteristics(surface.mesh, surface.component, parts, {1, 1, 1}, scene->grid.dims());
+  for (std::uint32_t c = 0; c < parts; ++c) {
+    std::vector<std::uint32_t> alone(surface.component.size(), kNoPart);
+    for (std::size_t v = 0; v < alone.size(); ++v) alone[v] = surface.component[v] == c ? 0 : kNoPart;
+    EXPECT_EQ(swept_characteristics(surface.mesh, alone, 1, {1, 1, 1}, scene->grid.dims()).front(), all[c]);
+    for (const auto& along : all[c]) EXPECT_EQ(along.back(), scene->topology.components[c].euler_characteristic);
   }
 }
 

@@ -1,0 +1,53 @@
+// The meshes of repair that brought some component further, and what is taken from them at last.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "surface/component_match.h"
+#include "surface/repair.h"
+#include "surface/repair_round.h"
+#include "surface/surface_mesh.h"
+
+namespace deliso {
+
+class KeptMeshes {
+ public:
+  explicit KeptMeshes(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
+
+  // Of each exact component: needs no more work.
+  [[nodiscard]] const std::vector<bool>& done() const { return done_; }
+  [[nodiscard]] bool is_done() const {
+    return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
+  }
+  // Whether nothing would be left to do with this mesh.
+  [[nodiscard]] bool would_be_done(const MatchedMesh& mesh) const;
+  // Components that no mesh has right.
+  [[nodiscard]] std::int64_t count_missing() const { return std::count(best_.begin(), best_.end(), Agreement::kNone); }
+
+  // Keeps a mesh, made with these signs, when it helps some component.
+  void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
+  // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
+  void give_poles(RepairRound& round);
+  // Appends every component as the latest mesh that agrees with it at its best has it, and notes what is `left`. Meshes
+  // are of no more use then.
+  void append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats);
+
+ private:
+  struct KeptMesh {
+    std::shared_ptr<MatchedMesh> mesh;
+    TetSigns signs;  // that it was made with; empty once it has its pole heights
+  };
+  void drop_outdone();
+  [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
+    return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
+  }
+
+  std::vector<bool> done_;       // of each exact component
+  std::vector<Agreement> best_;  // of each: the best, kWithStrays at most, reached by some mesh
+  std::vector<KeptMesh> kept_;   // in the order in which they came
+};
+
+}  // namespace deliso
