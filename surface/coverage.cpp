@@ -10,7 +10,8 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/constructions.h"
 #include "surface/blocks.h"
-#include "surface/build_triangle_mesh.h"
+#include "surface/link_sides.h"
+#include "surface/sides_of_facets.h"
 #include "surface/surface_distance.h"
 
 namespace deliso {
@@ -20,8 +21,9 @@ namespace {
 constexpr double kNear = 0.8;  // mesh-space units
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
-constexpr double kFewRadii = 0.5;  // the same where little is at stake
-constexpr int kLongestWalk = 16;   // triangles
+constexpr double kFewRadii = 0.5;        // the same where little is at stake
+constexpr int kLongestWalk = 16;         // triangles
+constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
 
@@ -147,6 +149,7 @@ bool MeshCover::covers(const Vec3& p, std::uint32_t& guess) const {
 
 std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
   std::pair<std::uint32_t, double> best = {start, squared_distance_to(p, start)};
+  if (mesh_.neighbours.empty()) return best;
   for (int step = 0; step < kLongestWalk && best.second >= kNear * kNear; ++step) {
     const std::uint32_t from = best.first;
     for (const TriangleSide side : mesh_.neighbours[from]) {
@@ -211,7 +214,10 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
                               std::vector<std::uint32_t>& suspects, int threads) {
-  const SurfaceMesh mesh = build_triangle_mesh(restricted, threads).mesh;
+  // The facets as they are: how they make up a manifold does not matter here. Where few crossings are left to ask
+  // about, walks do not pay.
+  SurfaceMesh mesh = facets_alone(restricted);
+  if (suspects.size() > mesh.triangles.size() / kFewSuspects) link_sides(mesh);
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };

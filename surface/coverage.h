@@ -19,7 +19,7 @@ namespace deliso {
 // The triangles of a mesh by place, for asking whether many points of the surface lie near them.
 class MeshCover {
  public:
-  // Keeps a reference to the mesh, which has neighbours.
+  // Keeps a reference to the mesh. Many questions are answered faster when its triangles have neighbours.
   explicit MeshCover(const SurfaceMesh& mesh, int threads = 1);
 
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse

@@ -5,46 +5,10 @@
 #include <iterator>
 #include <utility>
 
+#include "surface/link_sides.h"
 #include "volume/marching_cubes.h"
 
 namespace deliso {
-
-namespace {
-
-// Neighbours of the triangles of a manifold mesh: sides with the same two ends, one run each way. Sides are put in
-// buckets by their lower end.
-void link_sides(SurfaceMesh& mesh) {
-  const auto ends = [&](TriangleSide side) {
-    const auto& v = mesh.triangles[side >> 2];
-    return std::minmax(v[((side & 3u) + 1) % 3], v[((side & 3u) + 2) % 3]);
-  };
-  const auto for_each_side = [&](const auto& visit) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (unsigned i = 0; i < 3; ++i) visit(4 * t + i);
-    }
-  };
-  std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // of each bucket, moved on as it is filled
-  for_each_side([&](TriangleSide side) { ++first[ends(side).first + 2]; });
-  for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<std::pair<std::uint32_t, TriangleSide>> sides(3 * mesh.triangles.size());  // (higher end, side)
-  for_each_side([&](TriangleSide side) {
-    const auto [low, high] = ends(side);
-    sides[first[low + 1]++] = {high, side};
-  });
-  mesh.neighbours.assign(mesh.triangles.size(), {kNoSide, kNoSide, kNoSide});
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    std::sort(sides.begin() + first[v], sides.begin() + first[v + 1]);
-    for (std::size_t i = first[v] + 1; i < first[v + 1]; ++i) {
-      const auto& [a_high, a] = sides[i - 1];
-      const auto& [b_high, b] = sides[i];
-      if (a_high != b_high) continue;
-      mesh.neighbours[a >> 2][a & 3u] = b;
-      mesh.neighbours[b >> 2][b & 3u] = a;
-    }
-  }
-}
-
-}  // namespace
 
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
                                        const IsosurfaceTopology& topology) {
