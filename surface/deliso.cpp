@@ -262,7 +262,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
 
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
-    result.mesh = to_world(surface, grid, isosurface->step());
+    result.mesh = to_world(std::move(surface), grid, isosurface->step());
     if (parameters.certify) result.certificate = certify(result.mesh, topology, options.threads);
     if (!result.build.bounds_a_solid) refute_facets(result.certificate);
   });

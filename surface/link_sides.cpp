@@ -22,17 +22,17 @@ void link_sides(SurfaceMesh& mesh) {
   std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // of each bucket, moved on as it is filled
   for_each_side([&](TriangleSide side) { ++first[ends(side).first + 2]; });
   for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<std::pair<std::uint32_t, TriangleSide>> sides(3 * mesh.triangles.size());  // (higher end, side)
-  for_each_side([&](TriangleSide side) {
-    const auto [low, high] = ends(side);
-    sides[first[low + 1]++] = {high, side};
-  });
+  std::vector<TriangleSide> sides(3 * mesh.triangles.size());
+  for_each_side([&](TriangleSide side) { sides[first[ends(side).first + 1]++] = side; });
   mesh.neighbours.assign(mesh.triangles.size(), {kNoSide, kNoSide, kNoSide});
+  std::vector<std::pair<std::uint32_t, TriangleSide>> bucket;  // (higher end, side)
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    std::sort(sides.begin() + first[v], sides.begin() + first[v + 1]);
-    for (std::size_t i = first[v] + 1; i < first[v + 1]; ++i) {
-      const auto& [a_high, a] = sides[i - 1];
-      const auto& [b_high, b] = sides[i];
+    bucket.clear();
+    for (std::size_t i = first[v]; i < first[v + 1]; ++i) bucket.emplace_back(ends(sides[i]).second, sides[i]);
+    std::sort(bucket.begin(), bucket.end());
+    for (std::size_t i = 1; i < bucket.size(); ++i) {
+      const auto& [a_high, a] = bucket[i - 1];
+      const auto& [b_high, b] = bucket[i];
       if (a_high != b_high) continue;
       mesh.neighbours[a >> 2][a & 3u] = b;
       mesh.neighbours[b >> 2][b & 3u] = a;

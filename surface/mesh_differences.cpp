@@ -58,7 +58,8 @@ void MeshDifferences::sweep_surface(std::span<const std::uint32_t> components) {
   std::vector<std::uint32_t> part_of_component(facts_.topology().components.size(), kNoPart);
   for (std::uint32_t i = 0; i < unknown.size(); ++i) part_of_component[unknown[i]] = i;
   std::vector<std::uint32_t> part_of_vertex(exact.component.size(), kNoPart);
-  for (std::size_t v = 0; v < part_of_vertex.size(); ++v) if (exact.component[v] < part_of_component.size()) part_of_vertex[v] = part_of_component[exact.component[v]];
+  for (std::size_t v = 0; v < part_of_vertex.size(); ++v)
+    if (exact.component[v] < part_of_component.size()) part_of_vertex[v] = part_of_component[exact.component[v]];
   std::vector<SweptCharacteristics> swept =
       swept_characteristics(exact.mesh, part_of_vertex, unknown.size(), isosurface_.step(), facts_.grid().dims());
   for (std::size_t i = 0; i < unknown.size(); ++i) swept_[unknown[i]] = std::move(swept[i]);

@@ -124,6 +124,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     refine_slabs(refined, slabs, task);
     refine_whole(refined, Round::kLater, task);
   }
+  release_free_memory();
   stats.stopped_at_r_min = std::count_if(refined.triangles.begin(), refined.triangles.end(),
                                          [](const RefinementMesh::Triangle& t) { return t.is_too_small(); });
   if (balls != nullptr) {

@@ -1,5 +1,7 @@
 #include "surface/surface_mesh.h"
 
+#include <utility>
+
 namespace deliso {
 
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
@@ -27,13 +29,10 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
   }
 }
 
-TriangleMesh to_world(const SurfaceMesh& mesh, const ScalarGrid& grid, const Vec3& step) {
+TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step) {
   const Vec3 scale{grid.spacing().x / step.x, grid.spacing().y / step.y, grid.spacing().z / step.z};
-  TriangleMesh world;
-  world.points.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points) world.points.push_back(grid.origin() + scaled(scale, p));
-  world.triangles = mesh.triangles;
-  return world;
+  for (Vec3& p : mesh.points) p = grid.origin() + scaled(scale, p);
+  return {std::move(mesh.points), std::move(mesh.triangles)};
 }
 
 }  // namespace deliso

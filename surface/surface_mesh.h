@@ -46,6 +46,6 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
                    SurfaceMesh& to);
 
 // In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.
-TriangleMesh to_world(const SurfaceMesh& mesh, const ScalarGrid& grid, const Vec3& step);
+TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step);
 
 }  // namespace deliso
