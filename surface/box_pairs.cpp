@@ -4,7 +4,8 @@
 
 namespace deliso {
 
-BoxPairs::Bounds BoxPairs::Block::bounds() const {
+template <class Real>
+typename BoxPairs<Real>::Bounds BoxPairs<Real>::Block::bounds() const {
   Bounds bounds;
   for (std::size_t k = 0; k < 3; ++k) {
     bounds.low[k] = *std::min_element(low[k].begin(), low[k].end());
@@ -14,7 +15,8 @@ BoxPairs::Bounds BoxPairs::Block::bounds() const {
 }
 
 // The levels above the lowest.
-void BoxPairs::enclose() {
+template <class Real>
+void BoxPairs<Real>::enclose() {
   while (levels_.back().size() > 1) {
     const std::vector<Block>& below = levels_.back();
     std::vector<Block> level((below.size() + kParts - 1) / kParts);
@@ -23,7 +25,8 @@ void BoxPairs::enclose() {
   }
 }
 
-std::vector<BoxPairs::Task> BoxPairs::tasks() const {
+template <class Real>
+std::vector<typename BoxPairs<Real>::Task> BoxPairs<Real>::tasks() const {
   if (levels_.empty()) return {};
   auto level = static_cast<std::uint32_t>(levels_.size() - 1);
   std::vector<Task> tasks = {{level, 0, 0}};
@@ -44,5 +47,8 @@ std::vector<BoxPairs::Task> BoxPairs::tasks() const {
   }
   return tasks;
 }
+
+template class BoxPairs<float>;
+template class BoxPairs<double>;
 
 }  // namespace deliso

@@ -1,9 +1,12 @@
 // Pairs of boxes that may meet, among many.
 //
 // The boxes stand in the order of halving (surface/halving_order.h): eight in a row make a block, eight blocks one of
-// the next level, up to a single one. A block holds the boxes of its eight parts side by side, in floats, so that a box
-// is compared with all of them at once; only blocks of the same level are compared. Rounding to floats keeps the order
-// of numbers, so boxes that have a point in common still have one.
+// the next level, up to a single one. A block holds the boxes of its eight parts side by side, so that a box is
+// compared with all of them at once; only blocks of the same level are compared.
+//
+// In floats this takes half as long as in doubles. Rounding to floats keeps the order of numbers, so boxes that have a
+// point in common still have one; but those that are apart by less than the rounding, some 2^-24 of the whole, seem to
+// have one, too: where many boxes are smaller than that, only doubles tell them apart.
 #pragma once
 
 #include <array>
@@ -11,12 +14,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "delaunay/base/box3.h"
 
 namespace deliso {
 
+template <class Real>
 class BoxPairs {
  public:
   // Of `count` boxes; box_of(i) gives the box at place i, none has a point below `low`.
@@ -35,7 +40,7 @@ class BoxPairs {
   [[nodiscard]] std::vector<Task> tasks() const;
 
   // Calls visit(i, j) once for each pair of places of the task whose boxes have a point in common, faces included, and
-  // for few others that are apart by less than the rounding.
+  // in floats for others that are apart by less than the rounding.
   template <class Visit>
   void for_each(const Task& task, Visit&& visit) const {
     task.a == task.b ? within(task.level, task.a, visit) : between(task.level, task.a, task.b, visit);
@@ -46,15 +51,15 @@ class BoxPairs {
   static constexpr std::size_t kTaskBlocks = 64;  // tasks begin at a level of at least so many blocks
 
   struct Bounds {
-    std::array<float, 3> low{}, high{};
+    std::array<Real, 3> low{}, high{};
   };
   // The boxes of eight parts, coordinate by coordinate; what there is none of is empty.
   struct Block {
-    std::array<std::array<float, kParts>, 3> low, high;
+    std::array<std::array<Real, kParts>, 3> low, high;
 
     Block() {
-      for (auto& row : low) row.fill(std::numeric_limits<float>::infinity());
-      for (auto& row : high) row.fill(-std::numeric_limits<float>::infinity());
+      for (auto& row : low) row.fill(std::numeric_limits<Real>::infinity());
+      for (auto& row : high) row.fill(-std::numeric_limits<Real>::infinity());
     }
     void set(std::size_t part, const Bounds& bounds) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -85,9 +90,13 @@ class BoxPairs {
   };
 
   static Bounds rounded(const Box3& box, const Vec3& low) {
-    const Vec3 a = box.low - low, b = box.high - low;
-    return {{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)},
-            {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)}};
+    if constexpr (std::is_same_v<Real, double>) {
+      return {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}};
+    } else {
+      const Vec3 a = box.low - low, b = box.high - low;
+      return {{static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z)},
+              {static_cast<Real>(b.x), static_cast<Real>(b.y), static_cast<Real>(b.z)}};
+    }
   }
   void enclose();
 
@@ -103,8 +112,9 @@ class BoxPairs {
   std::vector<std::vector<Block>> levels_;  // the lowest first
 };
 
+template <class Real>
 template <class Visit>
-void BoxPairs::within(std::uint32_t level, std::uint32_t a, Visit& visit) const {
+void BoxPairs<Real>::within(std::uint32_t level, std::uint32_t a, Visit& visit) const {
   const Block& block = levels_[level][a];
   for (std::uint32_t i = 0; i < kParts; ++i) {
     const std::uint32_t met = block.meeting(block.part(i)) >> i;
@@ -116,8 +126,9 @@ void BoxPairs::within(std::uint32_t level, std::uint32_t a, Visit& visit) const 
   }
 }
 
+template <class Real>
 template <class Visit>
-void BoxPairs::between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const {
+void BoxPairs<Real>::between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const {
   // Of the one block the parts that meet the other block, of the other the parts that meet these.
   const Block &of_a = levels_[level][a], &of_b = levels_[level][b];
   for_each_bit(of_a.meeting(levels_[level + 1][b / kParts].part(b % kParts)), [&](std::uint32_t i) {

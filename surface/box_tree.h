@@ -36,7 +36,8 @@ class BoxTree {
     const CentreLattice lattice(all);
     std::vector<LatticePlace> places(count);
     for (std::size_t i = 0; i < count; ++i) places[i] = lattice.place(centres[i], i);
-    things_ = halving_order(std::move(places), threads);
+    things_ = halving_order(
+        std::move(places), [&](std::uint32_t thing) { return centres[thing]; }, threads);
     boxes_.reserve(count);
     for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
     make_nodes(0, static_cast<std::uint32_t>(count));

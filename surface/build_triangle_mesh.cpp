@@ -1,9 +1,7 @@
 #include "surface/build_triangle_mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 

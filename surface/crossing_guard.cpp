@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "surface/self_intersection.h"
@@ -54,16 +55,21 @@ void for_each_cell_around(const Vec3& p, Visit&& visit) {
 // Vertices with another one on top of them.
 std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
   const auto& vertices = mesh.vertices;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> in_cell;
-  in_cell.reserve(vertices.size() + vertices.size() / 4);
+  // By cell, then by x, so that crowds in a cell are looked at in short stretches.
+  using InCell = std::tuple<std::uint64_t, double, std::uint32_t>;
+  std::vector<InCell> in_cells;
+  in_cells.reserve(vertices.size() + vertices.size() / 4);
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    for_each_cell_around(vertices[v].point, [&](std::uint64_t cell) { in_cell.emplace_back(cell, v); });
+    const Vec3& p = vertices[v].point;
+    for_each_cell_around(p, [&](std::uint64_t cell) { in_cells.emplace_back(cell, p.x, v); });
   }
-  std::sort(in_cell.begin(), in_cell.end());
+  std::sort(in_cells.begin(), in_cells.end());
   std::vector<std::uint32_t> doubled;
-  for (std::size_t i = 0; i < in_cell.size(); ++i) {
-    for (std::size_t j = i + 1; j < in_cell.size() && in_cell[j].first == in_cell[i].first; ++j) {
-      const std::uint32_t v = in_cell[i].second, w = in_cell[j].second;
+  for (std::size_t i = 0; i < in_cells.size(); ++i) {
+    const auto& [cell, x, v] = in_cells[i];
+    for (std::size_t j = i + 1; j < in_cells.size(); ++j) {
+      const auto& [other_cell, other_x, w] = in_cells[j];
+      if (other_cell != cell || other_x - x >= kOnTop) break;
       if (v == w || squared_distance(vertices[v].point, vertices[w].point) >= kOnTop * kOnTop) continue;
       doubled.push_back(v);
       doubled.push_back(w);

@@ -204,6 +204,13 @@ void refute_facets(Certificate& certificate) {
       "The restricted facets bound no set of tetrahedra: they are given as they are, without stage 2.");
 }
 
+// Stage 1 and repair alone look up crossings.
+void drop_crossings(IsosurfaceTopology& topology) {
+  std::vector<EdgeCrossing>().swap(topology.crossings);
+  topology.index = {};
+  release_free_memory();
+}
+
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
@@ -249,9 +256,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
 
   // The tetrahedra and the facts go as soon as the surface mesh stands; of the topology the components stay.
   SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
-  std::vector<EdgeCrossing>().swap(regular.topology.crossings);
-  regular.topology.index = {};
-  release_free_memory();
+  drop_crossings(regular.topology);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {

@@ -89,9 +89,25 @@ std::size_t move_smaller(Places places, std::uint64_t bound, std::size_t axis) {
   return smaller;
 }
 
+// Steps that a crowd of places must have along its longest side, or else the order is as good as none.
+constexpr std::uint32_t kFewestSteps = 1u << 10;
+constexpr std::size_t kCrowd = 256;
+
+using CentreOf = std::function<Vec3(std::uint32_t)>;
+
+// Places the things of a crowd on a lattice of its own.
+Extent spread_out(Places places, const CentreOf& centre_of) {
+  Box3 box;
+  for (const LatticePlace& p : places) box.extend(centre_of(p.thing));
+  const CentreLattice lattice(box);
+  for (LatticePlace& p : places) p = lattice.place(centre_of(p.thing), p.thing);
+  return longest_side(places);
+}
+
 // Moves the `middle` places that are least along the longest side to the front.
-void part(Places places, std::size_t middle) {
-  const Extent extent = longest_side(places);
+void part(Places places, std::size_t middle, const CentreOf& centre_of) {
+  Extent extent = longest_side(places);
+  if (places.size() > kCrowd && extent.size < kFewestSteps) extent = spread_out(places, centre_of);
   for (int round = 0; places.size() > kSmall; ++round) {
     const std::size_t smaller = move_smaller(places, pivot_key(places, middle, extent.axis), extent.axis);
     if (smaller == middle) return;
@@ -110,11 +126,11 @@ void part(Places places, std::size_t middle) {
   part_few(places, extent);
 }
 
-void order(Places places) {
+void order(Places places, const CentreOf& centre_of) {
   while (places.size() > kThingsPerLeaf) {
     const std::size_t middle = left_half(static_cast<std::uint32_t>(places.size()));
-    part(places, middle);
-    order(places.first(middle));
+    part(places, middle, centre_of);
+    order(places.first(middle), centre_of);
     places = places.subspan(middle);
   }
 }
@@ -132,7 +148,7 @@ std::uint32_t left_half(std::uint32_t count) {
   return std::bit_floor((count + kThingsPerLeaf - 1) / kThingsPerLeaf - 1) * kThingsPerLeaf;
 }
 
-std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places, int threads) {
+std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places, const CentreOf& centre_of, int threads) {
   // The uppermost levels one after the other, then what hangs below them.
   std::vector<Places> parts = {places};
   for (int depth = 0; depth < kTaskDepth; ++depth) {
@@ -141,13 +157,13 @@ std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places, int t
       const Places whole = parts[i];
       const std::size_t middle =
           whole.size() > kThingsPerLeaf ? left_half(static_cast<std::uint32_t>(whole.size())) : whole.size();
-      if (middle < whole.size()) part(whole, middle);
+      if (middle < whole.size()) part(whole, middle, centre_of);
       halves[2 * i] = whole.first(middle);
       halves[2 * i + 1] = whole.subspan(middle);
     });
     parts = std::move(halves);
   }
-  run_tasks(parts.size(), threads, [&](std::size_t i) { order(parts[i]); });
+  run_tasks(parts.size(), threads, [&](std::size_t i) { order(parts[i], centre_of); });
   std::vector<std::uint32_t> things;
   things.reserve(places.size());
   for (const LatticePlace& p : places) things.push_back(p.thing);

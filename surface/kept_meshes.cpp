@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/blocks.h"
+#include "delaunay/base/parallel.h"
 #include "surface/separate_copies.h"
 
 namespace deliso {

@@ -1,6 +1,7 @@
 #include "surface/mesh_differences.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace deliso {
 
@@ -14,7 +15,7 @@ constexpr std::size_t kAtOnce = 256;
 const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
                                                  const std::vector<bool>& done, std::size_t most) {
   if (of_.lock() == mesh && most_ == most) return places_;
-  of_ = mesh;
+  of_.reset();
   most_ = most;
   places_.assign(done.size(), {});
   std::vector<std::uint32_t> components;
@@ -26,6 +27,7 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
   for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
+  of_ = mesh;
   return places_;
 }
 

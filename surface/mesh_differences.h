@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +19,7 @@ class MeshDifferences {
   MeshDifferences(const SurfaceFacts& facts, const Isosurface& isosurface) : facts_(facts), isosurface_(isosurface) {}
 
   // For each component that is not done and whose main piece has another topology: the places at which the two part, if
-  // they are no more than `most`. Known when asked for again.
+  // they are no more than `most`. Known when asked for again, also of components that were not done then.
   const std::vector<Places>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
                                   std::size_t most);
 

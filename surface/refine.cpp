@@ -122,7 +122,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     refine_whole(refined, Round::kFirst, task);
   } else {
     refine_slabs(refined, slabs, task);
-    refine_whole(refined, Round::kLater, task);
+    if (!controls.stopped()) refine_whole(refined, Round::kLater, task);
   }
   release_free_memory();
   stats.stopped_at_r_min = std::count_if(refined.triangles.begin(), refined.triangles.end(),

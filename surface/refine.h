@@ -52,7 +52,7 @@ struct RefineStats : StageStats {
   std::int64_t insertions = 0;
   std::int64_t boundary_splits = 0;  // of them on boundary edges
   std::int64_t halvings = 0;         // of them on the longest edge of a coarse triangle, x_sigma having been refused
-  std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};
+  std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
   std::int64_t restarts = 0;          // of a slab, or of what is done in the whole
   SearchCounters search;

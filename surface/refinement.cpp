@@ -18,6 +18,7 @@ constexpr double kFarthestMove = 0.8;
 
 void Refinement::run(Controls& controls) {
   start_.emplace(mesh_);
+  if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
   guard_.emplace(mesh_);
   queue_coarse_triangles();
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {

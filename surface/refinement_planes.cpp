@@ -55,8 +55,9 @@ class WorkAlong {
     if (!(step > 0)) return fair;
     for (const Span& span : spans_) {
       const double first = std::max(std::ceil((span.low - low) / step), 0.0);
-      const double last = std::min(std::floor((span.high - low) / step), kPlaces - 1.0);
-      for (double i = first; i <= last; ++i) cut[static_cast<std::size_t>(i)] += span.work;
+      const double end = std::min(std::floor((span.high - low) / step) + 1, static_cast<double>(kPlaces));
+      if (!(first < end)) continue;
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i) cut[i] += span.work;
     }
     std::size_t best = 0;
     const auto place = [&](std::size_t i) { return low + static_cast<double>(i) * step; };

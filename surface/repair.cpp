@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/blocks.h"
+#include "delaunay/base/parallel.h"
 #include "surface/kept_meshes.h"
 #include "surface/mesh_differences.h"
 #include "surface/poles.h"
@@ -154,15 +154,17 @@ void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
   TetSigns signs;
   const std::size_t at_once = threads_ > 1 ? kSignRules.size() : 1;
-  for (std::size_t first = 0; first < kSignRules.size(); first += at_once) {
+  bool is_over = false;
+  for (std::size_t first = 0; first < kSignRules.size() && !is_over; first += at_once) {
     for (RepairRound::Attempt& attempt : round_->attempts(std::span(kSignRules).subspan(first, at_once),
                                                           [&](const auto& m) { return kept_.would_be_done(m); })) {
       if (take(attempt)) return;
-      if (best && mesh_->match.error >= best->match.error) continue;
-      best = mesh_;
-      signs = std::move(attempt.signs);
-      if (controls.poll()) first = kSignRules.size();
-      if (first == kSignRules.size()) break;
+      is_over = controls.poll();
+      if (!best || mesh_->match.error < best->match.error) {
+        best = mesh_;
+        signs = std::move(attempt.signs);
+      }
+      if (is_over) break;
     }
   }
   mesh_ = std::move(best);

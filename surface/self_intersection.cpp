@@ -19,7 +19,7 @@ Box3 box_of(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& tr
   return box;
 }
 
-// Counts a pair, and keeps it when it is among the first ones by number: pairs come in the order of the tree.
+// Counts a pair, and keeps it when it is among the first ones by number: pairs come in the order of halving.
 class PairCollector {
  public:
   explicit PairCollector(std::size_t keep) : keep_(keep) {}
@@ -118,7 +118,11 @@ class OrderedTriangles {
       // Halved terms cannot overflow.
       places.push_back(lattice.place(0.5 * box.low + 0.5 * box.high, t));
     }
-    return halving_order(std::move(places), threads);
+    const auto centre_of = [&](std::uint32_t t) {
+      const Box3 box = box_of(points, triangles[t]);
+      return 0.5 * box.low + 0.5 * box.high;
+    };
+    return halving_order(std::move(places), centre_of, threads);
   }
 
   void renumber(std::span<const Vec3> points, std::span<const Corners> triangles) {
@@ -146,23 +150,34 @@ class OrderedTriangles {
   Vec3 low_;
 };
 
-}  // namespace
+// Whether floats tell most triangles apart.
+bool floats_do(const OrderedTriangles& triangles) {
+  constexpr double kSmallest = 0x1p-19;  // of the whole; a rounded coordinate is off by 2^-25 of it at most
+  constexpr std::size_t kMostSmall = 1000;
+  Box3 all;
+  for (const Vec3& p : triangles.points()) all.extend(p);
+  const double smallest = kSmallest * norm(all.size());
+  std::size_t small = 0;
+  for (std::size_t i = 0; i < triangles.size() && small <= kMostSmall; ++i) {
+    small += norm(triangles.box(i).size()) < smallest ? 1 : 0;
+  }
+  return small <= kMostSmall;
+}
 
-SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std::span<const Vec3> points,
-                                        std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
-                                        int threads) {
-  const OrderedTriangles ordered(points, triangles, threads);
+// Broad phase: pairs of boxes that touch, but not pairs at a vertex around which nothing meets; narrow phase: exact
+// tests.
+template <class Real>
+PairCollector find_pairs(std::span<const std::uint8_t> marks, const OrderedTriangles& ordered, std::size_t keep,
+                         int threads) {
   const std::vector<OrderedTriangles::Corners>& corners = ordered.corners();
-  const BoxPairs pairs(ordered.size(), ordered.low(), [&](std::size_t i) { return ordered.box(i); });
+  const BoxPairs<Real> pairs(ordered.size(), ordered.low(), [&](std::size_t i) { return ordered.box(i); });
   const std::vector<std::uint8_t> laid_out = laid_out_umbrellas(ordered.points(), corners, threads);
   const auto examine = [&](std::uint32_t i, std::uint32_t j, PairCollector& found) {
     if (!marks.empty() && marks[ordered.number(i)] == 0 && marks[ordered.number(j)] == 0) return;
     const TriangleContact contact = triangle_contact(ordered.points(), corners[i], corners[j]);
     if (contact != TriangleContact::kNone) found.add(ordered.pair(i, j, contact));
   };
-  // Broad phase: pairs of boxes that touch, but not pairs at a vertex around which nothing meets; narrow phase: exact
-  // tests.
-  const std::vector<BoxPairs::Task> tasks = pairs.tasks();
+  const auto tasks = pairs.tasks();
   std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
   run_tasks(tasks.size(), threads, [&](std::size_t task) {
     pairs.for_each(tasks[task],
@@ -174,7 +189,18 @@ SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std
   });
   PairCollector all(keep);
   for (const PairCollector& part : found) all.add(part);
-  SelfIntersections result = std::move(all).sorted();
+  return all;
+}
+
+}  // namespace
+
+SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std::span<const Vec3> points,
+                                        std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
+                                        int threads) {
+  const OrderedTriangles ordered(points, triangles, threads);
+  PairCollector found = floats_do(ordered) ? find_pairs<float>(marks, ordered, keep, threads)
+                                           : find_pairs<double>(marks, ordered, keep, threads);
+  SelfIntersections result = std::move(found).sorted();
   result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - ordered.size());
   return result;
 }

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/huge_pages.h"
 #include "delaunay/bowyer_watson.h"
 #include "raycast/isosurface.h"
@@ -75,6 +76,7 @@ class SignedDelaunay {
     return above;
   }
   void set_signs(const TetSigns& above) {
+    DELISO_CHECK(above.size() == sign_.size(), "every slot has a sign");
     if (!sign_.empty()) std::memcpy(sign_.data(), above.data(), sign_.size());
   }
   // Calls visit(t) for every slot t whose sign is not that in `known`; and takes it over.
