@@ -1,0 +1,85 @@
+// Where the meshes of repair differ from the surface: all components at once must be like one after the other.
+#include "surface/mesh_differences.h"
+
+#include <gtest/gtest.h>
+
+#include "surface/repair_round.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+constexpr std::size_t kMany = 1u << 30;
+
+class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  MeshDifferencesOfNoise()
+      : scene_(testing::noise_scene({12, 11, 10}, GetParam())),
+        facts_(scene_->grid, *scene_->isosurface, scene_->topology, 1) {
+    std::vector<Vec3> samples;
+    for (std::size_t i = 0; i < scene_->topology.crossings.size(); i += 2) {
+      const EdgeCrossing& crossing = scene_->topology.crossings[i];
+      samples.push_back(scaled(crossing_position(scene_->grid, crossing), scene_->isosurface->step()));
+    }
+    RaisedCells cells(scene_->grid, *scene_->isosurface);
+    RepairRound round(scene_->grid, scene_->topology, cells,
+                      std::make_unique<SignedDelaunay>(*scene_->isosurface, samples), 1);
+    round.take_plain_signs();
+    mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
+  }
+  [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
+  // What one component's main piece and its part of the surface alone give.
+  [[nodiscard]] std::array<std::vector<std::int32_t>, 3> layers_of(std::uint32_t c) const {
+    const auto swept = [&](const SurfaceMesh& mesh, const auto& is_of_c) {
+      std::vector<std::uint32_t> part(mesh.points.size(), kNoPart);
+      for (std::uint32_t v = 0; v < part.size(); ++v) part[v] = is_of_c(v) ? 0 : kNoPart;
+      return swept_characteristics(mesh, part, 1, scene_->isosurface->step(), scene_->grid.dims()).front();
+    };
+    const ComponentMatch& match = mesh_->match;
+    const PolygonizedSurface& exact = facts_.polygonized();
+    return jumps_between(
+        swept(mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == match.main_piece[c]; }),
+        swept(exact.mesh, [&](std::uint32_t v) { return exact.component[v] == c; }));
+  }
+
+  std::unique_ptr<testing::Scene> scene_;
+  SurfaceFacts facts_;
+  std::shared_ptr<MatchedMesh> mesh_;
+};
+
+TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
+  MeshDifferences differences(facts_, *scene_->isosurface);
+  const std::vector<Places> places = differences.find(mesh_, std::vector<bool>(components(), false), kMany);
+  ASSERT_EQ(places.size(), components());
+  int wrong = 0;
+  for (std::uint32_t c = 0; c < components(); ++c) {
+    const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
+    EXPECT_EQ(places[c].layers, is_wrong ? layers_of(c) : Places().layers) << c;
+    wrong += is_wrong ? 1 : 0;
+  }
+  EXPECT_GT(wrong, 0);
+}
+
+TEST_P(MeshDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
+  MeshDifferences differences(facts_, *scene_->isosurface);
+  const std::vector<bool> none_done(components(), false);
+  const std::vector<Places> all = differences.find(mesh_, none_done, kMany);
+  std::size_t most = 0;
+  for (const Places& places : all) most = std::max(most, places.count());
+  ASSERT_GT(most, 0u);
+  const std::vector<Places> fewer = differences.find(mesh_, none_done, most - 1);
+  for (std::size_t c = 0; c < components(); ++c) {
+    EXPECT_EQ(fewer[c].layers, all[c].count() < most ? all[c].layers : Places().layers);
+  }
+  const std::vector<Places> again = differences.find(mesh_, none_done, kMany);
+  for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c].layers, all[c].layers);
+  MeshDifferences others(facts_, *scene_->isosurface);
+  for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
+    EXPECT_TRUE(places.empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
+
+}  // namespace
+}  // namespace deliso
