@@ -31,7 +31,7 @@ class Refinement {
   std::vector<float> measure_all(int threads);
   // Refines the coarse triangles, as far as the part allows.
   void run(Controls& controls);
-  // Takes back all that was done since this was made.
+  // Takes back all that run() did.
   void take_back();
 
  private:
