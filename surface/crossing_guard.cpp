@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "surface/blocks.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -24,6 +25,8 @@ constexpr double kReach = 20;
 // where samples are. Cells are counted up to so many from the origin.
 constexpr double kCellSide = 0.26;
 constexpr double kFarthestPlace = 1e15;
+// The surface lies far from a triangle whose ball is so many times larger than its box.
+constexpr double kFarBall = 1;
 // A star can fold over its neighbours when it moves by so much of the rim's distance from p.
 constexpr double kFoldingMove = 0.1;
 
@@ -90,6 +93,23 @@ Box3 box_of(const std::array<Vec3, 3>& points) {
   return box;
 }
 
+// Calls visit(t) for the triangles around corner i of a triangle: this one, then those to one side of it, and where the
+// boundary ends that, those to the other side.
+template <class Visit>
+void for_each_around(const RefinementMesh& mesh, std::uint32_t triangle, unsigned i, Visit&& visit) {
+  visit(triangle);
+  for (const unsigned turn : {1u, 2u}) {
+    TriangleSide side = mesh.triangles[triangle].neighbours[(i + turn) % 3];
+    while (side != kNoSide && side >> 2 != triangle) {
+      visit(side >> 2);
+      // Seen from the triangle across, the corner is one of the ends of the side; the walk goes on over the other side
+      // there.
+      side = mesh.triangles[side >> 2].neighbours[((side & 3u) + 3 - turn) % 3];
+    }
+    if (side != kNoSide) return;
+  }
+}
+
 bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(points[0], points[1], points[2]); }
 
 // No clearance at the reached vertices; from there on the bound falls off by distance along edges.
@@ -139,8 +159,15 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   bound_clearances(mesh, std::move(reached));
 }
 
-CrossingGuard::CrossingGuard(const RefinementMesh& mesh) : mesh_(mesh) {
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) learn(t);
+CrossingGuard::CrossingGuard(RefinementMesh& mesh, int threads) : mesh_(mesh) {
+  for (RefinementMesh::Triangle& t : mesh.triangles) {
+    if (t.has_hit()) continue;
+    for (const std::uint32_t v : t.corners) mesh.vertices[v].clearance = 0;
+  }
+  const auto tight = collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, [&](std::size_t t, auto& found) {
+    if (is_tight(static_cast<std::uint32_t>(t))) found.push_back(static_cast<std::uint32_t>(t));
+  });
+  for (const std::uint32_t t : tight) tight_.add(t, mesh.box_of(t));
 }
 
 void CrossingGuard::learn(std::uint32_t triangle) {
@@ -150,6 +177,21 @@ void CrossingGuard::learn(std::uint32_t triangle) {
 void CrossingGuard::forget(std::uint32_t triangle) {
   if (!tight_.holds(triangle)) return;
   tight_.remove(triangle, mesh_.box_of(triangle));
+}
+
+void CrossingGuard::distrust(std::uint32_t triangle) {
+  const RefinementMesh::Triangle& t = mesh_.triangles[triangle];
+  const Vec3 size = mesh_.box_of(triangle).size();
+  if (t.has_hit() && t.ball.squared_radius < kFarBall * kFarBall * squared_norm(size)) return;
+  for (unsigned i = 0; i < 3; ++i) {
+    float& clearance = mesh_.vertices[t.corners[i]].clearance;
+    if (clearance == 0) continue;
+    clearance = 0;
+    // All triangles around this corner are tight now.
+    for_each_around(mesh_, triangle, i, [&](std::uint32_t around) {
+      if (!tight_.holds(around)) learn(around);
+    });
+  }
 }
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {

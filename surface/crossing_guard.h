@@ -28,7 +28,7 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
 class CrossingGuard {
  public:
   // Keeps a reference to a mesh with clearances, and a few bytes for each of its triangles.
-  explicit CrossingGuard(const RefinementMesh& mesh);
+  CrossingGuard(RefinementMesh& mesh, int threads);
 
   // Whether the star of p over the rim of a disk meets itself or tight triangles of the mesh outside the disk beyond
   // what they share, or folds over its neighbours. `moved`: how far the mesh moves at most. Also finds p's clearance.
@@ -38,6 +38,9 @@ class CrossingGuard {
   // Before a triangle goes; after a triangle has come.
   void forget(std::uint32_t triangle);
   void learn(std::uint32_t triangle);
+  // A triangle stays as it is. Takes the clearances at its corners away if it is so thin or steep that the surface lies
+  // far from it: what others will be around it may fold over it.
+  void distrust(std::uint32_t triangle);
 
  private:
   // A triangle of the star that is tested against others.
@@ -54,7 +57,7 @@ class CrossingGuard {
   [[nodiscard]] bool meets(const StarTriangle& s, std::uint32_t triangle) const;
   [[nodiscard]] static bool meets(const StarTriangle& s, const StarTriangle& t);
 
-  const RefinementMesh& mesh_;
+  RefinementMesh& mesh_;
   TightTriangles tight_;
   float new_clearance_ = 0;
   std::vector<StarTriangle> star_;

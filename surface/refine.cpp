@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
     Refinement refinement(part, task.isosurface, task.options, counted);
-    refinement.run(controls);
+    refinement.run(controls, threads);
     if (!task.options.restart_at_crossings) {
       stats = counted;
       return;
@@ -79,8 +80,8 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
 }
 
 // Refines slabs apart from each other.
-void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, const Task& task) {
-  RefinementSlabs cut(mesh, slabs, task.options.threads);
+void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const float> work, const Task& task) {
+  RefinementSlabs cut(mesh, slabs, work, task.options.threads);
   std::vector<RefinementPart>& parts = cut.parts();
   std::vector<RefineStats> counted(parts.size());
   std::vector<Controls> limits;
@@ -91,7 +92,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, const Ta
   run_tasks(parts.size(), task.options.threads,
             [&](std::size_t k) { refine_part(parts[k], Round::kFirst, task, limits[k], 1, counted[k]); });
   release_free_memory();
-  cut.join(mesh);
+  cut.join(mesh, task.options.threads);
   task.controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
 }
@@ -121,7 +122,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   if (slabs.size() == 1) {
     refine_whole(refined, Round::kFirst, task);
   } else {
-    refine_slabs(refined, slabs, task);
+    refine_slabs(refined, slabs, work, task);
     if (!controls.stopped()) refine_whole(refined, Round::kLater, task);
   }
   release_free_memory();

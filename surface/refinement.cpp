@@ -16,10 +16,10 @@ constexpr double kFarthestMove = 0.8;
 
 }  // namespace
 
-void Refinement::run(Controls& controls) {
+void Refinement::run(Controls& controls, int threads) {
   start_.emplace(mesh_);
   if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
-  guard_.emplace(mesh_);
+  guard_.emplace(mesh_, threads);
   queue_coarse_triangles();
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto queued = queue_.pop();
@@ -96,6 +96,7 @@ bool Refinement::treat(std::uint32_t triangle) {
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
     if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
+    guard_->distrust(triangle);
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
@@ -200,6 +201,9 @@ void Refinement::replace_disk(const Candidate& candidate) {
     learn(t, star_[i]);
     guard_->learn(t);
     if (triangle.is_coarse()) queue(t, star_[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!star_[i].has_hit) guard_->distrust(slot(i));
   }
 }
 

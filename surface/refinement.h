@@ -29,8 +29,8 @@ class Refinement {
 
   // Finds the balls of all triangles and which are coarse; returns an estimate of the insertions that each will need.
   std::vector<float> measure_all(int threads);
-  // Refines the coarse triangles, as far as the part allows.
-  void run(Controls& controls);
+  // Refines the coarse triangles, as far as the part allows. Threads prepare it; it runs on this one alone.
+  void run(Controls& controls, int threads);
   // Takes back all that run() did.
   void take_back();
 

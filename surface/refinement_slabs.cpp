@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "delaunay/base/parallel.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -11,14 +12,17 @@ namespace {
 
 // What is refined once parts are joined adds less than this part of the mesh, as a rule: then its arrays need not grow.
 constexpr std::size_t kRoomForRest = 4;
+// There is room for at most so many insertions per triangle from the start.
+constexpr double kMostGrowth = 32;
 
 }  // namespace
 
-RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs, int threads)
+RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs,
+                                 std::span<const float> work, int threads)
     : parts_(slabs.size()), origins_(slabs.size()) {
   for (std::size_t k = 0; k < slabs.size(); ++k) parts_[k].slab = slabs[k];
   find_triangles(whole);
-  run_tasks(parts_.size(), threads, [&](std::size_t k) { fill(whole, k); });
+  run_tasks(parts_.size(), threads, [&](std::size_t k) { fill(whole, work, k); });
 }
 
 // The triangles that meet each slab: those that its planes meet come first.
@@ -43,13 +47,18 @@ void RefinementSlabs::find_triangles(const RefinementMesh& whole) {
   }
 }
 
-void RefinementSlabs::fill(const RefinementMesh& whole, std::size_t k) {
+void RefinementSlabs::fill(const RefinementMesh& whole, std::span<const float> work, std::size_t k) {
   RefinementMesh& mesh = parts_[k].mesh;
   const std::vector<std::uint32_t>& own = origins_[k].triangles;
+  // Room for the insertions that are expected.
+  double expected = 0;
+  for (const std::uint32_t t : own) expected += work[t];
+  const auto added = static_cast<std::size_t>(std::min(expected, kMostGrowth * static_cast<double>(own.size())));
+  mesh.triangles.reserve(own.size() + 2 * added);
+  mesh.vertices.reserve(own.size() + added);
   std::vector<std::uint32_t> local_triangle(whole.triangles.size(), kNoSide);
   for (std::uint32_t i = 0; i < own.size(); ++i) local_triangle[own[i]] = i;
   std::vector<std::uint32_t> local_vertex(whole.vertices.size(), kNoSide);
-  mesh.triangles.reserve(own.size());
   for (const std::uint32_t t : own) {
     RefinementMesh::Triangle triangle = whole.triangles[t];
     for (std::uint32_t& v : triangle.corners) {
@@ -69,7 +78,7 @@ void RefinementSlabs::fill(const RefinementMesh& whole, std::size_t k) {
   }
 }
 
-void RefinementSlabs::join(RefinementMesh& whole) {
+void RefinementSlabs::join(RefinementMesh& whole, int threads) {
   std::size_t triangle_count = whole.triangles.size();
   std::size_t vertex_count = whole.vertices.size();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
@@ -81,39 +90,42 @@ void RefinementSlabs::join(RefinementMesh& whole) {
     whole.triangles.reserve(triangle_count + triangle_count / kRoomForRest);
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    put_back(parts_[k], origins_[k], whole);
+    put_back(parts_[k], origins_[k], whole, threads);
     parts_[k] = {};
     origins_[k] = {};
   }
   whole.forget_attempts();
 }
 
-void RefinementSlabs::put_back(const RefinementPart& part, Origin& origin, RefinementMesh& whole) {
+void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin, RefinementMesh& whole, int threads) {
   const RefinementMesh& mesh = part.mesh;
-  for (std::size_t v = origin.vertices.size(); v < mesh.vertices.size(); ++v) {
-    origin.vertices.push_back(static_cast<std::uint32_t>(whole.vertices.size()));
-    whole.vertices.push_back(mesh.vertices[v]);
-  }
-  const std::size_t old = origin.triangles.size();
-  for (std::size_t t = old; t < mesh.triangles.size(); ++t) {
-    origin.triangles.push_back(static_cast<std::uint32_t>(whole.triangles.size() + t - old));
-  }
-  whole.triangles.resize(whole.triangles.size() + mesh.triangles.size() - old);
-  const auto joined_side = [&](TriangleSide side) { return 4 * origin.triangles[side >> 2] + (side & 3u); };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const RefinementMesh::Triangle& from = mesh.triangles[t];
-    RefinementMesh::Triangle& to = whole.triangles[origin.triangles[t]];
-    // A frozen triangle stays; its sides towards the part are as the part left them.
-    if (t >= part.frozen) {
-      to = from;
-      for (std::uint32_t& v : to.corners) v = origin.vertices[v];
-    }
-    for (unsigned i = 0; i < 3; ++i) {
-      if (t >= part.frozen || from.neighbours[i] != kNoSide) {
-        to.neighbours[i] = from.neighbours[i] == kNoSide ? kNoSide : joined_side(from.neighbours[i]);
+  // What is new comes behind all that is there.
+  const std::size_t old_vertices = origin.vertices.size(), old_triangles = origin.triangles.size();
+  const std::size_t first_vertex = whole.vertices.size(), first_triangle = whole.triangles.size();
+  const auto behind = [](const auto& array, std::size_t place) {
+    return array.begin() + static_cast<std::ptrdiff_t>(place);
+  };
+  whole.vertices.insert(whole.vertices.end(), behind(mesh.vertices, old_vertices), mesh.vertices.end());
+  whole.triangles.insert(whole.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
+  const auto place = [](const std::vector<std::uint32_t>& old, std::size_t first, std::uint32_t i) {
+    return i < old.size() ? old[i] : static_cast<std::uint32_t>(first + i - old.size());
+  };
+  const auto place_of_triangle = [&](std::uint32_t t) { return place(origin.triangles, first_triangle, t); };
+  for_each_block(mesh.triangles.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      const RefinementMesh::Triangle& from = mesh.triangles[t];
+      RefinementMesh::Triangle& to = whole.triangles[place_of_triangle(t)];
+      // A frozen triangle stays; its sides towards the part are as the part left them.
+      if (t >= part.frozen) {
+        to = from;
+        for (std::uint32_t& v : to.corners) v = place(origin.vertices, first_vertex, v);
+      }
+      for (unsigned i = 0; i < 3; ++i) {
+        const TriangleSide side = from.neighbours[i];
+        if (side != kNoSide) to.neighbours[i] = 4 * place_of_triangle(side >> 2) + (side & 3u);
       }
     }
-  }
+  });
 }
 
 }  // namespace deliso

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/refinement_mesh.h"
@@ -22,14 +23,16 @@ struct RefinementPart {
 
 class RefinementSlabs {
  public:
-  // Cuts the parts in disjoint slabs out of a mesh whose balls are known.
-  RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs, int threads);
+  // Cuts the parts in disjoint slabs out of a mesh whose balls are known. `work` estimates the insertions that each
+  // triangle needs: there is room for them.
+  RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work,
+                  int threads);
 
   [[nodiscard]] std::vector<RefinementPart>& parts() { return parts_; }
 
   // Puts the refined parts back in place of what was cut out; they are empty afterwards. Old vertices keep their
   // places.
-  void join(RefinementMesh& whole);
+  void join(RefinementMesh& whole, int threads);
 
  private:
   // Where the first triangles and vertices of a part are in the whole.
@@ -39,8 +42,8 @@ class RefinementSlabs {
   };
 
   void find_triangles(const RefinementMesh& whole);
-  void fill(const RefinementMesh& whole, std::size_t part);
-  static void put_back(const RefinementPart& part, Origin& origin, RefinementMesh& whole);
+  void fill(const RefinementMesh& whole, std::span<const float> work, std::size_t part);
+  static void put_back(const RefinementPart& part, const Origin& origin, RefinementMesh& whole, int threads);
 
   std::vector<RefinementPart> parts_;
   std::vector<Origin> origins_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "delaunay/base/rng.h"
 #include "surface/self_intersection.h"
 
@@ -71,7 +73,7 @@ TEST(CrossingGuard, SaysTheSameAsTestsOfAllTriangles) {
     RefinementMesh mesh(sheets);
     RefinementDisk disk(mesh);
     set_clearances(mesh);
-    CrossingGuard guard(mesh);
+    CrossingGuard guard(mesh, 1);
     // One triangle of the lower sheet is split at a point up to twice the gap above it.
     const auto seed = static_cast<std::uint32_t>(rng.below(72));
     const double height = 0.4 * rng.uniform();
@@ -90,7 +92,7 @@ TEST(CrossingGuard, ForgetsTrianglesThatAreGone) {
   RefinementMesh mesh(sheets);
   RefinementDisk disk(mesh);
   set_clearances(mesh);
-  CrossingGuard guard(mesh);
+  CrossingGuard guard(mesh, 1);
   const std::uint32_t seed = 12;
   const Vec3 p = centroid_of(sheets, seed) + Vec3{0, 0, 0.5};
   ASSERT_TRUE(guard_crosses(disk, guard, p, 0.5, seed));
@@ -108,7 +110,7 @@ TEST(CrossingGuard, KeepsTrianglesOfAnySize) {
     RefinementMesh mesh(sheets);
     RefinementDisk disk(mesh);
     set_clearances(mesh);
-    CrossingGuard guard(mesh);
+    CrossingGuard guard(mesh, 1);
     const Vec3 p = centroid_of(sheets, 12) + Vec3{0, 0, 0.5};
     const bool before = guard_crosses(disk, guard, p, 0.5, 12);
     if (stretch < 1e18) {
@@ -129,10 +131,10 @@ TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
   RefinementMesh mesh(sheets);
   RefinementDisk disk(mesh);
   set_clearances(mesh);
-  CrossingGuard trusting(mesh);
+  CrossingGuard trusting(mesh, 1);
   EXPECT_FALSE(guard_crosses(disk, trusting, p, 0.5, seed));
   distrust(mesh, std::vector<Vec3>{p});
-  CrossingGuard suspicious(mesh);
+  CrossingGuard suspicious(mesh, 1);
   EXPECT_TRUE(guard_crosses(disk, suspicious, p, 0.5, seed));
 }
 
@@ -149,7 +151,7 @@ TEST(CrossingGuard, SeesFoldsOverNeighbours) {
     RefinementMesh mesh(scene);
     RefinementDisk disk(mesh);
     set_clearances(mesh);
-    CrossingGuard guard(mesh);
+    CrossingGuard guard(mesh, 1);
     const Vec3 p{rng.uniform(0.2, 0.8), rng.uniform(-0.5, 0.5), rng.uniform(-0.3, 0.6)};
     const bool crosses = crosses_by_brute_force(scene, p, 0);
     const bool found = guard_crosses(disk, guard, p, 1, 0);
@@ -163,6 +165,57 @@ TEST(CrossingGuard, SeesFoldsOverNeighbours) {
     folds += found ? 1 : 0;
   }
   EXPECT_GT(folds, 20);
+}
+
+// Triangles around a vertex, crumpled; all the way around it, or with a gap.
+SurfaceMesh crumpled_fan(std::uint32_t count, bool closed, Rng& rng) {
+  SurfaceMesh fan;
+  fan.points.push_back({0, 0, 0});
+  const std::uint32_t ring = closed ? count : count + 1;
+  for (std::uint32_t i = 0; i < ring; ++i) {
+    const double angle = 2 * 3.14159265 * i / ring;
+    fan.points.push_back({std::cos(angle), std::sin(angle), rng.uniform(-2, 2)});
+  }
+  fan.pole_heights.assign(fan.points.size(), 100);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % ring});
+    const std::uint32_t next = (i + 1) % count, last = (i + count - 1) % count;
+    fan.neighbours.push_back(
+        {kNoSide, closed || i + 1 < count ? 4 * next + 2 : kNoSide, closed || i > 0 ? 4 * last + 1 : kNoSide});
+  }
+  return fan;
+}
+
+// What lies around a triangle far off the surface is tested in full, although the clearances say that all is well.
+TEST(CrossingGuard, TrustsNothingBesideATriangleFarOffTheSurface) {
+  int crossings = 0, missed_by_trust = 0;
+  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+    Rng rng(trial);
+    const SurfaceMesh fan = crumpled_fan(6, trial % 2 == 0, rng);
+    const auto seed = static_cast<std::uint32_t>(rng.below(6));
+    const auto stays = static_cast<std::uint32_t>((seed + 2 + trial % 3) % 6);
+    const Vec3 p = centroid_of(fan, seed) + Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    const bool expected = crosses_by_brute_force(fan, p, seed);
+    crossings += expected ? 1 : 0;
+    const auto answer = [&](const SurfaceDelaunayBall& ball, bool has_hit, bool says_so) {
+      RefinementMesh mesh(fan);
+      set_clearances(mesh);
+      mesh.triangles[stays].ball = ball;
+      mesh.triangles[stays].set(RefinementMesh::Triangle::kNoHit, !has_hit);
+      RefinementDisk disk(mesh);
+      CrossingGuard guard(mesh, 1);
+      if (says_so) guard.distrust(stays);
+      return guard_crosses(disk, guard, p, 1, seed);
+    };
+    const SurfaceDelaunayBall near{centroid_of(fan, stays), 0.25}, far{{50, 50, 50}, 7500};
+    ASSERT_EQ(answer(far, true, true), expected) << "trial " << trial;
+    ASSERT_EQ(answer(near, false, false), expected) << "trial " << trial;
+    ASSERT_EQ(answer(near, true, true), answer(near, true, false)) << "trial " << trial;
+    missed_by_trust += expected && !answer(far, true, false) ? 1 : 0;
+  }
+  EXPECT_GT(crossings, 100);
+  EXPECT_LT(crossings, 900);
+  EXPECT_GT(missed_by_trust, 10);
 }
 
 }  // namespace

@@ -12,8 +12,6 @@
 #include "surface/poles.h"
 #include "surface/recover.h"
 #include "surface/refinement.h"
-#include "surface/refinement_crossings.h"
-#include "surface/self_intersection.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
 
@@ -289,44 +287,6 @@ TEST(Refine, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-std::int64_t meeting_triangles(const SurfaceMesh& mesh) {
-  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
-  return found.crossing_pairs + found.touching_pairs;
-}
-
-// Noise in which the guard lets triangles meet.
-constexpr std::array<std::uint64_t, 2> kSeedsThatCross = {24, 251};
-RefineOptions options_that_cross() {
-  RefineOptions options;
-  options.r_min = 0.1;
-  options.epsilon1 = 0.2;
-  return options;
-}
-
-TEST(Refine, BeginsAgainWhereTrianglesCameToMeet) {
-  for (const std::size_t slab_triangles : {std::size_t{60}, std::size_t{100000}}) {
-    std::int64_t restarts = 0;
-    for (const std::uint64_t seed : kSeedsThatCross) {
-      SCOPED_TRACE(seed);
-      const auto scene = noise_scene({6, 6, 6}, seed);
-      SurfaceMesh mesh = stage1_mesh(*scene);
-      ASSERT_EQ(meeting_triangles(mesh), 0);
-      RefineOptions options = options_that_cross();
-      options.slab_triangles = slab_triangles;
-      SurfaceMesh trusting = mesh;
-      options.restart_at_crossings = false;
-      EXPECT_EQ(run(trusting, *scene, options).restarts, 0);
-      options.restart_at_crossings = true;
-      const RefineStats stats = run(mesh, *scene, options);
-      EXPECT_EQ(stats.restarts > 0, meeting_triangles(trusting) > 0);
-      EXPECT_EQ(meeting_triangles(mesh), 0);
-      EXPECT_EQ(testing::surface_mesh_defect(mesh), "");
-      restarts += stats.restarts;
-    }
-    EXPECT_GT(restarts, 0) << slab_triangles;
-  }
-}
-
 TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
@@ -340,7 +300,7 @@ TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
     Refinement(part, *scene->isosurface, options, stats).measure_all(1);
     const RefinementMesh before = mesh;
     Refinement refinement(part, *scene->isosurface, options, stats);
-    refinement.run(controls);
+    refinement.run(controls, 1);
     EXPECT_EQ(mesh.vertices.size(), before.vertices.size() + static_cast<std::size_t>(stats.insertions));
     refinement.take_back();
     ASSERT_EQ(mesh.vertices.size(), before.vertices.size());
@@ -355,29 +315,6 @@ TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
       EXPECT_FALSE(now.is_renewed() || now.is_refused());
     }
   }
-}
-
-TEST(Refine, WhatWasRenewedHoldsAllPairsThatCameToMeet) {
-  std::int64_t pairs = 0;
-  for (const std::uint64_t seed : kSeedsThatCross) {
-    SCOPED_TRACE(seed);
-    const auto scene = noise_scene({6, 6, 6}, seed);
-    RefinementPart part;
-    RefinementMesh& mesh = part.mesh;
-    mesh = RefinementMesh(stage1_mesh(*scene));
-    set_clearances(mesh);
-    const RefineOptions options = options_that_cross();
-    RefineStats stats;
-    Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
-    Refinement(part, *scene->isosurface, options, stats).run(controls);
-    const SelfIntersections all = meeting_pairs(mesh, 1);
-    const SelfIntersections renewed = meeting_pairs_of_renewed(mesh, 1);
-    EXPECT_EQ(renewed.crossing_pairs, all.crossing_pairs);
-    EXPECT_EQ(renewed.touching_pairs, all.touching_pairs);
-    pairs += all.crossing_pairs + all.touching_pairs;
-  }
-  EXPECT_GT(pairs, 0);
 }
 
 }  // namespace

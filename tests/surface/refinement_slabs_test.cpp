@@ -45,7 +45,7 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   RefinementMesh whole(mesh);
   const std::vector<Slab> cut = slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192);
   ASSERT_EQ(cut.size(), 4u);
-  RefinementSlabs slabs(whole, cut, 2);
+  RefinementSlabs slabs(whole, cut, std::vector<float>(whole.triangles.size(), 1), 2);
   std::size_t free_triangles = 0;
   for (const RefinementPart& part : slabs.parts()) {
     EXPECT_GT(part.frozen, 0u);
@@ -55,7 +55,7 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
     free_triangles += part.mesh.triangles.size() - part.frozen;
   }
   EXPECT_GT(free_triangles, mesh.triangles.size() * 9 / 10);
-  slabs.join(whole);
+  slabs.join(whole, 2);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(testing::surface_mesh_defect(joined), "");
@@ -66,7 +66,8 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
 TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   const SurfaceMesh mesh = wavy_square(120);
   RefinementMesh whole(mesh);
-  RefinementSlabs slabs(whole, slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192), 1);
+  const std::vector<float> work(whole.triangles.size(), 1);
+  RefinementSlabs slabs(whole, slabs_of_equal_work(whole, work, 8192), work, 1);
   // Every part splits its first free triangle and one beside a frozen one at their centroids.
   std::size_t added = 0;
   for (RefinementPart& part : slabs.parts()) {
@@ -98,7 +99,7 @@ TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
       ++added;
     }
   }
-  slabs.join(whole);
+  slabs.join(whole, 2);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(testing::surface_mesh_defect(joined), "");
@@ -111,11 +112,11 @@ TEST(RefinementSlabs, TrianglesBeyondThemStayAsTheyAre) {
   const SurfaceMesh mesh = wavy_square(40);
   RefinementMesh whole(mesh);
   const std::vector<Slab> apart = {{1, 3.5, 9.25}, {1, 20, 31.5}};
-  RefinementSlabs slabs(whole, apart, 1);
+  RefinementSlabs slabs(whole, apart, std::vector<float>(whole.triangles.size()), 1);
   std::size_t cut_out = 0;
   for (const RefinementPart& part : slabs.parts()) cut_out += part.mesh.triangles.size();
   EXPECT_EQ(cut_out, 80u * (7 + 13));  // the rows of squares that the slabs meet, planes included
-  slabs.join(whole);
+  slabs.join(whole, 2);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(joined.points, mesh.points);
