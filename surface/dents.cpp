@@ -1,0 +1,307 @@
+#include "surface/dents.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "surface/box_tree.h"
+#include "surface/least_triangulation.h"
+#include "surface/self_intersection.h"
+
+namespace deliso {
+
+namespace {
+
+// A dent has an edge longer than this (mesh-space units): a smaller one is not far off the surface.
+constexpr double kLeastEdge = 1;
+// Links of more vertices are left as they are.
+constexpr std::size_t kLongestLink = 32;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+class Dents {
+ public:
+  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface) {}
+
+  std::int64_t remove_all();
+
+ private:
+  // A vertex whose triangles all face against the surface, and those that may be in the way of what replaces them.
+  struct Apex {
+    std::uint32_t vertex = 0;
+    std::vector<std::uint32_t> surroundings;
+  };
+  // The triangles around a vertex; for each the vertex that comes first in the link and the side beyond the link.
+  struct Fan {
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> link;
+    std::vector<TriangleSide> outer;
+  };
+
+  void find_corners();
+  void find_apexes();
+  void find_surroundings();
+  bool remove(const Apex& apex);
+  bool find_fan(std::uint32_t v, Fan& fan) const;
+  [[nodiscard]] bool can_be_filled(std::uint32_t v, const Fan& fan) const;
+  [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
+  [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
+  [[nodiscard]] double farthest(const Triangles& triangles);
+  [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
+  void replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least);
+  TriangleSide build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j, std::size_t& next);
+  void set(std::uint32_t t, unsigned side, TriangleSide across) {
+    mesh_.neighbours[t][side] = across;
+    if (across != kNoSide) mesh_.neighbours[across >> 2][across & 3u] = 4 * t + side;
+  }
+  void drop_gone();
+
+  [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
+    return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+  }
+  [[nodiscard]] bool has_area_at(const std::array<std::uint32_t, 3>& t) const {
+    return has_area(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
+  }
+
+  SurfaceMesh& mesh_;
+  const Isosurface& isosurface_;
+  std::vector<std::uint32_t> corner_of_;  // of each vertex: one of its corners, 3 triangle + i; none when it is gone
+  std::vector<Apex> apexes_;
+  std::vector<bool> is_gone_;           // of each triangle
+  std::vector<std::uint32_t> renewed_;  // triangles that have been replaced
+  SearchCounters search_;
+};
+
+std::int64_t Dents::remove_all() {
+  find_corners();
+  find_apexes();
+  if (apexes_.empty()) return 0;
+  find_surroundings();
+  is_gone_.assign(mesh_.triangles.size(), false);
+  // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
+  std::int64_t removed = 0;
+  for (std::int64_t before = -1; before != removed;) {
+    before = removed;
+    for (const Apex& apex : apexes_) {
+      if (corner_of_[apex.vertex] != kNoCorner && remove(apex)) ++removed;
+    }
+  }
+  if (removed > 0) drop_gone();
+  return removed;
+}
+
+void Dents::find_corners() {
+  corner_of_.assign(mesh_.points.size(), kNoCorner);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) corner_of_[mesh_.triangles[t][i]] = 3 * t + i;
+  }
+}
+
+// Inner vertices with a long edge none of whose triangles faces the way the surface does.
+void Dents::find_apexes() {
+  std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_.triangles[t][(i + 1) % 3], w = mesh_.triangles[t][(i + 2) % 3];
+      if (mesh_.neighbours[t][i] == kNoSide) is_open[v] = is_open[w] = true;
+      if (squared_distance(mesh_.points[v], mesh_.points[w]) > kLeastEdge * kLeastEdge) is_long[v] = is_long[w] = true;
+    }
+  }
+  enum class Facing : std::uint8_t { kUnknown, kAgainst, kRight };
+  std::vector<Facing> facing(mesh_.points.size(), Facing::kUnknown);
+  std::vector<Vec3> gradients(mesh_.points.size());
+  for (const auto& t : mesh_.triangles) {
+    const Vec3 n = normal(t);
+    for (const std::uint32_t v : t) {
+      if (!is_long[v] || is_open[v] || facing[v] == Facing::kRight) continue;
+      if (facing[v] == Facing::kUnknown) gradients[v] = isosurface_.gradient(mesh_.points[v]);
+      facing[v] = dot(n, gradients[v]) > 0 ? Facing::kAgainst : Facing::kRight;
+    }
+  }
+  for (std::uint32_t v = 0; v < facing.size(); ++v) {
+    if (facing[v] == Facing::kAgainst) apexes_.push_back({v, {}});
+  }
+}
+
+// What replaces a fan lies within the box of its link, and so does what replaces others within it.
+void Dents::find_surroundings() {
+  std::vector<Box3> boxes(apexes_.size());
+  for (std::size_t a = 0; a < apexes_.size(); ++a) {
+    Fan fan;
+    find_fan(apexes_[a].vertex, fan);
+    for (const std::uint32_t v : fan.link) boxes[a].extend(mesh_.points[v]);
+  }
+  const BoxTree tree(boxes);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    Box3 box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
+    tree.for_each_meeting(box, [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+  }
+}
+
+bool Dents::remove(const Apex& apex) {
+  Fan fan;
+  if (!find_fan(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
+  const LeastTriangulation least = triangulate(fan);
+  if (!least.exists()) return false;
+  Triangles now, filling;
+  for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
+  for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
+  const double distance = farthest(filling);
+  if (!(distance < kInfinity && distance <= farthest(now)) || !is_free(apex, filling)) return false;
+  replace(apex.vertex, fan, least);
+  return true;
+}
+
+// False when the vertex is on the boundary.
+bool Dents::find_fan(std::uint32_t v, Fan& fan) const {
+  for (std::uint32_t corner = corner_of_[v];;) {
+    const std::uint32_t t = corner / 3, i = corner % 3;
+    fan.triangles.push_back(t);
+    fan.link.push_back(mesh_.triangles[t][(i + 1) % 3]);
+    fan.outer.push_back(mesh_.neighbours[t][i]);
+    const TriangleSide side = mesh_.neighbours[t][(i + 1) % 3];
+    if (side == kNoSide) return false;
+    corner = 3 * (side >> 2) + ((side & 3u) + 1) % 3;
+    if (corner == corner_of_[v]) return true;
+  }
+}
+
+// The link is a cycle that passes no vertex twice and, if it is a triangle, not one of the mesh; and what went around
+// the vertex has not made it one that faces the right way.
+bool Dents::can_be_filled(std::uint32_t v, const Fan& fan) const {
+  if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
+  std::vector<std::uint32_t> sorted = fan.link;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
+  const TriangleSide beyond = fan.outer.front();
+  if (fan.link.size() == 3 && beyond != kNoSide && mesh_.triangles[beyond >> 2][beyond & 3u] == fan.link[2])
+    return false;
+  const Vec3 gradient = isosurface_.gradient(mesh_.points[v]);
+  return std::all_of(fan.triangles.begin(), fan.triangles.end(),
+                     [&](std::uint32_t t) { return dot(normal(mesh_.triangles[t]), gradient) > 0; });
+}
+
+// By triangles that have an area and edges that the mesh does not have elsewhere.
+LeastTriangulation Dents::triangulate(const Fan& fan) const {
+  const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
+    const std::array<std::uint32_t, 3> t = {fan.link[i], fan.link[k], fan.link[j]};
+    return has_area_at(t) ? 0.5 * norm(normal(t)) : kInfinity;
+  };
+  return {fan.link.size(), area, [&](std::size_t i, std::size_t j) { return !are_joined(fan.link[i], fan.link[j]); }};
+}
+
+// Whether an edge joins two vertices.
+bool Dents::are_joined(std::uint32_t v, std::uint32_t w) const {
+  bool found = false;
+  std::uint32_t visits = 0;
+  for_each_corner_of_fan(
+      corner_of_[v], [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
+      [&](std::uint32_t corner) {
+        const auto& t = mesh_.triangles[corner / 3];
+        found |= std::find(t.begin(), t.end(), w) != t.end();
+        return visits++ == 0 || corner != corner_of_[v];
+      });
+  return found;
+}
+
+// How far, at most, the surface that faces the same way is from the middles of some triangles, along their normals.
+double Dents::farthest(const Triangles& triangles) {
+  double farthest = 0;
+  for (const auto& t : triangles) {
+    const Vec3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
+    const Vec3 n = normal(t);
+    if (!(norm(n) > 0)) return kInfinity;
+    const double reach = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+    const auto hit = isosurface_.nearest_falling_hit({(a + b + c) / 3, n / norm(n)}, reach, search_);
+    farthest = std::max(farthest, hit ? std::abs(*hit) : kInfinity);
+  }
+  return farthest;
+}
+
+// Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
+bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
+  const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
+    return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;
+  };
+  const auto meets_filling = [&](std::uint32_t i) {
+    const auto& t = mesh_.triangles[i];
+    if (is_gone_[i] || std::find(t.begin(), t.end(), apex.vertex) != t.end()) return false;
+    return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
+  };
+  for (std::size_t i = 0; i < filling.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (meets(filling[i], filling[j])) return false;
+    }
+  }
+  return std::none_of(apex.surroundings.begin(), apex.surroundings.end(), meets_filling) &&
+         std::none_of(renewed_.begin(), renewed_.end(), meets_filling);
+}
+
+void Dents::replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least) {
+  for (std::size_t i = fan.triangles.size() - 2; i < fan.triangles.size(); ++i) is_gone_[fan.triangles[i]] = true;
+  std::size_t next = 0;
+  const TriangleSide last = build(fan, least, 0, fan.link.size() - 1, next);
+  set(last >> 2, last & 3u, fan.outer.back());
+  corner_of_[v] = kNoCorner;
+}
+
+// Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
+// rest is to be joined to.
+TriangleSide Dents::build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j,
+                          std::size_t& next) {
+  if (j == i + 1) return fan.outer[i];
+  const std::size_t k = least.apex(i, j);
+  const std::uint32_t t = fan.triangles[next++];
+  mesh_.triangles[t] = {fan.link[i], fan.link[k], fan.link[j]};
+  for (std::uint32_t c = 0; c < 3; ++c) corner_of_[mesh_.triangles[t][c]] = 3 * t + c;
+  renewed_.push_back(t);
+  set(t, 2, build(fan, least, i, k, next));
+  set(t, 0, build(fan, least, k, j, next));
+  return 4 * t + 1;
+}
+
+// Closes the gaps that triangles and vertices leave.
+void Dents::drop_gone() {
+  std::vector<std::uint32_t> place(mesh_.triangles.size());
+  std::uint32_t kept = 0;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) place[t] = is_gone_[t] ? kNoCorner : kept++;
+  for (std::uint32_t t = 0; t < place.size(); ++t) {
+    if (is_gone_[t]) continue;
+    for (TriangleSide& side : mesh_.neighbours[t]) {
+      if (side != kNoSide) side = 4 * place[side >> 2] + (side & 3u);
+    }
+    mesh_.triangles[place[t]] = mesh_.triangles[t];
+    mesh_.neighbours[place[t]] = mesh_.neighbours[t];
+  }
+  mesh_.triangles.resize(kept);
+  mesh_.neighbours.resize(kept);
+
+  std::vector<std::uint32_t> name(mesh_.points.size());
+  std::uint32_t vertices = 0;
+  for (std::uint32_t v = 0; v < name.size(); ++v) {
+    name[v] = vertices;
+    if (corner_of_[v] == kNoCorner) continue;
+    mesh_.points[vertices] = mesh_.points[v];
+    if (!mesh_.pole_heights.empty()) mesh_.pole_heights[vertices] = mesh_.pole_heights[v];
+    ++vertices;
+  }
+  mesh_.points.resize(vertices);
+  if (!mesh_.pole_heights.empty()) mesh_.pole_heights.resize(vertices);
+  for (auto& t : mesh_.triangles) {
+    for (std::uint32_t& v : t) v = name[v];
+  }
+}
+
+}  // namespace
+
+std::int64_t remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface) {
+  return Dents(mesh, isosurface).remove_all();
+}
+
+}  // namespace deliso
