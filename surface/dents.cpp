@@ -15,8 +15,12 @@ namespace deliso {
 
 namespace {
 
-// A dent has an edge longer than this (mesh-space units): a smaller one is not far off the surface.
+// A dent has an edge longer than this (mesh-space units),
 constexpr double kLeastEdge = 1;
+// and the surface is farther than this from some triangle at it.
+constexpr double kLeastDistance = 0.5;
+// A vertex so near to a face between cells, in steps of the grid, lies on it.
+constexpr double kOnFace = 1e-3;
 // Links of more vertices are left as they are.
 constexpr std::size_t kLongestLink = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -31,7 +35,7 @@ class Dents {
   std::int64_t remove_all();
 
  private:
-  // A vertex whose triangles all face against the surface, and those that may be in the way of what replaces them.
+  // A vertex whose triangles face against the surface, and those that may be in the way of what replaces them.
   struct Apex {
     std::uint32_t vertex = 0;
     std::vector<std::uint32_t> surroundings;
@@ -60,6 +64,8 @@ class Dents {
     if (across != kNoSide) mesh_.neighbours[across >> 2][across & 3u] = 4 * t + side;
   }
   void drop_gone();
+
+  [[nodiscard]] bool is_against(std::uint32_t v, const Vec3& normals) const;
 
   [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
     return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
@@ -102,30 +108,41 @@ void Dents::find_corners() {
   }
 }
 
-// Inner vertices with a long edge none of whose triangles faces the way the surface does.
+// Inner vertices with a long edge whose triangles face against the surface on the whole.
 void Dents::find_apexes() {
   std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
+  std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Vec3 n = normal(mesh_.triangles[t]);
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh_.triangles[t][(i + 1) % 3], w = mesh_.triangles[t][(i + 2) % 3];
       if (mesh_.neighbours[t][i] == kNoSide) is_open[v] = is_open[w] = true;
       if (squared_distance(mesh_.points[v], mesh_.points[w]) > kLeastEdge * kLeastEdge) is_long[v] = is_long[w] = true;
+      normals[v] += n;
     }
   }
-  enum class Facing : std::uint8_t { kUnknown, kAgainst, kRight };
-  std::vector<Facing> facing(mesh_.points.size(), Facing::kUnknown);
-  std::vector<Vec3> gradients(mesh_.points.size());
-  for (const auto& t : mesh_.triangles) {
-    const Vec3 n = normal(t);
-    for (const std::uint32_t v : t) {
-      if (!is_long[v] || is_open[v] || facing[v] == Facing::kRight) continue;
-      if (facing[v] == Facing::kUnknown) gradients[v] = isosurface_.gradient(mesh_.points[v]);
-      facing[v] = dot(n, gradients[v]) > 0 ? Facing::kAgainst : Facing::kRight;
+  for (std::uint32_t v = 0; v < normals.size(); ++v) {
+    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) apexes_.push_back({v, {}});
+  }
+}
+
+// The gradient may jump from cell to cell; that of any cell at the vertex tells.
+bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
+  const Vec3 &p = mesh_.points[v], &step = isosurface_.step();
+  unsigned jumps = 0;  // the axes across which the next cell is near, as bits
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double place = p[axis] / step[axis];
+    if (std::abs(place - std::round(place)) < kOnFace) jumps |= 1u << axis;
+  }
+  for (unsigned side = 0; side < 8; ++side) {
+    if ((side & ~jumps) != 0) continue;
+    Vec3 q = p;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((jumps >> axis & 1u) != 0) q[axis] += ((side >> axis & 1u) != 0 ? 2 : -2) * kOnFace * step[axis];
     }
+    if (dot(normals, isosurface_.gradient(q)) > 0) return true;
   }
-  for (std::uint32_t v = 0; v < facing.size(); ++v) {
-    if (facing[v] == Facing::kAgainst) apexes_.push_back({v, {}});
-  }
+  return false;
 }
 
 // What replaces a fan lies within the box of its link, and so does what replaces others within it.
@@ -152,8 +169,8 @@ bool Dents::remove(const Apex& apex) {
   Triangles now, filling;
   for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
-  const double distance = farthest(filling);
-  if (!(distance < kInfinity && distance <= farthest(now)) || !is_free(apex, filling)) return false;
+  const double distance = farthest(now);
+  if (distance < kLeastDistance || !(farthest(filling) < distance) || !is_free(apex, filling)) return false;
   replace(apex.vertex, fan, least);
   return true;
 }
@@ -182,9 +199,9 @@ bool Dents::can_be_filled(std::uint32_t v, const Fan& fan) const {
   const TriangleSide beyond = fan.outer.front();
   if (fan.link.size() == 3 && beyond != kNoSide && mesh_.triangles[beyond >> 2][beyond & 3u] == fan.link[2])
     return false;
-  const Vec3 gradient = isosurface_.gradient(mesh_.points[v]);
-  return std::all_of(fan.triangles.begin(), fan.triangles.end(),
-                     [&](std::uint32_t t) { return dot(normal(mesh_.triangles[t]), gradient) > 0; });
+  Vec3 sum;
+  for (const std::uint32_t t : fan.triangles) sum += normal(mesh_.triangles[t]);
+  return is_against(v, sum);
 }
 
 // By triangles that have an area and edges that the mesh does not have elsewhere.

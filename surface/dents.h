@@ -14,12 +14,11 @@
 
 namespace deliso {
 
-// Takes inner vertices out of the mesh that all their triangles face against, the gradient there being their judge,
-// when one of these is longer than a mesh-space unit. What is left open is closed by the triangulation of the link that
-// has the least area (Barequet and Sharir, Filling gaps in the boundary of a polyhedron, 1995), if it is nearer to the
-// surface than what it replaces, meets no other triangle and has no edge that the mesh has elsewhere; or else the
-// vertex stays. A disk replaces a disk, so the mesh stays homeomorphic to what it was. Returns how many went. The mesh
-// may have pole heights or none.
+// Takes inner vertices out of the mesh whose triangles face against the surface on the whole, when one of these is far
+// from any surface that faces the same way. What is left open is closed by the triangulation of the link that has the
+// least area, if that is nearer to the surface, meets no other triangle and has no edge that the mesh has elsewhere; or
+// else the vertex stays. A disk replaces a disk, so the mesh stays homeomorphic to what it was. Returns how many went.
+// The mesh may have pole heights or none.
 std::int64_t remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface);
 
 }  // namespace deliso
