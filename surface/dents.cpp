@@ -10,6 +10,7 @@
 #include "surface/box_tree.h"
 #include "surface/least_triangulation.h"
 #include "surface/self_intersection.h"
+#include "surface/surface_distance.h"
 
 namespace deliso {
 
@@ -19,6 +20,8 @@ namespace {
 constexpr double kLeastEdge = 1;
 // and the surface is farther than this from some triangle at it.
 constexpr double kLeastDistance = 0.5;
+// The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
+constexpr double kFarthestCover = 0.2;
 // A vertex so near to a face between cells, in steps of the grid, lies on it.
 constexpr double kOnFace = 1e-3;
 // Links of more vertices are left as they are.
@@ -56,7 +59,18 @@ class Dents {
   [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
   [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
   [[nodiscard]] double farthest(const Triangles& triangles);
+  [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
   [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
+  // Whether something holds for a triangle that may be in the way.
+  template <class Holds>
+  [[nodiscard]] bool any_around(const Apex& apex, const Holds& holds) const {
+    const auto stays_and_holds = [&](std::uint32_t i) {
+      const auto& t = mesh_.triangles[i];
+      return !is_gone_[i] && std::find(t.begin(), t.end(), apex.vertex) == t.end() && holds(t);
+    };
+    return std::any_of(apex.surroundings.begin(), apex.surroundings.end(), stays_and_holds) ||
+           std::any_of(renewed_.begin(), renewed_.end(), stays_and_holds);
+  }
   void replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least);
   TriangleSide build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j, std::size_t& next);
   void set(std::uint32_t t, unsigned side, TriangleSide across) {
@@ -145,13 +159,16 @@ bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
   return false;
 }
 
-// What replaces a fan lies within the box of its link, and so does what replaces others within it.
+// What is near the vertex or meets the box of its link, in which all that may replace its triangles lies.
 void Dents::find_surroundings() {
   std::vector<Box3> boxes(apexes_.size());
   for (std::size_t a = 0; a < apexes_.size(); ++a) {
     Fan fan;
     find_fan(apexes_[a].vertex, fan);
     for (const std::uint32_t v : fan.link) boxes[a].extend(mesh_.points[v]);
+    const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
+    boxes[a].extend(mesh_.points[apexes_[a].vertex] - around);
+    boxes[a].extend(mesh_.points[apexes_[a].vertex] + around);
   }
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -170,7 +187,8 @@ bool Dents::remove(const Apex& apex) {
   for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
   const double distance = farthest(now);
-  if (distance < kLeastDistance || !(farthest(filling) < distance) || !is_free(apex, filling)) return false;
+  if (distance < kLeastDistance || !(farthest(filling) < distance)) return false;
+  if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   replace(apex.vertex, fan, least);
   return true;
 }
@@ -241,23 +259,28 @@ double Dents::farthest(const Triangles& triangles) {
   return farthest;
 }
 
+// Whether the mesh without the vertex is still there where the vertex was: the surface is.
+bool Dents::is_covered(const Apex& apex, const Triangles& filling) const {
+  const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
+    return squared_distance_to_triangle(mesh_.points[apex.vertex], mesh_.points[t[0]], mesh_.points[t[1]],
+                                        mesh_.points[t[2]]) <= kFarthestCover * kFarthestCover;
+  };
+  return std::any_of(filling.begin(), filling.end(), is_near) || any_around(apex, is_near);
+}
+
 // Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
 bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
   const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
     return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;
-  };
-  const auto meets_filling = [&](std::uint32_t i) {
-    const auto& t = mesh_.triangles[i];
-    if (is_gone_[i] || std::find(t.begin(), t.end(), apex.vertex) != t.end()) return false;
-    return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
   };
   for (std::size_t i = 0; i < filling.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (meets(filling[i], filling[j])) return false;
     }
   }
-  return std::none_of(apex.surroundings.begin(), apex.surroundings.end(), meets_filling) &&
-         std::none_of(renewed_.begin(), renewed_.end(), meets_filling);
+  return !any_around(apex, [&](const auto& t) {
+    return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
+  });
 }
 
 void Dents::replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least) {
