@@ -38,9 +38,11 @@ class Dents {
   std::int64_t remove_all();
 
  private:
-  // A vertex whose triangles face against the surface, and those that may be in the way of what replaces them.
+  // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
+  // not been replaced.
   struct Apex {
     std::uint32_t vertex = 0;
+    Box3 box;
     std::vector<std::uint32_t> surroundings;
   };
   // The triangles around a vertex; for each the vertex that comes first in the link and the side beyond the link.
@@ -53,8 +55,11 @@ class Dents {
   void find_corners();
   void find_apexes();
   void find_surroundings();
-  bool remove(const Apex& apex);
+  void look_around(Apex& apex, const Box3& box);
+  bool remove(Apex& apex);
+  void append_apexes(const std::vector<std::uint32_t>& link);
   bool find_fan(std::uint32_t v, Fan& fan) const;
+  [[nodiscard]] Box3 box_around(std::uint32_t v, const Fan& fan) const;
   [[nodiscard]] bool can_be_filled(std::uint32_t v, const Fan& fan) const;
   [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
   [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
@@ -77,12 +82,16 @@ class Dents {
     mesh_.neighbours[t][side] = across;
     if (across != kNoSide) mesh_.neighbours[across >> 2][across & 3u] = 4 * t + side;
   }
-  void drop_gone();
 
   [[nodiscard]] bool is_against(std::uint32_t v, const Vec3& normals) const;
 
   [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
     return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+  }
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
+    Box3 box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
+    return box;
   }
   [[nodiscard]] bool has_area_at(const std::array<std::uint32_t, 3>& t) const {
     return has_area(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
@@ -107,11 +116,11 @@ std::int64_t Dents::remove_all() {
   std::int64_t removed = 0;
   for (std::int64_t before = -1; before != removed;) {
     before = removed;
-    for (const Apex& apex : apexes_) {
-      if (corner_of_[apex.vertex] != kNoCorner && remove(apex)) ++removed;
+    for (std::size_t a = 0; a < apexes_.size(); ++a) {
+      if (corner_of_[apexes_[a].vertex] != kNoCorner && remove(apexes_[a])) ++removed;
     }
   }
-  if (removed > 0) drop_gone();
+  if (removed > 0) drop_triangles(mesh_, is_gone_);
   return removed;
 }
 
@@ -136,7 +145,7 @@ void Dents::find_apexes() {
     }
   }
   for (std::uint32_t v = 0; v < normals.size(); ++v) {
-    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) apexes_.push_back({v, {}});
+    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) apexes_.push_back({v, {}, {}});
   }
 }
 
@@ -159,26 +168,42 @@ bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
   return false;
 }
 
-// What is near the vertex or meets the box of its link, in which all that may replace its triangles lies.
+// For all apexes at once: what is near them or meets the box of their links.
 void Dents::find_surroundings() {
-  std::vector<Box3> boxes(apexes_.size());
-  for (std::size_t a = 0; a < apexes_.size(); ++a) {
+  std::vector<Box3> boxes;
+  for (Apex& apex : apexes_) {
     Fan fan;
-    find_fan(apexes_[a].vertex, fan);
-    for (const std::uint32_t v : fan.link) boxes[a].extend(mesh_.points[v]);
-    const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
-    boxes[a].extend(mesh_.points[apexes_[a].vertex] - around);
-    boxes[a].extend(mesh_.points[apexes_[a].vertex] + around);
+    find_fan(apex.vertex, fan);
+    apex.box = box_around(apex.vertex, fan);
+    boxes.push_back(apex.box);
   }
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    Box3 box;
-    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
-    tree.for_each_meeting(box, [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+    tree.for_each_meeting(box_of(t), [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
   }
 }
 
-bool Dents::remove(const Apex& apex) {
+// The box in which all lies that may replace the triangles at a vertex or cover it.
+Box3 Dents::box_around(std::uint32_t v, const Fan& fan) const {
+  Box3 box;
+  for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
+  const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
+  box.extend(mesh_.points[v] - around);
+  box.extend(mesh_.points[v] + around);
+  return box;
+}
+
+// The same for one whose link is no longer the one it had.
+void Dents::look_around(Apex& apex, const Box3& box) {
+  if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
+  apex.box = box;
+  apex.surroundings.clear();
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!is_gone_[t] && box.meets(box_of(t))) apex.surroundings.push_back(t);
+  }
+}
+
+bool Dents::remove(Apex& apex) {
   Fan fan;
   if (!find_fan(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
   const LeastTriangulation least = triangulate(fan);
@@ -188,9 +213,20 @@ bool Dents::remove(const Apex& apex) {
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
   const double distance = farthest(now);
   if (distance < kLeastDistance || !(farthest(filling) < distance)) return false;
+  look_around(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   replace(apex.vertex, fan, least);
+  append_apexes(fan.link);
   return true;
+}
+
+// The next ones of a ridge may show only now.
+void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
+  for (const std::uint32_t v : link) {
+    const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
+    Fan fan;
+    if (!is_known && find_fan(v, fan) && can_be_filled(v, fan)) apexes_.push_back({v, {}, {}});
+  }
 }
 
 // False when the vertex is on the boundary.
@@ -304,38 +340,6 @@ TriangleSide Dents::build(const Fan& fan, const LeastTriangulation& least, std::
   set(t, 2, build(fan, least, i, k, next));
   set(t, 0, build(fan, least, k, j, next));
   return 4 * t + 1;
-}
-
-// Closes the gaps that triangles and vertices leave.
-void Dents::drop_gone() {
-  std::vector<std::uint32_t> place(mesh_.triangles.size());
-  std::uint32_t kept = 0;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) place[t] = is_gone_[t] ? kNoCorner : kept++;
-  for (std::uint32_t t = 0; t < place.size(); ++t) {
-    if (is_gone_[t]) continue;
-    for (TriangleSide& side : mesh_.neighbours[t]) {
-      if (side != kNoSide) side = 4 * place[side >> 2] + (side & 3u);
-    }
-    mesh_.triangles[place[t]] = mesh_.triangles[t];
-    mesh_.neighbours[place[t]] = mesh_.neighbours[t];
-  }
-  mesh_.triangles.resize(kept);
-  mesh_.neighbours.resize(kept);
-
-  std::vector<std::uint32_t> name(mesh_.points.size());
-  std::uint32_t vertices = 0;
-  for (std::uint32_t v = 0; v < name.size(); ++v) {
-    name[v] = vertices;
-    if (corner_of_[v] == kNoCorner) continue;
-    mesh_.points[vertices] = mesh_.points[v];
-    if (!mesh_.pole_heights.empty()) mesh_.pole_heights[vertices] = mesh_.pole_heights[v];
-    ++vertices;
-  }
-  mesh_.points.resize(vertices);
-  if (!mesh_.pole_heights.empty()) mesh_.pole_heights.resize(vertices);
-  for (auto& t : mesh_.triangles) {
-    for (std::uint32_t& v : t) v = name[v];
-  }
 }
 
 }  // namespace
