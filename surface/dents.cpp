@@ -18,7 +18,7 @@ namespace {
 
 // A dent has an edge longer than this (mesh-space units),
 constexpr double kLeastEdge = 1;
-// and the surface is farther than this from some triangle at it.
+// and the surface is farther than this from the middle of some triangle at it.
 constexpr double kLeastDistance = 0.5;
 // The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
 constexpr double kFarthestCover = 0.2;
@@ -63,7 +63,7 @@ class Dents {
   [[nodiscard]] bool can_be_filled(std::uint32_t v, const Fan& fan) const;
   [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
   [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
-  [[nodiscard]] double farthest(const Triangles& triangles);
+  [[nodiscard]] double far_area(const Triangles& triangles);
   [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
   [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
   // Whether something holds for a triangle that may be in the way.
@@ -211,8 +211,7 @@ bool Dents::remove(Apex& apex) {
   Triangles now, filling;
   for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
-  const double distance = farthest(now);
-  if (distance < kLeastDistance || !(farthest(filling) < distance)) return false;
+  if (!(far_area(filling) < far_area(now))) return false;
   look_around(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   replace(apex.vertex, fan, least);
@@ -281,18 +280,15 @@ bool Dents::are_joined(std::uint32_t v, std::uint32_t w) const {
   return found;
 }
 
-// How far, at most, the surface that faces the same way is from the middles of some triangles, along their normals.
-double Dents::farthest(const Triangles& triangles) {
-  double farthest = 0;
+// The area of those of some triangles that have no surface which faces the same way near their middles.
+double Dents::far_area(const Triangles& triangles) {
+  double area = 0;
   for (const auto& t : triangles) {
-    const Vec3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-    const Vec3 n = normal(t);
-    if (!(norm(n) > 0)) return kInfinity;
-    const double reach = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-    const auto hit = isosurface_.nearest_falling_hit({(a + b + c) / 3, n / norm(n)}, reach, search_);
-    farthest = std::max(farthest, hit ? std::abs(*hit) : kInfinity);
+    const Vec3 n = normal(t), middle = (mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3;
+    if (!(norm(n) > 0)) continue;
+    if (!isosurface_.nearest_falling_hit({middle, n / norm(n)}, kLeastDistance, search_)) area += 0.5 * norm(n);
   }
-  return farthest;
+  return area;
 }
 
 // Whether the mesh without the vertex is still there where the vertex was: the surface is.

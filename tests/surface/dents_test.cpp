@@ -100,9 +100,9 @@ TEST(Dents, ARidgeGoesVertexByVertex) {
     for (const std::uint32_t v : {whole.triangles[t][0], whole.triangles[t][1]}) {
       mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
     }
-    // A vertex at the foot of the ridge may go, too.
+    // Vertices at the foot of the ridge may go, too.
     const std::int64_t removed = remove_dents(mesh, *scene.isosurface);
-    EXPECT_TRUE(removed == 2 || removed == 3) << removed << " of " << t;
+    EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
     expect_good_sphere(mesh, scene, t);
   }
 }
