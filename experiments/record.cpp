@@ -60,6 +60,7 @@ Json repair_json(const RepairStats& repair) {
               {"components_stray", repair.components_stray},
               {"components_partial", repair.components_partial},
               {"components_polygonized", repair.components_polygonized},
+              {"dents_removed", repair.dents_removed},
               {"vertices_before", repair.vertices_before},
               {"vertices_after", repair.vertices_after}};
 }

@@ -95,10 +95,16 @@ double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
   return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
 }
 
-// How far a triangle covers points.
+double longest_edge(const SurfaceMesh& mesh, std::uint32_t t) {
+  const auto& v = mesh.triangles[t];
+  const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+  return std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+}
+
+// How far a triangle covers points: a sliver, whose circumradius tells nothing, by its longest edge.
 double reach_of(const SurfaceMesh& mesh, std::uint32_t t) {
-  const double radius = circumradius(mesh, t);
-  return std::isfinite(radius) ? std::max(kNear, kFewRadii * radius) : kNear;
+  const double radius = circumradius(mesh, t), edge = longest_edge(mesh, t);
+  return std::max(kNear, kFewRadii * (radius < edge ? radius : edge));
 }
 
 Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t, double reach) {

@@ -36,7 +36,8 @@ class MeshCover {
   BoxTree tree_;
 };
 
-// Whether a point lies within 0.8 mesh-space units of a triangle, or within half its circumradius.
+// Whether a point lies within 0.8 mesh-space units of a triangle, or within half its circumradius or, of a sliver, half
+// its longest edge.
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);
 // For each of a few points, on several threads: the first triangle t that covers it so and for which takes(t) holds;
 // kNoTriangle when there is none.

@@ -12,11 +12,13 @@ namespace deliso {
 
 namespace {
 
-constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
-constexpr double kFirstStep = 0.25;  // voxels that its first step goes at most
-constexpr double kFar = 0.25;        // voxels beyond which all directions are tried and the crossings asked
-constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
-constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
+constexpr double kReach = 2.0;        // voxels that a walk along a line goes at most
+constexpr double kFirstStep = 0.25;   // voxels that its first step goes at most
+constexpr double kFar = 0.25;         // voxels beyond which all directions are tried and the crossings asked
+constexpr double kMoved = 1e-4;       // or, beside a grid edge, beyond this
+constexpr double kBesideEdge = 1e-3;  // grid steps to a grid edge
+constexpr double kSurprising = 1.5;   // a first foot farther than this many times what value and slope promise
+constexpr int kRefinements = 4;       // walks along the gradient of the foot found so far
 
 }  // namespace
 
@@ -104,6 +106,16 @@ void IsosurfaceProbe::look_among_crossings(const Vec3& p, FootPoint& best) {
   if (nearest != BoxTree::kNone) best = {points_[nearest], std::sqrt(squared)};
 }
 
+// A crossing moved by a hair: where creases as sharp as knives meet, hardly any line leads back to the surface.
+bool IsosurfaceProbe::is_beside_grid_edge(const Vec3& p) const {
+  int near = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double place = p[axis] / step_[axis];
+    near += std::abs(place - std::round(place)) < kBesideEdge ? 1 : 0;
+  }
+  return near >= 2;
+}
+
 FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   FootPoint best{p, std::numeric_limits<double>::infinity()};
   const double f = value(p);
@@ -137,7 +149,7 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
       if (is_on_shell) try_direction(direction, std::min(promised, best.distance / 3));
     }
   }
-  if (best.distance > kFar) look_among_crossings(p, best);
+  if (best.distance > kFar || (best.distance > kMoved && is_beside_grid_edge(p))) look_among_crossings(p, best);
   // Then along the gradient at the foot, which is the surface's normal there.
   for (int i = 0; i < kRefinements; ++i) {
     if (!try_direction(uphill * gradient(best.point), best.distance)) break;

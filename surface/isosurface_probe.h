@@ -55,6 +55,7 @@ class IsosurfaceProbe {
   [[nodiscard]] Place place(const Vec3& p) const;
   [[nodiscard]] std::optional<FootPoint> along_line(const Vec3& p, double value_at_p, const Vec3& direction,
                                                     double first_step, double reach) const;
+  [[nodiscard]] bool is_beside_grid_edge(const Vec3& p) const;
   void look_among_crossings(const Vec3& p, FootPoint& best);
 
   const ScalarGrid& grid_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/parallel.h"
+#include "surface/dents.h"
 #include "surface/kept_meshes.h"
 #include "surface/mesh_differences.h"
 #include "surface/poles.h"
@@ -99,6 +100,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   }
   kept_.give_poles(*round_);
   SurfaceMesh kept = assemble_kept();
+  stats_.dents_removed = remove_dents(kept, isosurface_);
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
 }

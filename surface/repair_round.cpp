@@ -172,15 +172,52 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
     left_out.push_back(i);
     points.push_back(restricted_->delaunay().point(VertexId(i)));
   }
+  const std::vector<std::uint32_t> at_strays = crossings_at_strays(mesh);
+  for (const std::uint32_t i : at_strays) {
+    points.push_back(scaled(crossing_position(grid_, topology_.crossings[i]), restricted_->isosurface().step()));
+  }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, threads);
+  const auto take_account = [&](std::uint32_t component, std::uint32_t covered_by) {
+    Agreement& agreement = match.agreement[component];
+    if (covered_by != kNoTriangle || agreement == Agreement::kPartial) return;
+    agreement = Agreement::kPartial;
+    ++match.error;
+  };
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     const std::uint32_t facet = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
     std::atomic_ref(covered_by_[left_out[i]]).store(facet, std::memory_order_relaxed);
-    Agreement& agreement = match.agreement[component_of_vertex_[left_out[i]]];
-    if (covering[i] != kNoTriangle || agreement == Agreement::kPartial) continue;
-    agreement = Agreement::kPartial;
-    ++match.error;
+    take_account(component_of_vertex_[left_out[i]], covering[i]);
   }
+  for (std::size_t i = 0; i < at_strays.size(); ++i) {
+    take_account(topology_.crossings[at_strays[i]].component, covering[left_out.size() + i]);
+  }
+}
+
+// The grid-edge crossings of components with strays in the cells that strays have vertices in: a stray may be a part of
+// the surface that has come off, larger than its few samples tell.
+std::vector<std::uint32_t> RepairRound::crossings_at_strays(const MatchedMesh& mesh) const {
+  const ComponentMatch& match = mesh.match;
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
+    const std::uint32_t piece = match.piece_of[v];
+    if (piece == kNoPiece) continue;
+    const std::uint32_t component = match.pieces[piece].component;
+    if (match.main_piece[component] == piece || match.agreement[component] != Agreement::kWithStrays) continue;
+    const CellIndex cell = raised_.cell_of(mesh.built.mesh.points[v]);
+    for (std::int32_t edge = 0; edge < 12; ++edge) {
+      const auto axis = static_cast<std::size_t>(edge / 4);
+      CellIndex sample = cell;
+      sample[(axis + 1) % 3] += edge & 1;
+      sample[(axis + 2) % 3] += edge >> 1 & 1;
+      const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
+      if (crossing != CrossingIndex::kNone && topology_.crossings[crossing].component == component) {
+        found.push_back(crossing);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace deliso

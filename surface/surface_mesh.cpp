@@ -29,6 +29,38 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
   }
 }
 
+void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
+  // Where each triangle goes; and the vertices that are used.
+  std::vector<std::uint32_t> place(mesh.triangles.size(), 0);
+  std::vector<bool> is_used(mesh.points.size(), false);
+  std::uint32_t triangles = 0;
+  for (std::size_t t = 0; t < place.size(); ++t) {
+    if (is_gone[t]) continue;
+    place[t] = triangles++;
+    for (const std::uint32_t v : mesh.triangles[t]) is_used[v] = true;
+  }
+  std::vector<std::uint32_t> name(mesh.points.size(), 0);
+  std::uint32_t vertices = 0;
+  for (std::size_t v = 0; v < name.size(); ++v) {
+    if (!is_used[v]) continue;
+    name[v] = vertices++;
+    mesh.points[name[v]] = mesh.points[v];
+    if (!mesh.pole_heights.empty()) mesh.pole_heights[name[v]] = mesh.pole_heights[v];
+  }
+  for (std::size_t t = 0; t < place.size(); ++t) {
+    if (is_gone[t]) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide side = mesh.neighbours[t][i];
+      mesh.triangles[place[t]][i] = name[mesh.triangles[t][i]];
+      mesh.neighbours[place[t]][i] = side == kNoSide ? kNoSide : 4 * place[side >> 2] + (side & 3u);
+    }
+  }
+  mesh.points.resize(vertices);
+  if (!mesh.pole_heights.empty()) mesh.pole_heights.resize(vertices);
+  mesh.triangles.resize(triangles);
+  mesh.neighbours.resize(triangles);
+}
+
 TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step) {
   const Vec3 scale{grid.spacing().x / step.x, grid.spacing().y / step.y, grid.spacing().z / step.z};
   for (Vec3& p : mesh.points) p = grid.origin() + scaled(scale, p);

@@ -45,6 +45,9 @@ void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Vi
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 
+// Takes triangles out of a mesh, and vertices that have none then. No triangle that stays may have one as neighbour.
+void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
+
 // In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.
 TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step);
 

@@ -56,5 +56,17 @@ TEST(Regression, NecksAsThinAsRoundingKeepTheirTopology) {
   }
 }
 
+// Necks that the mesh cuts: a blob is a stray piece then, and what is left has the right topology all the same. Of some
+// blobs the triangulation has few samples; and slivers of endless circumradius seemed to cover others.
+TEST(Regression, NoPartOfTheSurfaceIsLeftOut) {
+  for (const char* const name : {"cut_neck_0.nrrd", "cut_neck_1.nrrd", "cut_neck_2.nrrd"}) {
+    const ScalarGrid grid = read_volume(kInputs / name);
+    const MeshingResult result = mesh_isosurface(grid, 200.5, {});
+    const Verification verification = verify_mesh(result.mesh, grid, 200.5);
+    EXPECT_TRUE(verification.proven) << name;
+    EXPECT_LT(verification.distance.isosurface_to_mesh.max_voxels, 0.9) << name;
+  }
+}
+
 }  // namespace
 }  // namespace deliso

@@ -1,0 +1,347 @@
+#include "surface/dents.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "surface/box_tree.h"
+#include "surface/least_triangulation.h"
+#include "surface/self_intersection.h"
+#include "surface/surface_distance.h"
+
+namespace deliso {
+
+namespace {
+
+// A dent has an edge longer than this (mesh-space units),
+constexpr double kLeastEdge = 1;
+// and the surface is farther than this from the middle of some triangle at it.
+constexpr double kLeastDistance = 0.5;
+// The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
+constexpr double kFarthestCover = 0.2;
+// A vertex so near to a face between cells, in steps of the grid, lies on it.
+constexpr double kOnFace = 1e-3;
+// Links of more vertices are left as they are.
+constexpr std::size_t kLongestLink = 32;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+class Dents {
+ public:
+  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface) {}
+
+  std::int64_t remove_all();
+
+ private:
+  // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
+  // not been replaced.
+  struct Apex {
+    std::uint32_t vertex = 0;
+    Box3 box;
+    std::vector<std::uint32_t> surroundings;
+  };
+  // The triangles around a vertex; for each the vertex that comes first in the link and the side beyond the link.
+  struct Fan {
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> link;
+    std::vector<TriangleSide> outer;
+  };
+
+  void find_corners();
+  void find_apexes();
+  void find_surroundings();
+  void look_around(Apex& apex, const Box3& box);
+  bool remove(Apex& apex);
+  void append_apexes(const std::vector<std::uint32_t>& link);
+  bool find_fan(std::uint32_t v, Fan& fan) const;
+  [[nodiscard]] Box3 box_around(std::uint32_t v, const Fan& fan) const;
+  [[nodiscard]] bool can_be_filled(std::uint32_t v, const Fan& fan) const;
+  [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
+  [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
+  [[nodiscard]] double far_area(const Triangles& triangles);
+  [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
+  [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
+  // Whether something holds for a triangle that may be in the way.
+  template <class Holds>
+  [[nodiscard]] bool any_around(const Apex& apex, const Holds& holds) const {
+    const auto stays_and_holds = [&](std::uint32_t i) {
+      const auto& t = mesh_.triangles[i];
+      return !is_gone_[i] && std::find(t.begin(), t.end(), apex.vertex) == t.end() && holds(t);
+    };
+    return std::any_of(apex.surroundings.begin(), apex.surroundings.end(), stays_and_holds) ||
+           std::any_of(renewed_.begin(), renewed_.end(), stays_and_holds);
+  }
+  void replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least);
+  TriangleSide build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j, std::size_t& next);
+  void set(std::uint32_t t, unsigned side, TriangleSide across) {
+    mesh_.neighbours[t][side] = across;
+    if (across != kNoSide) mesh_.neighbours[across >> 2][across & 3u] = 4 * t + side;
+  }
+
+  [[nodiscard]] bool is_against(std::uint32_t v, const Vec3& normals) const;
+
+  [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
+    return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+  }
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
+    Box3 box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
+    return box;
+  }
+  [[nodiscard]] bool has_area_at(const std::array<std::uint32_t, 3>& t) const {
+    return has_area(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
+  }
+
+  SurfaceMesh& mesh_;
+  const Isosurface& isosurface_;
+  std::vector<std::uint32_t> corner_of_;  // of each vertex: one of its corners, 3 triangle + i; none when it is gone
+  std::vector<Apex> apexes_;
+  std::vector<bool> is_gone_;           // of each triangle
+  std::vector<std::uint32_t> renewed_;  // triangles that have been replaced
+  SearchCounters search_;
+};
+
+std::int64_t Dents::remove_all() {
+  find_corners();
+  find_apexes();
+  if (apexes_.empty()) return 0;
+  find_surroundings();
+  is_gone_.assign(mesh_.triangles.size(), false);
+  // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
+  std::int64_t removed = 0;
+  for (std::int64_t before = -1; before != removed;) {
+    before = removed;
+    for (std::size_t a = 0; a < apexes_.size(); ++a) {
+      if (corner_of_[apexes_[a].vertex] != kNoCorner && remove(apexes_[a])) ++removed;
+    }
+  }
+  if (removed > 0) drop_triangles(mesh_, is_gone_);
+  return removed;
+}
+
+void Dents::find_corners() {
+  corner_of_.assign(mesh_.points.size(), kNoCorner);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) corner_of_[mesh_.triangles[t][i]] = 3 * t + i;
+  }
+}
+
+// Inner vertices with a long edge whose triangles face against the surface on the whole.
+void Dents::find_apexes() {
+  std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
+  std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Vec3 n = normal(mesh_.triangles[t]);
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_.triangles[t][(i + 1) % 3], w = mesh_.triangles[t][(i + 2) % 3];
+      if (mesh_.neighbours[t][i] == kNoSide) is_open[v] = is_open[w] = true;
+      if (squared_distance(mesh_.points[v], mesh_.points[w]) > kLeastEdge * kLeastEdge) is_long[v] = is_long[w] = true;
+      normals[v] += n;
+    }
+  }
+  for (std::uint32_t v = 0; v < normals.size(); ++v) {
+    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) apexes_.push_back({v, {}, {}});
+  }
+}
+
+// The gradient may jump from cell to cell; that of any cell at the vertex tells.
+bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
+  const Vec3 &p = mesh_.points[v], &step = isosurface_.step();
+  unsigned jumps = 0;  // the axes across which the next cell is near, as bits
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double place = p[axis] / step[axis];
+    if (std::abs(place - std::round(place)) < kOnFace) jumps |= 1u << axis;
+  }
+  for (unsigned side = 0; side < 8; ++side) {
+    if ((side & ~jumps) != 0) continue;
+    Vec3 q = p;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((jumps >> axis & 1u) != 0) q[axis] += ((side >> axis & 1u) != 0 ? 2 : -2) * kOnFace * step[axis];
+    }
+    if (dot(normals, isosurface_.gradient(q)) > 0) return true;
+  }
+  return false;
+}
+
+// For all apexes at once: what is near them or meets the box of their links.
+void Dents::find_surroundings() {
+  std::vector<Box3> boxes;
+  for (Apex& apex : apexes_) {
+    Fan fan;
+    find_fan(apex.vertex, fan);
+    apex.box = box_around(apex.vertex, fan);
+    boxes.push_back(apex.box);
+  }
+  const BoxTree tree(boxes);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    tree.for_each_meeting(box_of(t), [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+  }
+}
+
+// The box in which all lies that may replace the triangles at a vertex or cover it.
+Box3 Dents::box_around(std::uint32_t v, const Fan& fan) const {
+  Box3 box;
+  for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
+  const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
+  box.extend(mesh_.points[v] - around);
+  box.extend(mesh_.points[v] + around);
+  return box;
+}
+
+// The same for one whose link is no longer the one it had.
+void Dents::look_around(Apex& apex, const Box3& box) {
+  if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
+  apex.box = box;
+  apex.surroundings.clear();
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!is_gone_[t] && box.meets(box_of(t))) apex.surroundings.push_back(t);
+  }
+}
+
+bool Dents::remove(Apex& apex) {
+  Fan fan;
+  if (!find_fan(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
+  const LeastTriangulation least = triangulate(fan);
+  if (!least.exists()) return false;
+  Triangles now, filling;
+  for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
+  for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
+  if (!(far_area(filling) < far_area(now))) return false;
+  look_around(apex, box_around(apex.vertex, fan));
+  if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
+  replace(apex.vertex, fan, least);
+  append_apexes(fan.link);
+  return true;
+}
+
+// The next ones of a ridge may show only now.
+void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
+  for (const std::uint32_t v : link) {
+    const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
+    Fan fan;
+    if (!is_known && find_fan(v, fan) && can_be_filled(v, fan)) apexes_.push_back({v, {}, {}});
+  }
+}
+
+// False when the vertex is on the boundary.
+bool Dents::find_fan(std::uint32_t v, Fan& fan) const {
+  for (std::uint32_t corner = corner_of_[v];;) {
+    const std::uint32_t t = corner / 3, i = corner % 3;
+    fan.triangles.push_back(t);
+    fan.link.push_back(mesh_.triangles[t][(i + 1) % 3]);
+    fan.outer.push_back(mesh_.neighbours[t][i]);
+    const TriangleSide side = mesh_.neighbours[t][(i + 1) % 3];
+    if (side == kNoSide) return false;
+    corner = 3 * (side >> 2) + ((side & 3u) + 1) % 3;
+    if (corner == corner_of_[v]) return true;
+  }
+}
+
+// The link is a cycle that passes no vertex twice and, if it is a triangle, not one of the mesh; and what went around
+// the vertex has not made it one that faces the right way.
+bool Dents::can_be_filled(std::uint32_t v, const Fan& fan) const {
+  if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
+  std::vector<std::uint32_t> sorted = fan.link;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
+  const TriangleSide beyond = fan.outer.front();
+  if (fan.link.size() == 3 && beyond != kNoSide && mesh_.triangles[beyond >> 2][beyond & 3u] == fan.link[2])
+    return false;
+  Vec3 sum;
+  for (const std::uint32_t t : fan.triangles) sum += normal(mesh_.triangles[t]);
+  return is_against(v, sum);
+}
+
+// By triangles that have an area and edges that the mesh does not have elsewhere.
+LeastTriangulation Dents::triangulate(const Fan& fan) const {
+  const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
+    const std::array<std::uint32_t, 3> t = {fan.link[i], fan.link[k], fan.link[j]};
+    return has_area_at(t) ? 0.5 * norm(normal(t)) : kInfinity;
+  };
+  return {fan.link.size(), area, [&](std::size_t i, std::size_t j) { return !are_joined(fan.link[i], fan.link[j]); }};
+}
+
+// Whether an edge joins two vertices.
+bool Dents::are_joined(std::uint32_t v, std::uint32_t w) const {
+  bool found = false;
+  std::uint32_t visits = 0;
+  for_each_corner_of_fan(
+      corner_of_[v], [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
+      [&](std::uint32_t corner) {
+        const auto& t = mesh_.triangles[corner / 3];
+        found |= std::find(t.begin(), t.end(), w) != t.end();
+        return visits++ == 0 || corner != corner_of_[v];
+      });
+  return found;
+}
+
+// The area of those of some triangles that have no surface which faces the same way near their middles.
+double Dents::far_area(const Triangles& triangles) {
+  double area = 0;
+  for (const auto& t : triangles) {
+    const Vec3 n = normal(t), middle = (mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3;
+    if (!(norm(n) > 0)) continue;
+    if (!isosurface_.nearest_falling_hit({middle, n / norm(n)}, kLeastDistance, search_)) area += 0.5 * norm(n);
+  }
+  return area;
+}
+
+// Whether the mesh without the vertex is still there where the vertex was: the surface is.
+bool Dents::is_covered(const Apex& apex, const Triangles& filling) const {
+  const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
+    return squared_distance_to_triangle(mesh_.points[apex.vertex], mesh_.points[t[0]], mesh_.points[t[1]],
+                                        mesh_.points[t[2]]) <= kFarthestCover * kFarthestCover;
+  };
+  return std::any_of(filling.begin(), filling.end(), is_near) || any_around(apex, is_near);
+}
+
+// Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
+bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
+  const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
+    return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;
+  };
+  for (std::size_t i = 0; i < filling.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (meets(filling[i], filling[j])) return false;
+    }
+  }
+  return !any_around(apex, [&](const auto& t) {
+    return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
+  });
+}
+
+void Dents::replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least) {
+  for (std::size_t i = fan.triangles.size() - 2; i < fan.triangles.size(); ++i) is_gone_[fan.triangles[i]] = true;
+  std::size_t next = 0;
+  const TriangleSide last = build(fan, least, 0, fan.link.size() - 1, next);
+  set(last >> 2, last & 3u, fan.outer.back());
+  corner_of_[v] = kNoCorner;
+}
+
+// Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
+// rest is to be joined to.
+TriangleSide Dents::build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j,
+                          std::size_t& next) {
+  if (j == i + 1) return fan.outer[i];
+  const std::size_t k = least.apex(i, j);
+  const std::uint32_t t = fan.triangles[next++];
+  mesh_.triangles[t] = {fan.link[i], fan.link[k], fan.link[j]};
+  for (std::uint32_t c = 0; c < 3; ++c) corner_of_[mesh_.triangles[t][c]] = 3 * t + c;
+  renewed_.push_back(t);
+  set(t, 2, build(fan, least, i, k, next));
+  set(t, 0, build(fan, least, k, j, next));
+  return 4 * t + 1;
+}
+
+}  // namespace
+
+std::int64_t remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface) {
+  return Dents(mesh, isosurface).remove_all();
+}
+
+}  // namespace deliso
