@@ -48,11 +48,10 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
   restricted_.for_each_change(signs_, [](TetId) {});
-  place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
   facets_ = collect_in_blocks<PairedFacet>(
       delaunay_.tet_slots(), threads,
       [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
-  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
+  find_places();
   // Guards may share an edge with two facets that are not ours.
   if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides();
@@ -90,7 +89,6 @@ void FacetPairing::touch(TetId t) {
 
 void FacetPairing::renew(const ExchangedPoints& exchanged) {
   signs_.resize(delaunay_.tet_slots(), 0);
-  place_of_.resize(4 * delaunay_.tet_slots(), kNoPlace);
   for (PairedFacet& facet : facets_) {
     for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
   }
@@ -160,6 +158,12 @@ void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) c
   }
 }
 
+void FacetPairing::find_places() {
+  first_of_.assign(delaunay_.tet_slots(), kNoPlace);
+  for (std::size_t i = facets_.size(); i-- > 0;)
+    first_of_[facets_[i].facet.tet().index()] = static_cast<std::uint32_t>(i);
+}
+
 // The facets of some tetrahedra (ascending) anew, the others as they are.
 void FacetPairing::renew_facets(std::span<const TetId> tets) {
   std::vector<PairedFacet> facets;
@@ -174,8 +178,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
   };
   for (const TetId t : tets) {
     keep_those_before(t);
-    for (; old < facets_.size() && facets_[old].facet.tet() == t; ++old)
-      place_of_[facets_[old].facet.index()] = kNoPlace;
+    while (old < facets_.size() && facets_[old].facet.tet() == t) ++old;
     append_facets_of(t, facets);
   }
   keep_those_before(TetId(delaunay_.tet_slots()));
@@ -189,6 +192,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
     }
   }
   facets_ = std::move(facets);
+  find_places();
 }
 
 // Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
@@ -237,7 +241,6 @@ void FacetPairing::pair_uncontested_sides(int threads) {
 }
 
 void FacetPairing::pair_sides() {
-  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
   for (PairedFacet& facet : facets_) {
     for (unsigned side = 0; side < 3; ++side) {
       if (!facet.known[side]) pair_side(facet, side);

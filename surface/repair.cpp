@@ -164,10 +164,10 @@ void Repair::try_rules(Controls& controls) {
         best = mesh_;
         signs = std::move(attempt.signs);
       }
+      mesh_ = best;  // no other is needed any more
       if (is_over) break;
     }
   }
-  mesh_ = std::move(best);
   round_->set_signs(signs);
 }
 
