@@ -98,6 +98,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
     stats_.rounds = round;
   }
   kept_.give_poles(*round_);
+  mesh_.reset();
+  round_.reset();
   SurfaceMesh kept = assemble_kept();
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
