@@ -134,16 +134,20 @@ void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
 // is open, the other; a corner left out belongs to another fan. Corner 3 t + i is that of facet t at its vertex i.
 void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed) {
   std::vector<bool> has_fan(has_changed.size(), false);
-  std::vector<std::uint8_t> is_in_fan(3 * facets_.size(), 0);
+  std::vector<bool> is_in_fan(3 * facets_.size(), false);
   for (std::size_t v = 0; v < has_changed.size(); ++v) is_split_[v] = is_split_[v] && !has_changed[v];
   for (std::uint32_t corner = 0; corner < is_in_fan.size(); ++corner) {
     const std::size_t v = facets_[corner / 3].vertices[corner % 3].index();
-    if (!has_changed[v] || is_split_[v] || is_in_fan[corner] != 0) continue;
+    if (!has_changed[v] || is_split_[v] || is_in_fan[corner]) continue;
     if (has_fan[v]) is_split_[v] = true;
     has_fan[v] = true;
     for_each_corner_of_fan(
         corner, [&](TriangleSide side) { return facets_[side >> 2].across[side & 3u]; },
-        [&](std::uint32_t c) { return std::exchange(is_in_fan[c], std::uint8_t{1}) == 0; });
+        [&](std::uint32_t c) {
+          const bool is_news = !is_in_fan[c];
+          is_in_fan[c] = true;
+          return is_news;
+        });
   }
 }
 

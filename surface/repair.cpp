@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/kept_meshes.h"
 #include "surface/mesh_differences.h"
@@ -93,7 +94,9 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
                           round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
+    release_free_memory();
     try_rules(controls);
+    release_free_memory();
     try_signs(controls);
     stats_.rounds = round;
   }
