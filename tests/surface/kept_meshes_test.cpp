@@ -12,7 +12,6 @@
 namespace deliso {
 namespace {
 
-using testing::noise_scene;
 using testing::Scene;
 
 // The corners of a triangle, the least first, each with its pole height.
@@ -30,6 +29,12 @@ void append_pieces_placed(const SurfaceMesh& mesh, const std::function<bool(std:
     std::rotate(placed.begin(), std::min_element(placed.begin(), placed.end()), placed.end());
     triangles.push_back(placed);
   }
+}
+
+// Noise at a high isovalue: many small components, some of which touch when signs are wrong.
+std::unique_ptr<Scene> blobs(std::uint64_t seed) {
+  Rng rng(seed);
+  return std::make_unique<Scene>("blobs", testing::noise_grid({14, 13, 12}, {1, 1, 1}, rng), 190.5);
 }
 
 // Meshes of one round with random signs turned over, each with its signs.
@@ -64,9 +69,9 @@ struct Attempts {
 
 TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   std::size_t given_by_earlier = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
-    const auto scene = noise_scene({15, 14, 13}, seed);
+    const auto scene = blobs(seed);
     const std::size_t components = scene->topology.components.size();
     const Box3& box = scene->isosurface->box();
     Attempts attempts(*scene, seed);
