@@ -131,10 +131,12 @@ SweptCharacteristics SurfaceSweeps::of(std::uint32_t component) const {
   SweptCharacteristics swept;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Layers& layers = layers_[component][axis];
-    const auto changes = twice_changes_.begin() + static_cast<std::ptrdiff_t>(layers.begin);
     std::vector<std::int64_t>& along = swept[axis];
     along.assign(static_cast<std::size_t>(dims_[axis]), 0);
-    for (std::int32_t i = 0; i < layers.count; ++i) along[static_cast<std::size_t>(layers.first + i)] = changes[i] / 2;
+    const auto first = static_cast<std::size_t>(layers.first);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(layers.count); ++i) {
+      along[first + i] = twice_changes_[layers.begin + i] / 2;
+    }
     std::partial_sum(along.begin(), along.end(), along.begin());
   }
   return swept;
