@@ -90,7 +90,7 @@ void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
 }
 
 // Every component is taken from the latest mesh that may give it; drops the meshes from which none will be, and of the
-// others but the latest all that will not.
+// others all that will not.
 void KeptMeshes::drop_outdone() {
   std::vector<bool> given(done_.size(), false);
   for (auto kept = kept_.end(); kept != kept_.begin();) {
@@ -102,7 +102,7 @@ void KeptMeshes::drop_outdone() {
     }
     if (std::find(gives.begin(), gives.end(), true) == gives.end()) {
       kept = kept_.erase(kept);
-    } else if (kept + 1 != kept_.end()) {
+    } else {
       cut_down(*kept, gives);
     }
   }
