@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "delaunay/base/parallel.h"
@@ -71,8 +72,14 @@ std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& app
   for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) append(i, found[first / kBlockSize]);
   });
+  std::size_t total = 0;
+  for (const std::vector<Item>& some : found) total += some.size();
   std::vector<Item> items;
-  for (const std::vector<Item>& some : found) items.insert(items.end(), some.begin(), some.end());
+  items.reserve(total);
+  for (std::vector<Item>& some : found) {
+    std::move(some.begin(), some.end(), std::back_inserter(items));
+    std::vector<Item>().swap(some);
+  }
   return items;
 }
 

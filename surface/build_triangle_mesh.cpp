@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::uint32_t kNoFan = 0xFFFFFFFFu;
 
+// A corner at a vertex with several fans. Corner 3 t + i is that of triangle t at its vertex i.
+struct SplitCorner {
+  std::uint32_t corner = 0;
+  std::uint32_t fan = kNoFan;
+};
+
 class MeshBuilder {
  public:
   MeshBuilder(const SignedDelaunay& restricted, PairedTriangles paired)
@@ -33,7 +39,7 @@ class MeshBuilder {
 
  private:
   void name_vertices();
-  [[nodiscard]] std::vector<std::uint32_t> number_fans(std::vector<std::uint32_t>& fans_before) const;
+  [[nodiscard]] std::vector<SplitCorner> number_fans(std::vector<std::uint32_t>& fans_before) const;
   void subdivide_shared_edges();
 
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
@@ -58,7 +64,7 @@ class MeshBuilder {
 void MeshBuilder::name_vertices() {
   // Step 1: how many vertices there are at each of the triangulation, and which of them a corner has if not the first.
   std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // one further on
-  const std::vector<std::uint32_t> fan_of = number_fans(first);
+  const std::vector<SplitCorner> split_corners = number_fans(first);
   const std::size_t count = std::accumulate(first.begin(), first.end(), std::size_t{0});
   mesh_.points.reserve(count);
   built_.vertex_of.reserve(count);
@@ -72,39 +78,43 @@ void MeshBuilder::name_vertices() {
       if (is_split) built_.copies.push_back(name);
     }
   }
+  auto next = split_corners.begin();
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       std::uint32_t& v = mesh_.triangles[t][i];
-      v = is_split_[v] ? first[v] + fan_of[3 * t + i] : first[v];
+      const bool is_split = next != split_corners.end() && next->corner == 3 * t + i;
+      v = is_split ? first[v] + (next++)->fan : first[v];
     }
   }
 }
 
 // Counts the fans at each vertex, and numbers them where there are more than one: a number for each corner at such a
-// vertex. Corner 3 t + i is that of triangle t at its vertex i.
-std::vector<std::uint32_t> MeshBuilder::number_fans(std::vector<std::uint32_t>& fans_before) const {
-  std::vector<std::uint32_t> split_corners;
+// vertex, ascending by corner.
+std::vector<SplitCorner> MeshBuilder::number_fans(std::vector<std::uint32_t>& fans_before) const {
+  std::vector<SplitCorner> split_corners;
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh_.triangles[t][i];
       if (is_split_[v]) {
-        split_corners.push_back(3 * t + i);
+        split_corners.push_back({3 * t + i});
       } else {
         fans_before[v + 1] = 1;
       }
     }
   }
-  std::vector<std::uint32_t> fan_of;
-  if (split_corners.empty()) return fan_of;
-  fan_of.assign(3 * mesh_.triangles.size(), kNoFan);
-  for (const std::uint32_t corner : split_corners) {
-    if (fan_of[corner] != kNoFan) continue;
-    const std::uint32_t fan = fans_before[mesh_.triangles[corner / 3][corner % 3] + 1]++;
+  const auto fan_of = [&](std::uint32_t c) -> std::uint32_t& {
+    return std::lower_bound(split_corners.begin(), split_corners.end(), c,
+                            [](const SplitCorner& at, std::uint32_t wanted) { return at.corner < wanted; })
+        ->fan;
+  };
+  for (const SplitCorner& at : split_corners) {
+    if (at.fan != kNoFan) continue;
+    const std::uint32_t fan = fans_before[mesh_.triangles[at.corner / 3][at.corner % 3] + 1]++;
     for_each_corner_of_fan(
-        corner, [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
-        [&](std::uint32_t c) { return std::exchange(fan_of[c], fan) == kNoFan; });
+        at.corner, [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
+        [&](std::uint32_t c) { return std::exchange(fan_of(c), fan) == kNoFan; });
   }
-  return fan_of;
+  return split_corners;
 }
 
 // Contested edges whose two ends were not both split leave two pairs on the same two vertices.

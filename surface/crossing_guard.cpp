@@ -8,6 +8,7 @@
 
 #include "surface/blocks.h"
 #include "surface/self_intersection.h"
+#include "surface/surface_mesh.h"
 
 namespace deliso {
 
@@ -93,23 +94,6 @@ Box3 box_of(const std::array<Vec3, 3>& points) {
   return box;
 }
 
-// Calls visit(t) for the triangles around corner i of a triangle: this one, then those to one side of it, and where the
-// boundary ends that, those to the other side.
-template <class Visit>
-void for_each_around(const RefinementMesh& mesh, std::uint32_t triangle, unsigned i, Visit&& visit) {
-  visit(triangle);
-  for (const unsigned turn : {1u, 2u}) {
-    TriangleSide side = mesh.triangles[triangle].neighbours[(i + turn) % 3];
-    while (side != kNoSide && side >> 2 != triangle) {
-      visit(side >> 2);
-      // Seen from the triangle across, the corner is one of the ends of the side; the walk goes on over the other side
-      // there.
-      side = mesh.triangles[side >> 2].neighbours[((side & 3u) + 3 - turn) % 3];
-    }
-    if (side != kNoSide) return;
-  }
-}
-
 bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(points[0], points[1], points[2]); }
 
 // No clearance at the reached vertices; from there on the bound falls off by distance along edges.
@@ -183,14 +167,18 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
   const RefinementMesh::Triangle& t = mesh_.triangles[triangle];
   const Vec3 size = mesh_.box_of(triangle).size();
   if (t.has_hit() && t.ball.squared_radius < kFarBall * kFarBall * squared_norm(size)) return;
-  for (unsigned i = 0; i < 3; ++i) {
+  for (std::uint32_t i = 0; i < 3; ++i) {
     float& clearance = mesh_.vertices[t.corners[i]].clearance;
     if (clearance == 0) continue;
     clearance = 0;
     // All triangles around this corner are tight now.
-    for_each_around(mesh_, triangle, i, [&](std::uint32_t around) {
-      if (!tight_.holds(around)) learn(around);
-    });
+    const std::uint32_t first = 3 * triangle + i;
+    for_each_corner_of_fan(
+        first, [&](TriangleSide side) { return mesh_.triangles[side >> 2].neighbours[side & 3u]; },
+        [&](std::uint32_t corner) {
+          if (!tight_.holds(corner / 3)) learn(corner / 3);
+          return corner != first;
+        });
   }
 }
 

@@ -178,7 +178,11 @@ SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::un
   const Parameters& parameters = options.parameters;
   if (repairs(parameters)) {
     return timed(result.repair, [&] {
-      return repair(*facts, std::move(restricted), parameters.repair.max_rounds, options.threads, controls,
+      // Dual edges and hits are of no use any more.
+      auto signs_alone = std::make_unique<SignedDelaunay>(std::move(*restricted));
+      restricted.reset();
+      release_free_memory();
+      return repair(*facts, std::move(signs_alone), parameters.repair.max_rounds, options.threads, controls,
                     result.repair);
     });
   }

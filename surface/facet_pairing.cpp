@@ -48,11 +48,10 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
     : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
   restricted_.for_each_change(signs_, [](TetId) {});
-  place_of_.assign(4 * delaunay_.tet_slots(), kNoPlace);
   facets_ = collect_in_blocks<PairedFacet>(
       delaunay_.tet_slots(), threads,
       [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
-  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
+  find_places();
   // Guards may share an edge with two facets that are not ours.
   if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides();
@@ -90,7 +89,6 @@ void FacetPairing::touch(TetId t) {
 
 void FacetPairing::renew(const ExchangedPoints& exchanged) {
   signs_.resize(delaunay_.tet_slots(), 0);
-  place_of_.resize(4 * delaunay_.tet_slots(), kNoPlace);
   for (PairedFacet& facet : facets_) {
     for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
   }
@@ -136,16 +134,20 @@ void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
 // is open, the other; a corner left out belongs to another fan. Corner 3 t + i is that of facet t at its vertex i.
 void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed) {
   std::vector<bool> has_fan(has_changed.size(), false);
-  std::vector<std::uint8_t> is_in_fan(3 * facets_.size(), 0);
+  std::vector<bool> is_in_fan(3 * facets_.size(), false);
   for (std::size_t v = 0; v < has_changed.size(); ++v) is_split_[v] = is_split_[v] && !has_changed[v];
   for (std::uint32_t corner = 0; corner < is_in_fan.size(); ++corner) {
     const std::size_t v = facets_[corner / 3].vertices[corner % 3].index();
-    if (!has_changed[v] || is_split_[v] || is_in_fan[corner] != 0) continue;
+    if (!has_changed[v] || is_split_[v] || is_in_fan[corner]) continue;
     if (has_fan[v]) is_split_[v] = true;
     has_fan[v] = true;
     for_each_corner_of_fan(
         corner, [&](TriangleSide side) { return facets_[side >> 2].across[side & 3u]; },
-        [&](std::uint32_t c) { return std::exchange(is_in_fan[c], std::uint8_t{1}) == 0; });
+        [&](std::uint32_t c) {
+          const bool is_news = !is_in_fan[c];
+          is_in_fan[c] = true;
+          return is_news;
+        });
   }
 }
 
@@ -158,6 +160,12 @@ void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) c
     if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) continue;
     facets.push_back({f, v, {}, {}, {}});
   }
+}
+
+void FacetPairing::find_places() {
+  first_of_.assign(delaunay_.tet_slots(), kNoPlace);
+  for (std::size_t i = facets_.size(); i-- > 0;)
+    first_of_[facets_[i].facet.tet().index()] = static_cast<std::uint32_t>(i);
 }
 
 // The facets of some tetrahedra (ascending) anew, the others as they are.
@@ -174,8 +182,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
   };
   for (const TetId t : tets) {
     keep_those_before(t);
-    for (; old < facets_.size() && facets_[old].facet.tet() == t; ++old)
-      place_of_[facets_[old].facet.index()] = kNoPlace;
+    while (old < facets_.size() && facets_[old].facet.tet() == t) ++old;
     append_facets_of(t, facets);
   }
   keep_those_before(TetId(delaunay_.tet_slots()));
@@ -189,6 +196,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
     }
   }
   facets_ = std::move(facets);
+  find_places();
 }
 
 // Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
@@ -237,7 +245,6 @@ void FacetPairing::pair_uncontested_sides(int threads) {
 }
 
 void FacetPairing::pair_sides() {
-  for (std::uint32_t i = 0; i < facets_.size(); ++i) place_of_[facets_[i].facet.index()] = i;
   for (PairedFacet& facet : facets_) {
     for (unsigned side = 0; side < 3; ++side) {
       if (!facet.known[side]) pair_side(facet, side);

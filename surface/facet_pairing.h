@@ -55,12 +55,18 @@ class FacetPairing {
   [[nodiscard]] const SignedDelaunay& restricted() const { return restricted_; }
   [[nodiscard]] std::span<const PairedFacet> facets() const { return facets_; }  // in order
   [[nodiscard]] PairedTriangles triangles() const;
-  // The place of a facet in facets().
-  [[nodiscard]] std::uint32_t place_of(FacetId f) const { return place_of_[f.index()]; }
+  // The place of a facet in facets(); kNoPlace for one that is not there.
+  [[nodiscard]] std::uint32_t place_of(FacetId f) const {
+    std::uint32_t place = first_of_[f.tet().index()];
+    while (place < facets_.size() && facets_[place].facet < f) ++place;
+    return place < facets_.size() && facets_[place].facet == f ? place : kNoPlace;
+  }
+  static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 
  private:
   void touch(TetId t);
   void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
+  void find_places();
   void renew_facets(std::span<const TetId> tets);
   void forget_sides_between(const std::vector<bool>& has_changed);
   void find_split_vertices(const std::vector<bool>& has_changed);
@@ -69,8 +75,6 @@ class FacetPairing {
   void pair_side(PairedFacet& facet, unsigned side);
   void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
   [[nodiscard]] TriangleSide side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const;
-
-  static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
@@ -81,7 +85,7 @@ class FacetPairing {
   std::vector<VertexId> touched_vertices_;
   std::vector<PairedFacet> facets_;
   std::vector<bool> is_split_;          // of each vertex: its facets form more than one fan
-  LargeArray<std::uint32_t> place_of_;  // of each facet of the triangulation; kNoPlace when it is not in facets_
+  LargeArray<std::uint32_t> first_of_;  // of each tetrahedron: the place of its first facet, or kNoPlace
 };
 
 }  // namespace deliso

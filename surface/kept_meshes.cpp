@@ -1,12 +1,72 @@
 #include "surface/kept_meshes.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "delaunay/base/parallel.h"
 #include "surface/separate_copies.h"
 
 namespace deliso {
+
+namespace {
+
+// A mesh is cut down to a part when that is smaller so many times.
+constexpr std::int64_t kWorthCutting = 2;
+
+// The wanted pieces and all that hang together with them by copies of one vertex.
+std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector<bool>& wanted) {
+  const std::vector<VertexId>& vertex_of = mesh.built.vertex_of;
+  std::vector<std::uint32_t> parent(wanted.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<std::uint32_t> piece_at;  // the first one at each vertex of the triangulation
+  for (std::size_t v = 0; v < vertex_of.size(); ++v) {
+    const std::uint32_t piece = mesh.match.piece_of[v];
+    if (piece == kNoPiece) continue;
+    if (vertex_of[v].index() >= piece_at.size()) piece_at.resize(vertex_of[v].index() + 1, kNoPiece);
+    std::uint32_t& first = piece_at[vertex_of[v].index()];
+    if (first == kNoPiece) first = piece;
+    parent[find(piece)] = find(first);
+  }
+  std::vector<bool> is_touched(wanted.size(), false);
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i]) is_touched[find(i)] = true;
+  }
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) is_touched[i] = is_touched[find(i)];
+  return is_touched;
+}
+
+// Some pieces of a mesh, under their numbers.
+MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
+  MatchedMesh part;
+  const std::vector<std::uint32_t>& piece_of = whole.match.piece_of;
+  append_pieces(whole.built.mesh, piece_of, pieces, part.built.mesh);
+  part.match = {whole.match.pieces, {}, whole.match.main_piece, whole.match.agreement, whole.match.error};
+  std::vector<std::uint32_t> name(piece_of.size(), kNoPiece);
+  for (std::size_t v = 0; v < piece_of.size(); ++v) {
+    if (piece_of[v] == kNoPiece || !pieces[piece_of[v]]) continue;
+    name[v] = static_cast<std::uint32_t>(part.component.size());
+    part.component.push_back(whole.component[v]);
+    part.match.piece_of.push_back(piece_of[v]);
+    part.built.vertex_of.push_back(whole.built.vertex_of[v]);
+  }
+  const auto stays = [&](std::uint32_t v) { return name[v] != kNoPiece; };
+  for (const std::uint32_t v : whole.built.copies) {
+    if (stays(v)) part.built.copies.push_back(name[v]);
+  }
+  for (const CopyGroup& group : whole.built.groups) {
+    if (!stays(group.front().vertex)) continue;  // nor do the others
+    part.built.groups.push_back(group);
+    for (Copy& copy : part.built.groups.back()) copy.vertex = name[copy.vertex];
+  }
+  return part;
+}
+
+}  // namespace
 
 bool KeptMeshes::would_be_done(const MatchedMesh& mesh) const {
   for (std::size_t c = 0; c < done_.size(); ++c) {
@@ -29,17 +89,40 @@ void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   drop_outdone();
 }
 
-// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be.
+// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be, and of the
+// others all that will not.
 void KeptMeshes::drop_outdone() {
   std::vector<bool> given(done_.size(), false);
   for (auto kept = kept_.end(); kept != kept_.begin();) {
     --kept;
-    bool gives = false;
+    std::vector<bool> gives(given.size(), false);
     for (std::size_t c = 0; c < given.size(); ++c) {
       if (given[c] || !may_give(*kept->mesh, c)) continue;
-      given[c] = gives = true;
+      given[c] = gives[c] = true;
     }
-    if (!gives) kept = kept_.erase(kept);
+    if (std::find(gives.begin(), gives.end(), true) == gives.end()) {
+      kept = kept_.erase(kept);
+    } else {
+      cut_down(*kept, gives);
+    }
+  }
+}
+
+// To the main pieces of the components that the mesh gives, and those that touch them: copies are going to be moved
+// apart.
+void KeptMeshes::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const {
+  const MatchedMesh& whole = *kept.mesh;
+  std::vector<bool> wanted(whole.match.pieces.size(), false);
+  for (std::size_t c = 0; c < gives.size(); ++c) {
+    if (gives[c]) wanted[whole.match.main_piece[c]] = true;
+  }
+  const std::vector<bool> stays = with_pieces_touched(whole, wanted);
+  std::int64_t left = 0;
+  for (std::size_t i = 0; i < stays.size(); ++i) left += stays[i] ? whole.match.pieces[i].vertices : 0;
+  if (kWorthCutting * left > static_cast<std::int64_t>(whole.built.mesh.points.size())) return;
+  kept.mesh = std::make_shared<MatchedMesh>(part_of(whole, stays));
+  for (std::size_t c = 0; c < gives.size(); ++c) {
+    if (!gives[c]) kept.mesh->match.agreement[c] = Agreement::kNone;
   }
 }
 

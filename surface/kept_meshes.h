@@ -27,7 +27,8 @@ class KeptMeshes {
   // Components that no mesh has right.
   [[nodiscard]] std::int64_t count_missing() const { return std::count(best_.begin(), best_.end(), Agreement::kNone); }
 
-  // Keeps a mesh, made with these signs, when it helps some component.
+  // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more
+  // stays than may still be taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
   void give_poles(RepairRound& round);
@@ -41,6 +42,7 @@ class KeptMeshes {
     TetSigns signs;  // that it was made with; empty once it has its pole heights
   };
   void drop_outdone();
+  void cut_down(KeptMesh& kept, const std::vector<bool>& gives) const;
   [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
     return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
   }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "surface/surface_facts.h"
@@ -19,20 +18,18 @@ class MeshDifferences {
   MeshDifferences(const SurfaceFacts& facts, const Isosurface& isosurface) : facts_(facts), isosurface_(isosurface) {}
 
   // For each component that is not done and whose main piece has another topology: the places at which the two part, if
-  // they are no more than `most`. Known when asked for again, also of components that were not done then.
+  // they are no more than `most`. Known when asked for again.
   const std::vector<Places>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
                                   std::size_t most);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
-  void sweep_surface(std::span<const std::uint32_t> components);
 
   const SurfaceFacts& facts_;
   const Isosurface& isosurface_;
-  std::vector<Places> places_;                                     // as last found
-  std::weak_ptr<MatchedMesh> of_;                                  // in this mesh,
-  std::size_t most_ = 0;                                           // of each component if they were no more
-  std::unordered_map<std::uint32_t, SweptCharacteristics> swept_;  // the surface itself, by component
+  std::vector<Places> places_;     // as last found
+  std::weak_ptr<MatchedMesh> of_;  // in this mesh,
+  std::size_t most_ = 0;           // of each component if they were no more
 };
 
 }  // namespace deliso

@@ -13,6 +13,8 @@ namespace deliso {
 
 namespace {
 
+constexpr std::size_t kTetsAtOnce = 8 * kBlockSize;
+
 // The pole height from the squared distances of the two poles; a side without a Voronoi vertex has 0. Poles farther
 // than `most` count as that far.
 double pole_height(const std::array<double, 2>& squared, double most, PoleHeight rule) {
@@ -50,21 +52,23 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::v
         circumcenter(delaunay.point(v[0]), delaunay.point(v[1]), delaunay.point(v[2]), delaunay.point(v[3]));
     return squared_distance(center, delaunay.point(v[0]));
   };
-  using Radius = std::pair<TetId, double>;  // squared
-  const std::vector<Radius> radii =
-      collect_in_blocks<Radius>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<Radius>& found) {
-        const TetId t(i);
-        if (!delaunay.is_live(t)) return;
-        const auto& v = delaunay.vertices(t);
-        if (std::any_of(v.begin(), v.end(), is_wanted)) found.emplace_back(t, squared_radius(t));
-      });
-
+  // The radii of a run of tetrahedra at a time are found on all threads, then each vertex takes the largest ones.
+  using Radius = std::pair<TetId, double>;                                       // squared
   std::vector<std::array<double, 2>> farthest(delaunay.vertex_count(), {0, 0});  // squared, below and above
-  for (const auto& [t, squared] : radii) {
-    for (const VertexId q : delaunay.vertices(t)) {
-      if (delaunay.is_ghost(t) && (q == kInfiniteVertex || restricted.is_on_box(q))) continue;
-      double& side = farthest[q.index()][restricted.is_above(t) ? 1 : 0];
-      side = std::max(side, squared);
+  for (std::size_t first = 0; first < delaunay.tet_slots(); first += kTetsAtOnce) {
+    const std::size_t count = std::min(kTetsAtOnce, delaunay.tet_slots() - first);
+    const auto append_if_wanted = [&](std::size_t i, std::vector<Radius>& found) {
+      const TetId t(first + i);
+      if (!delaunay.is_live(t)) return;
+      const auto& v = delaunay.vertices(t);
+      if (std::any_of(v.begin(), v.end(), is_wanted)) found.emplace_back(t, squared_radius(t));
+    };
+    for (const auto& [t, squared] : collect_in_blocks<Radius>(count, threads, append_if_wanted)) {
+      for (const VertexId q : delaunay.vertices(t)) {
+        if (delaunay.is_ghost(t) && (q == kInfiniteVertex || restricted.is_on_box(q))) continue;
+        double& side = farthest[q.index()][restricted.is_above(t) ? 1 : 0];
+        side = std::max(side, squared);
+      }
     }
   }
 

@@ -41,12 +41,8 @@ PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface&
   const Vec3& step = isosurface.step();
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
     Vec3& p = cubes.points[v];
-    if (v < cubes.crossing_count) {
-      p = scaled(crossing_position(grid, topology.crossings[v]), step);
-      continue;
-    }
-    p = p - grid.origin();
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
+    p = v < cubes.crossing_count ? scaled(crossing_position(grid, topology.crossings[v]), step)
+                                 : from_world(p, grid, step);
   }
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/dents.h"
 #include "surface/kept_meshes.h"
@@ -94,11 +95,15 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
                           round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
+    release_free_memory();
     try_rules(controls);
+    release_free_memory();
     try_signs(controls);
     stats_.rounds = round;
   }
   kept_.give_poles(*round_);
+  mesh_.reset();
+  round_.reset();
   SurfaceMesh kept = assemble_kept();
   stats_.dents_removed = remove_dents(kept, isosurface_);
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
@@ -166,10 +171,10 @@ void Repair::try_rules(Controls& controls) {
         best = mesh_;
         signs = std::move(attempt.signs);
       }
+      mesh_ = best;  // no other is needed any more
       if (is_over) break;
     }
   }
-  mesh_ = std::move(best);
   round_->set_signs(signs);
 }
 

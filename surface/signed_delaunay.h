@@ -39,8 +39,12 @@ class SignedDelaunay {
   SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1,
                  std::vector<VertexId>* vertex_of = nullptr);
   virtual ~SignedDelaunay() = default;
+  // Takes the triangulation and the signs of one that may be of a class derived from this one, without what that adds
+  // to them.
+  SignedDelaunay(SignedDelaunay&& other) = default;
   SignedDelaunay(const SignedDelaunay&) = delete;
   SignedDelaunay& operator=(const SignedDelaunay&) = delete;
+  SignedDelaunay& operator=(SignedDelaunay&&) = delete;
 
   [[nodiscard]] const Isosurface& isosurface() const { return isosurface_; }
   [[nodiscard]] const Tetrahedralization& delaunay() const { return delaunay_; }

@@ -11,15 +11,17 @@ SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface,
       critical_(std::async(
           std::launch::deferred,
           [&grid, &isosurface, &topology] { return deliso::critical_places(grid, isosurface, topology.index); })),
+      sweeps_(std::async(std::launch::deferred,
+                         [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface, topology); })),
       polygonized_(std::async(std::launch::deferred, [&grid, &isosurface, &topology] {
         return polygonized_surface(grid, isosurface, topology);
       })) {
   if (threads < 2) return;
   try {
     // Through futures of its own; what a search throws is thrown to those who ask.
-    finder_ = std::jthread([places = critical_, surface = polygonized_](const std::stop_token& stop) {
+    finder_ = std::jthread([places = critical_, sweeps = sweeps_](const std::stop_token& stop) {
       places.wait();
-      if (!stop.stop_requested()) surface.wait();  // nobody will ask any more
+      if (!stop.stop_requested()) sweeps.wait();  // nobody will ask any more
     });
   } catch (const std::exception&) {
     // No thread to be had: facts are found when they are asked for.

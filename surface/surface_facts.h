@@ -8,12 +8,13 @@
 #include "raycast/isosurface.h"
 #include "surface/critical_places.h"
 #include "surface/polygonized_components.h"
+#include "surface/surface_sweeps.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
 
-// Each fact is found when it is first asked for; with more than one thread a thread of its own finds all of them
+// Each fact is found when it is first asked for; with more than one thread a thread of its own finds most of them
 // beforehand, while others build the mesh that they are for. The facts are the same either way.
 class SurfaceFacts {
  public:
@@ -23,6 +24,8 @@ class SurfaceFacts {
   [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
   [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
   [[nodiscard]] const std::vector<CriticalPlace>& critical_places() const { return critical_.get(); }
+  [[nodiscard]] const SurfaceSweeps& sweeps() const { return sweeps_.get(); }
+  // Rarely needed, and large: never found beforehand.
   [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
 
  private:
@@ -30,6 +33,7 @@ class SurfaceFacts {
   const IsosurfaceTopology& topology_;
   // Deferred: whoever asks first does the work, anyone else waits for it.
   std::shared_future<std::vector<CriticalPlace>> critical_;
+  std::shared_future<SurfaceSweeps> sweeps_;
   std::shared_future<PolygonizedSurface> polygonized_;
   std::jthread finder_;
 };

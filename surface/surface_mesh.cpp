@@ -11,7 +11,7 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
     if (piece_of[v] >= wanted.size() || !wanted[piece_of[v]]) continue;
     new_vertex[v] = static_cast<std::uint32_t>(to.points.size());
     to.points.push_back(from.points[v]);
-    to.pole_heights.push_back(from.pole_heights[v]);
+    if (!from.pole_heights.empty()) to.pole_heights.push_back(from.pole_heights[v]);
   }
   std::vector<std::uint32_t> new_triangle(from.triangles.size(), kNoSide);
   auto next = static_cast<std::uint32_t>(to.triangles.size());
@@ -59,6 +59,12 @@ void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
   if (!mesh.pole_heights.empty()) mesh.pole_heights.resize(vertices);
   mesh.triangles.resize(triangles);
   mesh.neighbours.resize(triangles);
+}
+
+Vec3 from_world(Vec3 p, const ScalarGrid& grid, const Vec3& step) {
+  p = p - grid.origin();
+  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
+  return p;
 }
 
 TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step) {

@@ -41,13 +41,16 @@ void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Vi
   }
 }
 
-// Appends the wanted pieces of a mesh to another; `piece_of`: of each vertex of `from`.
+// Appends the wanted pieces of a mesh to another, with their pole heights if it has any; `piece_of`: of each vertex of
+// `from`.
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 
 // Takes triangles out of a mesh, and vertices that have none then. No triangle that stays may have one as neighbour.
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
 
+// A point of the grid's world coordinates in mesh space. `step`: mesh-space units per index step.
+Vec3 from_world(Vec3 p, const ScalarGrid& grid, const Vec3& step);
 // In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.
 TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step);
 

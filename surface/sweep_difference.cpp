@@ -49,6 +49,14 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
 
 }  // namespace
 
+std::array<std::int32_t, 3> layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
+  std::array<std::int32_t, 3> layers{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    layers[axis] = static_cast<std::int32_t>(std::clamp(std::ceil(p[axis] / step[axis]), 0.0, dims[axis] - 1.0));
+  }
+  return layers;
+}
+
 // V - E + F of the simplices whose vertices all lie below.
 std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
                                                         const std::vector<std::uint32_t>& part_of_vertex,
@@ -62,9 +70,8 @@ std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
   std::vector<std::array<std::int32_t, 3>> layers(mesh.points.size(), {kUnseen, 0, 0});
   const auto see = [&](std::uint32_t v, SweptCharacteristics& change) {
     if (layers[v][0] != kUnseen) return;
+    layers[v] = layers_at(mesh.points[v], step, dims);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double layer = std::ceil(mesh.points[v][axis] / step[axis]);
-      layers[v][axis] = static_cast<std::int32_t>(std::clamp(layer, 0.0, dims[axis] - 1.0));
       ++change[axis][static_cast<std::size_t>(layers[v][axis])];
     }
   };

@@ -17,6 +17,9 @@ namespace deliso {
 // Along each axis, for each sample layer, the Euler characteristic of what lies below it.
 using SweptCharacteristics = std::array<std::vector<std::int64_t>, 3>;
 
+// The first sample layer along each axis that a point in mesh space does not lie above.
+std::array<std::int32_t, 3> layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims);
+
 // Of several parts of a mesh, in one go over its triangles. `part_of_vertex`: below `parts`, the same for all vertices
 // of a piece; kNoPart where it does not count. `step` is the size of a voxel in mesh space, `dims` the number of
 // samples.

@@ -30,40 +30,33 @@ unsigned faces_of_edge(int edge) {
   return faces;
 }
 
-class MarchingCubes {
+// Triangulates one cell after the other.
+class CellTriangulation {
  public:
-  MarchingCubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index)
-      : grid_(grid), isovalue_(isovalue), index_(index) {}
+  CellTriangulation(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                    std::span<const EdgeCrossing> crossings)
+      : grid_(grid), isovalue_(isovalue), index_(index), crossings_(crossings), vertex_count_(crossings.size()) {}
 
-  MarchingCubesMesh build(std::span<const EdgeCrossing> crossings) {
-    mesh_.points.reserve(crossings.size());
-    for (const EdgeCrossing& crossing : crossings) mesh_.points.push_back(crossing_position(grid_, crossing));
-    mesh_.crossing_count = mesh_.points.size();
-    mesh_.triangles.reserve(2 * mesh_.crossing_count);
-    index_.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) { add_cell(cell, pattern); });
-    for (Vec3& point : mesh_.points) point = grid_.origin() + scaled(point, grid_.spacing());
-    return std::move(mesh_);
-  }
+  const MarchingCubesPatch& triangulate(const CellIndex& cell, std::uint8_t pattern);
 
  private:
-  void add_cell(const CellIndex& cell, std::uint8_t pattern);
   void add_exact_pieces(const CellCorners& corners, const std::array<Loop, kMaxCellPieces>& loops, std::size_t count);
   void add_disk(const Loop& loop);
   void add_tunnel(Loop outer, Loop inner);
   std::uint32_t add_inner_point(const Vec3& near);
 
-  [[nodiscard]] std::uint32_t vertex(int edge) const { return vertices_[static_cast<std::size_t>(edge)]; }
-  [[nodiscard]] const Vec3& point(int edge) const { return mesh_.points[vertex(edge)]; }
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh_.triangles.push_back({a, b, c}); }
+  [[nodiscard]] std::uint32_t vertex(int edge) const { return places_[static_cast<std::size_t>(edge)]; }
+  [[nodiscard]] const Vec3& point(int edge) const { return patch_.points[vertex(edge)]; }
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { patch_.triangles.push_back({a, b, c}); }
 
   const ScalarGrid& grid_;
   double isovalue_;
   const CrossingIndex& index_;
-  MarchingCubesMesh mesh_;  // in index space until the end
+  std::span<const EdgeCrossing> crossings_;
+  std::size_t vertex_count_;  // crossings, and the inner points of the cells so far
 
-  // The cell at hand.
-  CellIndex cell_{};
-  std::array<std::uint32_t, kCellEdges> vertices_{};  // edge -> vertex, where it is crossed
+  MarchingCubesPatch patch_;                        // the cell at hand
+  std::array<std::uint32_t, kCellEdges> places_{};  // of its crossings in patch_.vertices, by edge
 };
 
 // Splits the crossings of a cell into loops; returns their number.
@@ -97,15 +90,27 @@ const Loop& simple_loop(std::uint8_t pattern) {
   return kLoops[pattern];
 }
 
-void MarchingCubes::add_cell(const CellIndex& cell, std::uint8_t pattern) {
-  cell_ = cell;
+const MarchingCubesPatch& CellTriangulation::triangulate(const CellIndex& cell, std::uint8_t pattern) {
+  patch_.cell = cell;
+  patch_.vertices.clear();
+  patch_.points.clear();
+  patch_.triangles.clear();
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
     const int edge = std::countr_zero(edges);
     const CellEdge e = cell_edge(edge);
-    vertices_[static_cast<std::size_t>(edge)] =
-        index_.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2), e.axis);
+    const CellIndex sample{cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2)};
+    const std::uint32_t crossing = index_.number(sample[0], sample[1], sample[2], e.axis);
+    Vec3 at{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
+    at[static_cast<std::size_t>(e.axis)] += crossings_[crossing].t;
+    places_[static_cast<std::size_t>(edge)] = static_cast<std::uint32_t>(patch_.vertices.size());
+    patch_.vertices.push_back(crossing);
+    patch_.points.push_back(at);
   }
-  if (is_simple(pattern)) return add_disk(simple_loop(pattern));
+  patch_.crossing_count = patch_.vertices.size();
+  if (is_simple(pattern)) {
+    add_disk(simple_loop(pattern));
+    return patch_;
+  }
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   unsigned joined = 0;
   for (int face = 0; face < kCellFaces; ++face) {
@@ -114,11 +119,12 @@ void MarchingCubes::add_cell(const CellIndex& cell, std::uint8_t pattern) {
   std::array<Loop, kMaxCellPieces> loops;
   const std::size_t count = split_into_loops(edge_successors(pattern, joined), loops);
   add_exact_pieces(corners, loops, count);
+  return patch_;
 }
 
 // A piece of a trilinear isosurface in a cell is a disk or a tunnel between two loops.
-void MarchingCubes::add_exact_pieces(const CellCorners& corners, const std::array<Loop, kMaxCellPieces>& loops,
-                                     std::size_t count) {
+void CellTriangulation::add_exact_pieces(const CellCorners& corners, const std::array<Loop, kMaxCellPieces>& loops,
+                                         std::size_t count) {
   const CellSweep sweep(corners, isovalue_);
   for (int piece = 0; piece < sweep.pieces(); ++piece) {
     std::array<const Loop*, kMaxCellPieces> own{};
@@ -139,7 +145,7 @@ void MarchingCubes::add_exact_pieces(const CellCorners& corners, const std::arra
 // Triangulates the loop by the chords of least total squared length. A chord between two crossings of one face is
 // forbidden, for the cell across that face might draw it too; when no other triangulation exists, an inner point
 // serves.
-void MarchingCubes::add_disk(const Loop& loop) {
+void CellTriangulation::add_disk(const Loop& loop) {
   const std::size_t n = loop.size;
   if (n == 3) return add_triangle(vertex(loop.edges[0]), vertex(loop.edges[1]), vertex(loop.edges[2]));
 
@@ -184,7 +190,7 @@ void MarchingCubes::add_disk(const Loop& loop) {
 }
 
 // A tunnel: a ring of inner points, as many as the longer loop has, joined to both loops.
-void MarchingCubes::add_tunnel(Loop outer, Loop inner) {
+void CellTriangulation::add_tunnel(Loop outer, Loop inner) {
   if (outer.size < inner.size) std::swap(outer, inner);
   const std::size_t n = outer.size;
   const std::size_t m = inner.size;
@@ -217,11 +223,12 @@ void MarchingCubes::add_tunnel(Loop outer, Loop inner) {
 
 // Adds a point of the surface inside the cell, as near to `near` as a few Newton steps along the gradient come. Its
 // place only measures: the mesh is right wherever it lies.
-std::uint32_t MarchingCubes::add_inner_point(const Vec3& near) {
+std::uint32_t CellTriangulation::add_inner_point(const Vec3& near) {
   static constexpr double kMargin = 1e-3;
   constexpr int kSteps = 8;
-  const CellCorners corners = grid_.cell(cell_[0], cell_[1], cell_[2]);
-  const Vec3 base{static_cast<double>(cell_[0]), static_cast<double>(cell_[1]), static_cast<double>(cell_[2])};
+  const auto [i, j, k] = patch_.cell;
+  const CellCorners corners = grid_.cell(i, j, k);
+  const Vec3 base{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
   const auto inside = [](const Vec3& p) {
     return Vec3{std::clamp(p.x, kMargin, 1 - kMargin), std::clamp(p.y, kMargin, 1 - kMargin),
                 std::clamp(p.z, kMargin, 1 - kMargin)};
@@ -239,8 +246,9 @@ std::uint32_t MarchingCubes::add_inner_point(const Vec3& near) {
     best = p;
     best_residual = residual;
   }
-  mesh_.points.push_back(base + best);
-  return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+  patch_.vertices.push_back(static_cast<std::uint32_t>(vertex_count_++));
+  patch_.points.push_back(base + best);
+  return static_cast<std::uint32_t>(patch_.points.size() - 1);
 }
 
 }  // namespace
@@ -253,7 +261,28 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue) {
 
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                  std::span<const EdgeCrossing> crossings) {
-  return MarchingCubes(grid, isovalue, index).build(crossings);
+  MarchingCubesMesh mesh;
+  mesh.points.reserve(crossings.size());
+  for (const EdgeCrossing& crossing : crossings) mesh.points.push_back(crossing_position(grid, crossing));
+  mesh.crossing_count = mesh.points.size();
+  mesh.triangles.reserve(2 * mesh.crossing_count);
+  for_each_marching_cubes_patch(grid, isovalue, index, crossings, [&](const MarchingCubesPatch& patch) {
+    mesh.points.insert(mesh.points.end(), patch.points.begin() + static_cast<std::ptrdiff_t>(patch.crossing_count),
+                       patch.points.end());
+    for (const auto& [a, b, c] : patch.triangles) {
+      mesh.triangles.push_back({patch.vertices[a], patch.vertices[b], patch.vertices[c]});
+    }
+  });
+  for (Vec3& point : mesh.points) point = grid.origin() + scaled(point, grid.spacing());
+  return mesh;
+}
+
+void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                   std::span<const EdgeCrossing> crossings,
+                                   const std::function<void(const MarchingCubesPatch&)>& visit) {
+  CellTriangulation cells(grid, isovalue, index, crossings);
+  index.for_each_active_cell(
+      [&](const CellIndex& cell, std::uint8_t pattern) { visit(cells.triangulate(cell, pattern)); });
 }
 
 }  // namespace deliso

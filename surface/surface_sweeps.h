@@ -1,0 +1,38 @@
+// What lies of the isosurface below a plane that sweeps along an axis: the exact side of surface/sweep_difference.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/sweep_difference.h"
+#include "volume/exact_topology.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// The swept characteristics of each exact component, as swept_characteristics gives them for its marching-cubes mesh
+// (polygonized_components.h). They are found cell by cell, without making the mesh, and kept for the layers only that a
+// component reaches.
+class SurfaceSweeps {
+ public:
+  SurfaceSweeps(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology);
+
+  [[nodiscard]] SweptCharacteristics of(std::uint32_t component) const;
+
+ private:
+  struct Layers {
+    std::size_t begin = 0;  // in twice_changes_
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+  };
+  class Counter;
+
+  Dims dims_;
+  std::vector<std::array<Layers, 3>> layers_;  // that each component may reach, along each axis
+  std::vector<std::int32_t> twice_changes_;    // of the Euler characteristic, when the plane comes to a layer
+};
+
+}  // namespace deliso

@@ -1,0 +1,122 @@
+// What is taken from the kept meshes at last must not depend on what was dropped of them meanwhile.
+#include "surface/kept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "surface/separate_copies.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::Scene;
+
+// The corners of a triangle, the least first, each with its pole height.
+using PlacedTriangle = std::array<std::array<double, 4>, 3>;
+
+void append_pieces_placed(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_wanted,
+                          std::vector<PlacedTriangle>& triangles) {
+  for (const auto& v : mesh.triangles) {
+    if (!is_wanted(v[0])) continue;
+    PlacedTriangle placed;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = mesh.points[v[i]];
+      placed[i] = {p.x, p.y, p.z, mesh.pole_heights[v[i]]};
+    }
+    std::rotate(placed.begin(), std::min_element(placed.begin(), placed.end()), placed.end());
+    triangles.push_back(placed);
+  }
+}
+
+// Noise at a high isovalue: many small components, some of which touch when signs are wrong.
+std::unique_ptr<Scene> blobs(std::uint64_t seed) {
+  Rng rng(seed);
+  return std::make_unique<Scene>("blobs", testing::noise_grid({14, 13, 12}, {1, 1, 1}, rng), 190.5);
+}
+
+// Meshes of one round with random signs turned over, each with its signs.
+struct Attempts {
+  explicit Attempts(const Scene& scene, std::uint64_t seed)
+      : cells(scene.grid, *scene.isosurface),
+        round(scene.grid, scene.topology, cells,
+              std::make_unique<SignedDelaunay>(*scene.isosurface, testing::crossing_points(scene)), 1) {
+    constexpr int kAttempts = 12;
+    Rng rng(seed);
+    round.take_plain_signs();
+    for (int i = 0; i < kAttempts; ++i) {
+      const TetSigns before = round.restricted().signs();
+      std::vector<TetId> tets;
+      for (std::size_t t = 0; t < before.size(); ++t) {
+        const bool is_live = round.restricted().delaunay().is_live(TetId(t));
+        if (is_live && i > 0 && rng.below(100) < 3) tets.emplace_back(t);
+      }
+      round.overturn(tets);
+      std::optional<MatchedMesh> mesh = round.assemble();
+      if (!mesh) continue;
+      meshes.push_back(*std::move(mesh));
+      signs.push_back(round.restricted().signs());
+      round.set_signs(before);
+    }
+  }
+  RaisedCells cells;
+  RepairRound round;
+  std::vector<MatchedMesh> meshes;
+  std::vector<TetSigns> signs;
+};
+
+TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
+  std::size_t given_by_earlier = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto scene = blobs(seed);
+    const std::size_t components = scene->topology.components.size();
+    const Box3& box = scene->isosurface->box();
+    Attempts attempts(*scene, seed);
+    KeptMeshes kept(components);
+    // The same by hand: which mesh gives each component.
+    std::vector<Agreement> best(components, Agreement::kNone);
+    std::vector<std::optional<std::size_t>> giver(components);
+    for (std::size_t i = 0; i < attempts.meshes.size(); ++i) {
+      const std::vector<Agreement>& agreement = attempts.meshes[i].match.agreement;
+      bool helps = false;
+      for (std::size_t c = 0; c < components; ++c) helps = helps || agreement[c] > best[c];
+      for (std::size_t c = 0; c < components && helps; ++c) {
+        best[c] = std::max(best[c], std::min(agreement[c], Agreement::kWithStrays));
+        if (agreement[c] != Agreement::kNone && agreement[c] >= best[c]) giver[c] = i;
+      }
+      kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[i]), attempts.signs[i]);
+    }
+    std::vector<PlacedTriangle> expected;
+    for (std::size_t c = 0; c < components; ++c) {
+      if (!giver[c]) continue;
+      given_by_earlier += *giver[c] + 1 < attempts.meshes.size() ? 1 : 0;
+      MatchedMesh mesh = attempts.meshes[*giver[c]];
+      attempts.round.set_signs(attempts.signs[*giver[c]]);
+      const auto heights = compute_poles(attempts.round.restricted());
+      for (const VertexId v : mesh.built.vertex_of) mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
+      const auto is_wanted = [&](std::uint32_t v) { return mesh.match.piece_of[v] == mesh.match.main_piece[c]; };
+      separate_copies(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
+      append_pieces_placed(mesh.built.mesh, is_wanted, expected);
+    }
+
+    kept.give_poles(attempts.round);
+    SurfaceMesh surface;
+    std::vector<bool> left(components, true);
+    RepairStats stats;
+    kept.append_to(surface, left, box, 1, stats);
+    std::vector<PlacedTriangle> found;
+    append_pieces_placed(
+        surface, [](std::uint32_t) { return true; }, found);
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_FALSE(found.empty());
+    EXPECT_EQ(found, expected);
+  }
+  EXPECT_GT(given_by_earlier, 10u);
+}
+
+}  // namespace
+}  // namespace deliso
