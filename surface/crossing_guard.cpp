@@ -27,7 +27,7 @@ constexpr double kReach = 20;
 constexpr double kCellSide = 0.26;
 constexpr double kFarthestPlace = 1e15;
 // The surface lies far from a triangle whose ball is so many times larger than its box.
-constexpr double kFarBall = 1;
+constexpr double kFarBall = 1.3;
 // A star can fold over its neighbours when it moves by so much of the rim's distance from p.
 constexpr double kFoldingMove = 0.1;
 
@@ -144,9 +144,9 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
 }
 
 CrossingGuard::CrossingGuard(RefinementMesh& mesh, int threads) : mesh_(mesh) {
-  for (RefinementMesh::Triangle& t : mesh.triangles) {
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
     if (t.has_hit()) continue;
-    for (const std::uint32_t v : t.corners) mesh.vertices[v].clearance = 0;
+    for (const std::uint32_t v : t.corners) mesh.vertices[v].is_suspect = true;
   }
   const auto tight = collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, [&](std::size_t t, auto& found) {
     if (is_tight(static_cast<std::uint32_t>(t))) found.push_back(static_cast<std::uint32_t>(t));
@@ -168,9 +168,9 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
   const Vec3 size = mesh_.box_of(triangle).size();
   if (t.has_hit() && t.ball.squared_radius < kFarBall * kFarBall * squared_norm(size)) return;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    float& clearance = mesh_.vertices[t.corners[i]].clearance;
-    if (clearance == 0) continue;
-    clearance = 0;
+    bool& is_suspect = mesh_.vertices[t.corners[i]].is_suspect;
+    if (is_suspect) continue;
+    is_suspect = true;
     // All triangles around this corner are tight now.
     const std::uint32_t first = 3 * triangle + i;
     for_each_corner_of_fan(
@@ -183,10 +183,10 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
 }
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {
-  const auto& [a, b, c] = mesh_.triangles[triangle].corners;
-  const auto& vertices = mesh_.vertices;
-  return deliso::is_tight(mesh_.corner_points({a, b, c}),
-                          std::min({vertices[a].clearance, vertices[b].clearance, vertices[c].clearance}));
+  const auto& corners = mesh_.triangles[triangle].corners;
+  return deliso::is_tight(
+      mesh_.corner_points(corners),
+      std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])}));
 }
 
 CrossingGuard::StarTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
@@ -214,9 +214,8 @@ float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
   float mean = 0;
   float least = new_clearance_;
   for (const RimEdge& edge : rim) {
-    const float clearance = mesh_.vertices[edge.from].clearance;
-    least = std::min(least, clearance);
-    mean += clearance / static_cast<float>(rim.size());
+    least = std::min(least, trusted_clearance(edge.from));
+    mean += mesh_.vertices[edge.from].clearance / static_cast<float>(rim.size());
     new_clearance_ = std::min(new_clearance_, bound(edge.from));
   }
   new_clearance_ = std::min(new_clearance_, mean);
@@ -251,8 +250,7 @@ bool CrossingGuard::crosses(const Vec3& p, double moved, const RefinementDisk& d
   tight_in_star_.clear();
   Box3 box;
   for (const RimEdge& edge : rim) {
-    const float clearance =
-        std::min({new_clearance_, mesh_.vertices[edge.from].clearance, mesh_.vertices[edge.to].clearance});
+    const float clearance = std::min({new_clearance_, trusted_clearance(edge.from), trusted_clearance(edge.to)});
     star_.push_back(star_triangle(p, edge));
     const StarTriangle& s = star_.back();
     if (!deliso::is_tight(s.points, clearance)) continue;

@@ -3,7 +3,9 @@
 // Replacing a disk by a star moves the mesh by no more than the disk was off the surface, so it can meet another sheet
 // only where the distance between the sheets is no larger than its triangles. The guard knows a bound of that distance
 // at every vertex, its clearance: the pole height, but no more than the distance to a vertex that has another one on
-// top of it. Triangles larger than their clearance are tight. Only these are kept by place, and only stars that would
+// top of it. Triangles larger than their clearance are tight, and so are those at a suspect vertex, a corner of a
+// triangle that is so thin or steep that the surface lies far from it: others may fold over it. Only these are kept by
+// place, and only stars that would
 // have such triangles are tested against them, exactly. A star that moves far can also fold over the triangles beside
 // it, which is tested where an edge of the rim turns sharp.
 #pragma once
@@ -38,8 +40,7 @@ class CrossingGuard {
   // Before a triangle goes; after a triangle has come.
   void forget(std::uint32_t triangle);
   void learn(std::uint32_t triangle);
-  // A triangle stays as it is. Takes the clearances at its corners away if it is so thin or steep that the surface lies
-  // far from it: what others will be around it may fold over it.
+  // A triangle stays as it is: its corners become suspect if the surface lies far from it.
   void distrust(std::uint32_t triangle);
 
  private:
@@ -54,6 +55,10 @@ class CrossingGuard {
   [[nodiscard]] bool folds(const Vec3& p, std::span<const RimEdge> rim);
   [[nodiscard]] StarTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;
+  [[nodiscard]] float trusted_clearance(std::uint32_t vertex) const {
+    const RefinementMesh::Vertex& v = mesh_.vertices[vertex];
+    return v.is_suspect ? 0 : v.clearance;
+  }
   [[nodiscard]] bool meets(const StarTriangle& s, std::uint32_t triangle) const;
   [[nodiscard]] static bool meets(const StarTriangle& s, const StarTriangle& t);
 

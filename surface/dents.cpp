@@ -11,6 +11,7 @@
 #include "surface/least_triangulation.h"
 #include "surface/self_intersection.h"
 #include "surface/surface_distance.h"
+#include "surface/vertex_fans.h"
 
 namespace deliso {
 
@@ -27,13 +28,12 @@ constexpr double kOnFace = 1e-3;
 // Links of more vertices are left as they are.
 constexpr std::size_t kLongestLink = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 class Dents {
  public:
-  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface) {}
+  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
 
   std::int64_t remove_all();
 
@@ -45,24 +45,14 @@ class Dents {
     Box3 box;
     std::vector<std::uint32_t> surroundings;
   };
-  // The triangles around a vertex; for each the vertex that comes first in the link and the side beyond the link.
-  struct Fan {
-    std::vector<std::uint32_t> triangles;
-    std::vector<std::uint32_t> link;
-    std::vector<TriangleSide> outer;
-  };
-
-  void find_corners();
   void find_apexes();
   void find_surroundings();
   void look_around(Apex& apex, const Box3& box);
   bool remove(Apex& apex);
   void append_apexes(const std::vector<std::uint32_t>& link);
-  bool find_fan(std::uint32_t v, Fan& fan) const;
-  [[nodiscard]] Box3 box_around(std::uint32_t v, const Fan& fan) const;
-  [[nodiscard]] bool can_be_filled(std::uint32_t v, const Fan& fan) const;
-  [[nodiscard]] LeastTriangulation triangulate(const Fan& fan) const;
-  [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
+  [[nodiscard]] Box3 box_around(std::uint32_t v, const VertexFan& fan) const;
+  [[nodiscard]] bool can_be_filled(std::uint32_t v, const VertexFan& fan) const;
+  [[nodiscard]] LeastTriangulation triangulate(const VertexFan& fan) const;
   [[nodiscard]] double far_area(const Triangles& triangles);
   [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
   [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
@@ -71,18 +61,11 @@ class Dents {
   [[nodiscard]] bool any_around(const Apex& apex, const Holds& holds) const {
     const auto stays_and_holds = [&](std::uint32_t i) {
       const auto& t = mesh_.triangles[i];
-      return !is_gone_[i] && std::find(t.begin(), t.end(), apex.vertex) == t.end() && holds(t);
+      return fans_.has_triangle(i) && std::find(t.begin(), t.end(), apex.vertex) == t.end() && holds(t);
     };
     return std::any_of(apex.surroundings.begin(), apex.surroundings.end(), stays_and_holds) ||
-           std::any_of(renewed_.begin(), renewed_.end(), stays_and_holds);
+           std::any_of(fans_.renewed().begin(), fans_.renewed().end(), stays_and_holds);
   }
-  void replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least);
-  TriangleSide build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j, std::size_t& next);
-  void set(std::uint32_t t, unsigned side, TriangleSide across) {
-    mesh_.neighbours[t][side] = across;
-    if (across != kNoSide) mesh_.neighbours[across >> 2][across & 3u] = 4 * t + side;
-  }
-
   [[nodiscard]] bool is_against(std::uint32_t v, const Vec3& normals) const;
 
   [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
@@ -99,36 +82,25 @@ class Dents {
 
   SurfaceMesh& mesh_;
   const Isosurface& isosurface_;
-  std::vector<std::uint32_t> corner_of_;  // of each vertex: one of its corners, 3 triangle + i; none when it is gone
+  VertexFans fans_;
   std::vector<Apex> apexes_;
-  std::vector<bool> is_gone_;           // of each triangle
-  std::vector<std::uint32_t> renewed_;  // triangles that have been replaced
   SearchCounters search_;
 };
 
 std::int64_t Dents::remove_all() {
-  find_corners();
   find_apexes();
   if (apexes_.empty()) return 0;
   find_surroundings();
-  is_gone_.assign(mesh_.triangles.size(), false);
   // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
   std::int64_t removed = 0;
   for (std::int64_t before = -1; before != removed;) {
     before = removed;
     for (std::size_t a = 0; a < apexes_.size(); ++a) {
-      if (corner_of_[apexes_[a].vertex] != kNoCorner && remove(apexes_[a])) ++removed;
+      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++removed;
     }
   }
-  if (removed > 0) drop_triangles(mesh_, is_gone_);
+  if (removed > 0) fans_.drop_free_slots();
   return removed;
-}
-
-void Dents::find_corners() {
-  corner_of_.assign(mesh_.points.size(), kNoCorner);
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    for (std::uint32_t i = 0; i < 3; ++i) corner_of_[mesh_.triangles[t][i]] = 3 * t + i;
-  }
 }
 
 // Inner vertices with a long edge whose triangles face against the surface on the whole.
@@ -172,8 +144,8 @@ bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
 void Dents::find_surroundings() {
   std::vector<Box3> boxes;
   for (Apex& apex : apexes_) {
-    Fan fan;
-    find_fan(apex.vertex, fan);
+    VertexFan fan;
+    fans_.find(apex.vertex, fan);
     apex.box = box_around(apex.vertex, fan);
     boxes.push_back(apex.box);
   }
@@ -184,7 +156,7 @@ void Dents::find_surroundings() {
 }
 
 // The box in which all lies that may replace the triangles at a vertex or cover it.
-Box3 Dents::box_around(std::uint32_t v, const Fan& fan) const {
+Box3 Dents::box_around(std::uint32_t v, const VertexFan& fan) const {
   Box3 box;
   for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
   const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
@@ -199,13 +171,13 @@ void Dents::look_around(Apex& apex, const Box3& box) {
   apex.box = box;
   apex.surroundings.clear();
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (!is_gone_[t] && box.meets(box_of(t))) apex.surroundings.push_back(t);
+    if (fans_.has_triangle(t) && box.meets(box_of(t))) apex.surroundings.push_back(t);
   }
 }
 
 bool Dents::remove(Apex& apex) {
-  Fan fan;
-  if (!find_fan(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
+  VertexFan fan;
+  if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
   const LeastTriangulation least = triangulate(fan);
   if (!least.exists()) return false;
   Triangles now, filling;
@@ -214,7 +186,7 @@ bool Dents::remove(Apex& apex) {
   if (!(far_area(filling) < far_area(now))) return false;
   look_around(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
-  replace(apex.vertex, fan, least);
+  fans_.replace(apex.vertex, fan, least);
   append_apexes(fan.link);
   return true;
 }
@@ -223,28 +195,14 @@ bool Dents::remove(Apex& apex) {
 void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
   for (const std::uint32_t v : link) {
     const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
-    Fan fan;
-    if (!is_known && find_fan(v, fan) && can_be_filled(v, fan)) apexes_.push_back({v, {}, {}});
-  }
-}
-
-// False when the vertex is on the boundary.
-bool Dents::find_fan(std::uint32_t v, Fan& fan) const {
-  for (std::uint32_t corner = corner_of_[v];;) {
-    const std::uint32_t t = corner / 3, i = corner % 3;
-    fan.triangles.push_back(t);
-    fan.link.push_back(mesh_.triangles[t][(i + 1) % 3]);
-    fan.outer.push_back(mesh_.neighbours[t][i]);
-    const TriangleSide side = mesh_.neighbours[t][(i + 1) % 3];
-    if (side == kNoSide) return false;
-    corner = 3 * (side >> 2) + ((side & 3u) + 1) % 3;
-    if (corner == corner_of_[v]) return true;
+    VertexFan fan;
+    if (!is_known && fans_.find(v, fan) && can_be_filled(v, fan)) apexes_.push_back({v, {}, {}});
   }
 }
 
 // The link is a cycle that passes no vertex twice and, if it is a triangle, not one of the mesh; and what went around
 // the vertex has not made it one that faces the right way.
-bool Dents::can_be_filled(std::uint32_t v, const Fan& fan) const {
+bool Dents::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
   if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
   std::vector<std::uint32_t> sorted = fan.link;
   std::sort(sorted.begin(), sorted.end());
@@ -258,26 +216,13 @@ bool Dents::can_be_filled(std::uint32_t v, const Fan& fan) const {
 }
 
 // By triangles that have an area and edges that the mesh does not have elsewhere.
-LeastTriangulation Dents::triangulate(const Fan& fan) const {
+LeastTriangulation Dents::triangulate(const VertexFan& fan) const {
   const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
     const std::array<std::uint32_t, 3> t = {fan.link[i], fan.link[k], fan.link[j]};
     return has_area_at(t) ? 0.5 * norm(normal(t)) : kInfinity;
   };
-  return {fan.link.size(), area, [&](std::size_t i, std::size_t j) { return !are_joined(fan.link[i], fan.link[j]); }};
-}
-
-// Whether an edge joins two vertices.
-bool Dents::are_joined(std::uint32_t v, std::uint32_t w) const {
-  bool found = false;
-  std::uint32_t visits = 0;
-  for_each_corner_of_fan(
-      corner_of_[v], [&](TriangleSide side) { return mesh_.neighbours[side >> 2][side & 3u]; },
-      [&](std::uint32_t corner) {
-        const auto& t = mesh_.triangles[corner / 3];
-        found |= std::find(t.begin(), t.end(), w) != t.end();
-        return visits++ == 0 || corner != corner_of_[v];
-      });
-  return found;
+  return {fan.link.size(), area,
+          [&](std::size_t i, std::size_t j) { return !fans_.are_joined(fan.link[i], fan.link[j]); }};
 }
 
 // The area of those of some triangles that have no surface which faces the same way near their middles.
@@ -313,29 +258,6 @@ bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
   return !any_around(apex, [&](const auto& t) {
     return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
   });
-}
-
-void Dents::replace(std::uint32_t v, const Fan& fan, const LeastTriangulation& least) {
-  for (std::size_t i = fan.triangles.size() - 2; i < fan.triangles.size(); ++i) is_gone_[fan.triangles[i]] = true;
-  std::size_t next = 0;
-  const TriangleSide last = build(fan, least, 0, fan.link.size() - 1, next);
-  set(last >> 2, last & 3u, fan.outer.back());
-  corner_of_[v] = kNoCorner;
-}
-
-// Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
-// rest is to be joined to.
-TriangleSide Dents::build(const Fan& fan, const LeastTriangulation& least, std::size_t i, std::size_t j,
-                          std::size_t& next) {
-  if (j == i + 1) return fan.outer[i];
-  const std::size_t k = least.apex(i, j);
-  const std::uint32_t t = fan.triangles[next++];
-  mesh_.triangles[t] = {fan.link[i], fan.link[k], fan.link[j]};
-  for (std::uint32_t c = 0; c < 3; ++c) corner_of_[mesh_.triangles[t][c]] = 3 * t + c;
-  renewed_.push_back(t);
-  set(t, 2, build(fan, least, i, k, next));
-  set(t, 0, build(fan, least, k, j, next));
-  return 4 * t + 1;
 }
 
 }  // namespace

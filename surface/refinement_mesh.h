@@ -25,6 +25,7 @@ struct RefinementMesh {
     float clearance = 0;          // a bound of the distance to other sheets (crossing_guard.h)
     std::uint32_t attempt = 0;    // whose rim passes here,
     std::uint32_t rim_place = 0;  // and the place in it of the edge that leaves here
+    bool is_suspect = false;      // a corner of a triangle that lies far off the surface (crossing_guard.h)
   };
   // Side i of a triangle runs from corner i + 1 to corner i + 2; a neighbour is that same edge as the triangle across
   // knows it.

@@ -107,6 +107,9 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin,
   };
   whole.vertices.insert(whole.vertices.end(), behind(mesh.vertices, old_vertices), mesh.vertices.end());
   whole.triangles.insert(whole.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
+  for (std::size_t v = 0; v < old_vertices; ++v) {
+    if (mesh.vertices[v].is_suspect) whole.vertices[origin.vertices[v]].is_suspect = true;
+  }
   const auto place = [](const std::vector<std::uint32_t>& old, std::size_t first, std::uint32_t i) {
     return i < old.size() ? old[i] : static_cast<std::uint32_t>(first + i - old.size());
   };
