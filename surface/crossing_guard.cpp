@@ -239,7 +239,30 @@ bool CrossingGuard::folds(const Vec3& p, std::span<const RimEdge> rim) {
   return false;
 }
 
-bool CrossingGuard::crosses(const Vec3& p, double moved, const RefinementDisk& disk) {
+// Seen from above the star lies around p, once: then no two of its triangles meet.
+bool CrossingGuard::lies_around(const Vec3& p, const Vec3& up) const {
+  // All triangles turn to the left around p, so a star that closes passes the half-plane to one side of p once a turn.
+  if (star_.front().corners[1] != star_.back().corners[2]) return false;
+  const Vec3 across = cross(up, star_.front().points[1] - p);
+  int turns = 0;
+  for (const StarTriangle& s : star_) {
+    const Vec3 from = s.points[1] - p, to = s.points[2] - p;
+    if (!(dot(cross(from, to), up) > 0)) return false;
+    turns += dot(across, from) < 0 && dot(across, to) >= 0 ? 1 : 0;
+  }
+  return turns == 1;
+}
+
+bool CrossingGuard::star_meets_itself() const {
+  for (const std::size_t i : tight_in_star_) {
+    for (std::size_t j = 0; j < star_.size(); ++j) {
+      if (j != i && meets(star_[i], star_[j])) return true;
+    }
+  }
+  return false;
+}
+
+bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const RefinementDisk& disk) {
   const std::span<const RimEdge> rim = disk.rim();
   const float least = clearance_at(p, rim);
   if (moved > kFoldingMove * distance(p, mesh_.vertices[rim.front().from].point) && folds(p, rim)) return true;
@@ -260,11 +283,7 @@ bool CrossingGuard::crosses(const Vec3& p, double moved, const RefinementDisk& d
     box.extend(s.box.high);
   }
   if (tight_in_star_.empty()) return false;
-  for (const std::size_t i : tight_in_star_) {
-    for (std::size_t j = 0; j < star_.size(); ++j) {
-      if (j != i && meets(star_[i], star_[j])) return true;
-    }
-  }
+  if (!lies_around(p, up) && star_meets_itself()) return true;
   // nor tight ones that stay.
   near_.clear();
   tight_.append_near(box, near_);

@@ -33,8 +33,9 @@ class CrossingGuard {
   CrossingGuard(RefinementMesh& mesh, int threads);
 
   // Whether the star of p over the rim of a disk meets itself or tight triangles of the mesh outside the disk beyond
-  // what they share, or folds over its neighbours. `moved`: how far the mesh moves at most. Also finds p's clearance.
-  bool crosses(const Vec3& p, double moved, const RefinementDisk& disk);
+  // what they share, or folds over its neighbours. `moved`: how far the mesh moves at most; `up`: about a normal of the
+  // star. Also finds p's clearance.
+  bool crosses(const Vec3& p, const Vec3& up, double moved, const RefinementDisk& disk);
   [[nodiscard]] float new_clearance() const { return new_clearance_; }
 
   // Before a triangle goes; after a triangle has come.
@@ -52,6 +53,8 @@ class CrossingGuard {
   };
 
   float clearance_at(const Vec3& p, std::span<const RimEdge> rim);
+  [[nodiscard]] bool lies_around(const Vec3& p, const Vec3& up) const;
+  [[nodiscard]] bool star_meets_itself() const;
   [[nodiscard]] bool folds(const Vec3& p, std::span<const RimEdge> rim);
   [[nodiscard]] StarTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;

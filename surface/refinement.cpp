@@ -144,7 +144,7 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const double moved = disk_.distance_to(p);
   if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
-  if (guard_->crosses(p, moved, disk_)) return Refusal::kCrossingTriangle;
+  if (guard_->crosses(p, -gradient, moved, disk_)) return Refusal::kCrossingTriangle;
   star_pole_height_ = inherited_pole_height(p, closed);
   star_.clear();
   for (const RimEdge& edge : disk_.rim()) {

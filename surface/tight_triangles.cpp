@@ -1,6 +1,7 @@
 #include "surface/tight_triangles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,11 +15,23 @@ constexpr double kSmallest = 1;  // boxes smaller than this (mesh-space units) s
 constexpr double kFarthest = 1e9;
 constexpr double kManyCells = 4096;
 
+// Of a number from 1 up, also an infinite one.
+int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
+
+// 2^-level, for a level that triangles are kept at.
+double scale_of(int level) { return 1 / static_cast<double>(std::uint64_t{1} << level); }
+
+// std::floor, which may be a call, for numbers that an integer holds.
+std::int32_t floored(double x) {
+  const auto towards_zero = static_cast<std::int32_t>(x);
+  return towards_zero - (towards_zero > x ? 1 : 0);
+}
+
 }  // namespace
 
 int TightTriangles::level_of(const Box3& box) {
   const Vec3 size = box.size();
-  return std::ilogb(std::max({size.x, size.y, size.z, kSmallest})) + 1;
+  return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 1;
 }
 
 TightTriangles::FloatBox TightTriangles::rounded_outward(const Box3& box) {
@@ -43,11 +56,9 @@ template <class Visit>
 void TightTriangles::for_each_key(const Box3& box, int level, Visit&& visit) const {
   double count = 1;
   std::array<std::int32_t, 3> low{}, high{};
-  const double scale = std::ldexp(1.0, -level);
+  const double scale = scale_of(level);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto place = [&](double x) {
-      return static_cast<std::int32_t>(std::clamp(std::floor(x * scale), -kFarthest, kFarthest));
-    };
+    const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
     low[axis] = place(box.low[axis]);
     high[axis] = place(box.high[axis]);
     count *= high[axis] - low[axis] + 1.0;

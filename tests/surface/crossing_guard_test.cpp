@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "delaunay/base/rng.h"
+#include "surface/link_sides.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -45,7 +46,7 @@ bool guard_crosses(RefinementDisk& disk, CrossingGuard& guard, const Vec3& p, do
   const RefinementCandidate candidate{.point = p, .ball_radius = 1, .seed = seed};
   disk.grow(candidate, [](std::uint32_t) { return SurfaceDelaunayBall{}; });
   EXPECT_EQ(disk.order_rim(candidate), RefinementDisk::Shape::kDisk);
-  return guard.crosses(p, moved, disk);
+  return guard.crosses(p, {0, 0, 1}, moved, disk);
 }
 
 bool crosses_by_brute_force(SurfaceMesh mesh, const Vec3& p, std::uint32_t seed) {
@@ -216,6 +217,46 @@ TEST(CrossingGuard, TrustsNothingBesideATriangleFarOffTheSurface) {
   EXPECT_GT(crossings, 100);
   EXPECT_LT(crossings, 900);
   EXPECT_GT(missed_by_trust, 10);
+}
+
+// A polygon that goes around once or twice and its star from a point within.
+TEST(CrossingGuard, SeesWhetherAStarMeetsItself) {
+  int crossings = 0, once = 0;
+  for (std::uint64_t trial = 0; trial < 1000; ++trial) {
+    Rng rng(trial);
+    constexpr std::uint32_t kCorners = 7;
+    const double turns = trial % 3 == 0 ? 2 : 1;
+    SurfaceMesh polygon;
+    for (std::uint32_t i = 0; i < kCorners; ++i) {
+      const double angle = 2 * 3.14159265 * turns * (i + 0.8 * rng.uniform()) / kCorners;
+      polygon.points.push_back({std::cos(angle), std::sin(angle), rng.uniform(-1, 1)});
+    }
+    for (std::uint32_t i = 1; i + 1 < kCorners; ++i) polygon.triangles.push_back({0, i, i + 1});
+    link_sides(polygon);
+    polygon.pole_heights.assign(kCorners, 0.01);
+    const Vec3 p{rng.uniform(-0.6, 0.6), rng.uniform(-0.6, 0.6), rng.uniform(-0.5, 0.5)};
+    RefinementMesh mesh(polygon);
+    set_clearances(mesh);
+    RefinementDisk disk(mesh);
+    const RefinementCandidate candidate{.point = p, .ball_radius = 1, .seed = 2};
+    disk.grow(candidate, [](std::uint32_t) { return SurfaceDelaunayBall{{}, 100}; });
+    ASSERT_EQ(disk.order_rim(candidate), RefinementDisk::Shape::kDisk);
+
+    polygon.points.push_back(p);
+    bool expected = false;
+    for (std::uint32_t i = 0; i < kCorners; ++i) {
+      for (std::uint32_t j = 0; j < i; ++j) {
+        expected |= triangle_contact(polygon.points, {kCorners, i, (i + 1) % kCorners},
+                                     {kCorners, j, (j + 1) % kCorners}) != TriangleContact::kNone;
+      }
+    }
+    CrossingGuard guard(mesh, 1);
+    ASSERT_EQ(guard.crosses(p, {0, 0, 1}, 1, disk), expected) << "trial " << trial;
+    crossings += expected ? 1 : 0;
+    once += turns == 1 && !expected ? 1 : 0;
+  }
+  EXPECT_GT(crossings, 300);
+  EXPECT_GT(once, 300);
 }
 
 }  // namespace
