@@ -27,8 +27,8 @@ class KeptMeshes {
   // Components that no mesh has right.
   [[nodiscard]] std::int64_t count_missing() const { return std::count(best_.begin(), best_.end(), Agreement::kNone); }
 
-  // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more
-  // stays than may still be taken.
+  // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be
+  // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
   void give_poles(RepairRound& round);
