@@ -4,10 +4,9 @@
 // only where the distance between the sheets is no larger than its triangles. The guard knows a bound of that distance
 // at every vertex, its clearance: the pole height, but no more than the distance to a vertex that has another one on
 // top of it. Triangles larger than their clearance are tight, and so are those at a suspect vertex, a corner of a
-// triangle that is so thin or steep that the surface lies far from it: others may fold over it. Only these are kept by
-// place, and only stars that would
-// have such triangles are tested against them, exactly. A star that moves far can also fold over the triangles beside
-// it, which is tested where an edge of the rim turns sharp.
+// triangle that is so thin or steep that the surface lies far from it: others may fold over it. Only tight triangles
+// are kept by place, and only stars that would have such triangles are tested against them, exactly. A star that moves
+// far can also fold over the triangles beside it, which is tested where an edge of the rim turns sharp.
 #pragma once
 
 #include <array>

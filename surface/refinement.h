@@ -31,7 +31,7 @@ class Refinement {
   std::vector<float> measure_all(int threads);
   // Refines the coarse triangles, as far as the part allows. Threads prepare it; it runs on this one alone.
   void run(Controls& controls, int threads);
-  // Takes back all that run() did.
+  // Takes back all that run() did, but for what it found suspect.
   void take_back();
 
  private:

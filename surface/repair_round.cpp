@@ -203,17 +203,9 @@ std::vector<std::uint32_t> RepairRound::crossings_at_strays(const MatchedMesh& m
     if (piece == kNoPiece) continue;
     const std::uint32_t component = match.pieces[piece].component;
     if (match.main_piece[component] == piece || match.agreement[component] != Agreement::kWithStrays) continue;
-    const CellIndex cell = raised_.cell_of(mesh.built.mesh.points[v]);
-    for (std::int32_t edge = 0; edge < 12; ++edge) {
-      const auto axis = static_cast<std::size_t>(edge / 4);
-      CellIndex sample = cell;
-      sample[(axis + 1) % 3] += edge & 1;
-      sample[(axis + 2) % 3] += edge >> 1 & 1;
-      const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
-      if (crossing != CrossingIndex::kNone && topology_.crossings[crossing].component == component) {
-        found.push_back(crossing);
-      }
-    }
+    topology_.index.for_each_crossing_of_cell(raised_.cell_of(mesh.built.mesh.points[v]), [&](std::uint32_t crossing) {
+      if (topology_.crossings[crossing].component == component) found.push_back(crossing);
+    });
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

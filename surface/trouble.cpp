@@ -195,17 +195,12 @@ void TroubleFinder::flag_silent_components() {
 
 // A component with a crossing on the edges of an active cell that is not done.
 std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& cell) const {
-  for (std::int32_t edge = 0; edge < 12; ++edge) {
-    const auto axis = static_cast<std::size_t>(edge / 4);
-    CellIndex sample = cell;
-    sample[(axis + 1) % 3] += edge & 1;
-    sample[(axis + 2) % 3] += edge >> 1 & 1;
-    const std::uint32_t crossing = topology_.index.find(sample[0], sample[1], sample[2], static_cast<int>(axis));
-    if (crossing == CrossingIndex::kNone) continue;
+  std::optional<std::uint32_t> open;
+  topology_.index.for_each_crossing_of_cell(cell, [&](std::uint32_t crossing) {
     const std::uint32_t component = topology_.crossings[crossing].component;
-    if (!done_[component]) return component;
-  }
-  return std::nullopt;
+    if (!open && !done_[component]) open = component;
+  });
+  return open;
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ class CrossingIndex {
   // The same for an edge that is known to have a crossing.
   [[nodiscard]] std::uint32_t number(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const;
 
+  // Calls visit(number) for the crossings on the edges of a cell, those along x first, then those along y.
+  template <class Visit>
+  void for_each_crossing_of_cell(const CellIndex& cell, const Visit& visit) const;
+
   // Rows along x in words of 64 samples, for callers that walk all of them; bits beyond the row are zero.
   [[nodiscard]] std::int32_t words_per_row() const { return words_per_row_; }
   [[nodiscard]] std::uint64_t word(std::int32_t w, std::int32_t j, std::int32_t k) const {
@@ -134,6 +138,18 @@ std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);
 
 // --- Implementation -------------------------------------------------------------------------------------------------
+
+template <class Visit>
+void CrossingIndex::for_each_crossing_of_cell(const CellIndex& cell, const Visit& visit) const {
+  for (std::int32_t edge = 0; edge < 12; ++edge) {
+    const auto axis = static_cast<std::size_t>(edge / 4);
+    CellIndex sample = cell;
+    sample[(axis + 1) % 3] += edge & 1;
+    sample[(axis + 2) % 3] += edge >> 1 & 1;
+    const std::uint32_t crossing = find(sample[0], sample[1], sample[2], static_cast<int>(axis));
+    if (crossing != kNone) visit(crossing);
+  }
+}
 
 template <class Visit>
 void CrossingIndex::for_each_active_cell(std::int32_t first_layer, std::int32_t last_layer, const Visit& visit) const {
