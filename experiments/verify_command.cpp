@@ -23,10 +23,26 @@ struct VerifyCommandOptions {
   bool ignore_spacing = false;
 };
 
+Json place_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+
 Json distance_json(const DistanceFigure& figure) {
-  return Json{{"max_voxels", figure.max_voxels},
-              {"mean_voxels", figure.mean_voxels},
-              {"worst", Json::array({figure.worst.x, figure.worst.y, figure.worst.z})}};
+  return Json{
+      {"max_voxels", figure.max_voxels}, {"mean_voxels", figure.mean_voxels}, {"worst", place_json(figure.worst)}};
+}
+
+Json places_json(const std::vector<Vec3>& places) {
+  Json list = Json::array();
+  for (const Vec3& p : places) list.push_back(place_json(p));
+  return list;
+}
+
+// Triangles by their numbers in the mesh, and where they meet.
+Json pairs_json(const std::vector<TrianglePair>& pairs) {
+  Json list = Json::array();
+  for (const TrianglePair& pair : pairs) {
+    list.push_back(Json{{"triangles", {pair.first, pair.second}}, {"position", place_json(pair.position)}});
+  }
+  return list;
 }
 
 Json manifold_json(const ManifoldCheck& check) {
@@ -50,7 +66,8 @@ Json checks_json(const Verification& v) {
               {"orientation",
                {{"pass", v.orientation.pass},
                 {"misoriented_edges", v.orientation.misoriented_edges},
-                {"reversed_components", v.orientation.reversed_components}}},
+                {"reversed_components", v.orientation.reversed_components},
+                {"reversed_at", places_json(v.orientation.reversed_at)}}},
               {"boundary",
                {{"pass", v.boundary.pass},
                 {"boundary_edges", v.boundary.boundary_edges},
@@ -60,7 +77,9 @@ Json checks_json(const Verification& v) {
               {"self_intersection",
                {{"pass", v.self_intersection.pass},
                 {"crossing_pairs", v.self_intersection.found.crossing_pairs},
-                {"touching_pairs", v.self_intersection.found.touching_pairs}}},
+                {"touching_pairs", v.self_intersection.found.touching_pairs},
+                {"first_crossing", pairs_json(v.self_intersection.found.crossing)},
+                {"first_touching", pairs_json(v.self_intersection.found.touching)}}},
               {"residual", {{"pass", v.residual.pass}, {"distance", distance_json(v.residual.distance)}}},
               {"distance",
                {{"pass", v.distance.pass},

@@ -1,6 +1,7 @@
 #include "surface/isosurface_probe.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -12,13 +13,13 @@ namespace deliso {
 
 namespace {
 
-constexpr double kReach = 2.0;        // voxels that a walk along a line goes at most
-constexpr double kFirstStep = 0.25;   // voxels that its first step goes at most
-constexpr double kFar = 0.25;         // voxels beyond which all directions are tried and the crossings asked
-constexpr double kMoved = 1e-4;       // or, beside a grid edge, beyond this
-constexpr double kBesideEdge = 1e-3;  // grid steps to a grid edge
-constexpr double kSurprising = 1.5;   // a first foot farther than this many times what value and slope promise
-constexpr int kRefinements = 4;       // walks along the gradient of the foot found so far
+constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
+constexpr double kFirstStep = 0.25;  // voxels that its first step goes at most
+constexpr double kFar = 0.25;        // voxels beyond which all directions are tried and the crossings asked
+constexpr double kMoved = 1e-4;      // or, beside a grid face or edge, beyond this
+constexpr double kBeside = 1e-3;     // grid steps to a grid face or edge
+constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
+constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
 
 }  // namespace
 
@@ -106,14 +107,42 @@ void IsosurfaceProbe::look_among_crossings(const Vec3& p, FootPoint& best) {
   if (nearest != BoxTree::kNone) best = {points_[nearest], std::sqrt(squared)};
 }
 
-// A crossing moved by a hair: where creases as sharp as knives meet, hardly any line leads back to the surface.
-bool IsosurfaceProbe::is_beside_grid_edge(const Vec3& p) const {
-  int near = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+// The axes across which a grid face is near, as bits.
+unsigned IsosurfaceProbe::faces_beside(const Vec3& p) const {
+  unsigned faces = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
     const double place = p[axis] / step_[axis];
-    near += std::abs(place - std::round(place)) < kBesideEdge ? 1 : 0;
+    if (std::abs(place - std::round(place)) < kBeside) faces |= 1u << axis;
   }
-  return near >= 2;
+  return faces;
+}
+
+// From the nearest point of a grid face along lines within it.
+void IsosurfaceProbe::look_in_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const {
+  Vec3 q = p;
+  q[axis] = step_[axis] * std::round(p[axis] / step_[axis]);
+  const double f = value(q);
+  for (int i = 0; i < 25; ++i) {
+    const int u = i % 5 - 2, v = i / 5 - 2;
+    if (std::max(std::abs(u), std::abs(v)) != 2) continue;
+    Vec3 direction;
+    direction[(axis + 1) % 3] = u;
+    direction[(axis + 2) % 3] = v;
+    const auto found = along_line(q, f, direction / norm(direction), kBeside * kFirstStep, best.distance);
+    if (!found) continue;
+    const double distance = deliso::distance(p, found->point);
+    if (distance < best.distance) best = {found->point, distance};
+  }
+}
+
+// A point of the surface moved by a hair: where creases as sharp as knives meet, in a grid edge or in the saddle of a
+// face, hardly any line leads back to the surface.
+void IsosurfaceProbe::look_beside_creases(const Vec3& p, FootPoint& best) {
+  const unsigned faces = faces_beside(p);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if ((faces >> axis & 1u) != 0) look_in_grid_face(p, axis, best);
+  }
+  if (std::popcount(faces) >= 2) look_among_crossings(p, best);
 }
 
 FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
@@ -149,7 +178,8 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
       if (is_on_shell) try_direction(direction, std::min(promised, best.distance / 3));
     }
   }
-  if (best.distance > kFar || (best.distance > kMoved && is_beside_grid_edge(p))) look_among_crossings(p, best);
+  if (best.distance > kMoved) look_beside_creases(p, best);
+  if (best.distance > kFar) look_among_crossings(p, best);
   // Then along the gradient at the foot, which is the surface's normal there.
   for (int i = 0; i < kRefinements; ++i) {
     if (!try_direction(uphill * gradient(best.point), best.distance)) break;

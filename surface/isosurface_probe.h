@@ -55,7 +55,9 @@ class IsosurfaceProbe {
   [[nodiscard]] Place place(const Vec3& p) const;
   [[nodiscard]] std::optional<FootPoint> along_line(const Vec3& p, double value_at_p, const Vec3& direction,
                                                     double first_step, double reach) const;
-  [[nodiscard]] bool is_beside_grid_edge(const Vec3& p) const;
+  [[nodiscard]] unsigned faces_beside(const Vec3& p) const;
+  void look_in_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const;
+  void look_beside_creases(const Vec3& p, FootPoint& best);
   void look_among_crossings(const Vec3& p, FootPoint& best);
 
   const ScalarGrid& grid_;

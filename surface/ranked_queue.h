@@ -6,11 +6,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "delaunay/base/vec3.h"
@@ -48,36 +50,97 @@ struct QueuedElement {
 };
 
 // Highest rank first; or first in, first out.
+//
+// Ranks that agree in their upper half share a bucket, which becomes a heap when its turn comes: of block_rank() that
+// is a block's part of one power of two, small enough to stay in the cache.
 class RankedQueue {
  public:
   void push(std::uint64_t rank, const QueuedElement& queued) {
-    entries_.push_back({rank, queued.element, queued.generation});
-    std::push_heap(entries_.begin(), entries_.end());
+    Bucket& bucket = bucket_at(static_cast<std::uint32_t>(rank >> 32));
+    bucket.entries.push_back({static_cast<std::uint32_t>(rank), queued});
+    if (bucket.is_heap) std::push_heap(bucket.entries.begin(), bucket.entries.end());
+    ++size_;
   }
   void push_by_age(const QueuedElement& queued) { push(--next_age_, queued); }
 
   std::optional<QueuedElement> pop() {
-    if (entries_.empty()) return std::nullopt;
-    std::pop_heap(entries_.begin(), entries_.end());
-    const Entry top = entries_.back();
-    entries_.pop_back();
-    return QueuedElement{top.element, top.generation};
+    if (size_ == 0) return std::nullopt;
+    --size_;
+    Bucket& bucket = buckets_[places_.front().place];
+    if (!bucket.is_heap) std::make_heap(bucket.entries.begin(), bucket.entries.end());
+    bucket.is_heap = true;
+    std::pop_heap(bucket.entries.begin(), bucket.entries.end());
+    const QueuedElement top = bucket.entries.back().queued;
+    bucket.entries.pop_back();
+    if (bucket.entries.empty()) drop_first_bucket();
+    return top;
   }
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  // What pop() would give next, where that is known without work: something to fetch ahead.
+  [[nodiscard]] std::optional<std::uint32_t> next() const {
+    if (size_ == 0) return std::nullopt;
+    const Bucket& bucket = buckets_[places_.front().place];
+    if (!bucket.is_heap) return std::nullopt;
+    return bucket.entries.front().queued.element;
+  }
 
  private:
   struct Entry {
-    std::uint64_t rank;
-    std::uint32_t element;
-    std::uint32_t generation;
+    std::uint32_t rank;  // the lower half
+    QueuedElement queued;
     // The standard heap pops the greatest. A total order, so that every library pops the same.
     bool operator<(const Entry& b) const {
       if (rank != b.rank) return rank < b.rank;
-      return element != b.element ? element > b.element : generation < b.generation;
+      if (queued.element != b.queued.element) return queued.element > b.queued.element;
+      return queued.generation < b.queued.generation;
     }
   };
+  struct Place {
+    std::uint32_t key = 0;
+    std::uint32_t place = 0;
+    bool operator<(const Place& b) const { return key < b.key; }
+  };
+  struct Bucket {
+    std::uint32_t key = 0;  // the upper half of the ranks
+    bool is_heap = false;
+    std::vector<Entry> entries;  // some, unless the bucket is free
+  };
 
-  std::vector<Entry> entries_;  // a heap
+  Bucket& bucket_at(std::uint32_t key) {
+    std::uint32_t& latest = latest_[key >> 24];
+    if (latest < buckets_.size() && buckets_[latest].key == key && !buckets_[latest].entries.empty()) {
+      return buckets_[latest];
+    }
+    const auto [at, is_new] = place_of_.try_emplace(key, static_cast<std::uint32_t>(buckets_.size()));
+    if (is_new) {
+      if (free_.empty()) {
+        buckets_.emplace_back();
+      } else {
+        at->second = free_.back();
+        free_.pop_back();
+      }
+      buckets_[at->second].key = key;
+      places_.push_back({key, at->second});
+      std::push_heap(places_.begin(), places_.end());
+    }
+    latest = at->second;
+    return buckets_[latest];
+  }
+  void drop_first_bucket() {
+    const auto [key, place] = places_.front();
+    buckets_[place] = {};
+    free_.push_back(place);
+    place_of_.erase(key);
+    std::pop_heap(places_.begin(), places_.end());
+    places_.pop_back();
+  }
+
+  std::vector<Bucket> buckets_;
+  std::vector<std::uint32_t> free_;                            // buckets
+  std::unordered_map<std::uint32_t, std::uint32_t> place_of_;  // of the others, by key
+  std::vector<Place> places_;                                  // theirs, a heap
+  std::array<std::uint32_t, 256> latest_{};                    // the bucket last asked for, by the power of two
+  std::size_t size_ = 0;
   std::uint64_t next_age_ = std::numeric_limits<std::uint64_t>::max();
 };
 

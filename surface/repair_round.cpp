@@ -14,6 +14,15 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
+// A piece of so few vertices may be so flat that it faces against the surface.
+constexpr std::int64_t kSmallPiece = 64;
+
+// Of a component whose main piece has the right topology, and yet not all of it.
+void make_partial(ComponentMatch& match, std::uint32_t component) {
+  if (match.agreement[component] <= Agreement::kPartial) return;
+  match.agreement[component] = Agreement::kPartial;
+  ++match.error;
+}
 
 }  // namespace
 
@@ -140,7 +149,24 @@ std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, cons
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
   if (is_of_use && !is_of_use(mesh)) return std::nullopt;
   find_missing_parts(mesh, facets, threads);
+  find_reversed_pieces(mesh);
   return mesh;
+}
+
+// A speck of which a half is missing may be so flat that, on the whole, it faces the higher values.
+void RepairRound::find_reversed_pieces(MatchedMesh& mesh) const {
+  ComponentMatch& match = mesh.match;
+  const std::vector<Vec3>& points = mesh.built.mesh.points;
+  std::vector<double> flux(match.pieces.size(), 0);  // of the descent direction, through small pieces
+  for (const auto& [a, b, c] : mesh.built.mesh.triangles) {
+    const std::uint32_t piece = match.piece_of[a];
+    if (match.pieces[piece].vertices > kSmallPiece) continue;
+    const Vec3 descent = -restricted_->isosurface().gradient((points[a] + points[b] + points[c]) / 3);
+    flux[piece] += dot(cross(points[b] - points[a], points[c] - points[a]), descent);
+  }
+  for (std::uint32_t c = 0; c < match.main_piece.size(); ++c) {
+    if (match.main_piece[c] != kNoPiece && flux[match.main_piece[c]] < 0) make_partial(match, c);
+  }
 }
 
 // A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
@@ -178,10 +204,7 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
   }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, threads);
   const auto take_account = [&](std::uint32_t component, std::uint32_t covered_by) {
-    Agreement& agreement = match.agreement[component];
-    if (covered_by != kNoTriangle || agreement == Agreement::kPartial) return;
-    agreement = Agreement::kPartial;
-    ++match.error;
+    if (covered_by == kNoTriangle) make_partial(match, component);
   };
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     const std::uint32_t facet = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;

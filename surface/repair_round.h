@@ -84,6 +84,7 @@ class RepairRound {
   std::optional<PairedTriangles> take_triangles();
   std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
+  void find_reversed_pieces(MatchedMesh& mesh) const;
   [[nodiscard]] std::vector<std::uint32_t> crossings_at_strays(const MatchedMesh& mesh) const;
 
   const ScalarGrid& grid_;

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "surface/copy_groups.h"
+#include "surface/group_surroundings.h"
 #include "surface/self_intersection.h"
 
 namespace deliso {
@@ -29,9 +30,11 @@ constexpr int kStubbornSweeps = 2;
 class Separation {
  public:
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
-      : mesh_(mesh), groups_(groups), origin_of_(origin_of), box_(box) {
-    find_fans();
-    for (std::size_t i = 0; i < groups_.size(); ++i) chosen_.push_back(i);
+      : mesh_(mesh), groups_(groups), around_(mesh, groups, origin_of), box_(box) {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      chosen_.push_back(i);
+      for (const Copy& copy : groups_[i]) home_[copy.vertex] = mesh_.points[copy.vertex];
+    }
   }
 
   // Leaves groups out that have no wanted copy and make no difference to one that has.
@@ -58,9 +61,7 @@ class Separation {
     bool had_conflicts = false;  // some copy had, when its turn came
   };
   Sweep sweep_over_groups(bool all, bool is_stubborn);
-  void find_fans();
-  [[nodiscard]] std::vector<std::uint32_t> triangles_around(const CopyGroup& group) const;
-  void find_surroundings(const CopyGroup& group);
+  void find_surroundings(std::size_t group);
   void look_again_at(std::uint32_t copy);
   void move(const Copy& copy, int fewest, bool is_stubborn);
   [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy, bool is_stubborn) const;
@@ -68,10 +69,6 @@ class Separation {
   [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
   [[nodiscard]] int conflicts(std::uint32_t copy);
   [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
-  [[nodiscard]] const std::vector<std::uint32_t>& fan(std::uint32_t v) const { return fans_.at(origin_of_[v].index()); }
-  [[nodiscard]] bool is_around(std::uint32_t t, std::uint32_t v) const {
-    return std::find(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v) != mesh_.triangles[t].end();
-  }
 
   [[nodiscard]] Box3 box_of(std::uint32_t t) const {
     Box3 box;
@@ -85,21 +82,19 @@ class Separation {
 
   SurfaceMesh& mesh_;
   std::span<const CopyGroup> groups_;
-  std::span<const VertexId> origin_of_;
+  GroupSurroundings around_;
   const Box3& box_;
-  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin: triangles around its copies
-  std::vector<Surrounding> surroundings_;                             // triangles around the group at hand
-  std::unordered_map<std::uint32_t, Vec3> home_;                      // where each copy came from
-  std::vector<std::size_t> chosen_;                                   // groups to separate, ascending
+  std::vector<Surrounding> surroundings_;         // triangles around the group at hand
+  std::unordered_map<std::uint32_t, Vec3> home_;  // where each copy came from
+  std::vector<std::size_t> chosen_;               // groups to separate, ascending
 };
 
 // Moves all copies, or those with conflicts.
 Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   Sweep sweep;
   for (const std::size_t i : chosen_) {
-    const CopyGroup& group = groups_[i];
-    find_surroundings(group);
-    for (const Copy& copy : group) {
+    find_surroundings(i);
+    for (const Copy& copy : groups_[i]) {
       const Vec3 before = mesh_.points[copy.vertex];
       const int now = all ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
       if (now == 0) continue;
@@ -111,72 +106,33 @@ Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   return sweep;
 }
 
-// The triangles at all vertices that stand beside a copy.
-void Separation::find_fans() {
-  if (groups_.empty()) return;
-  std::vector<bool> is_copy(mesh_.points.size(), false);
-  for (const CopyGroup& group : groups_) {
-    for (const Copy& copy : group) {
-      is_copy[copy.vertex] = true;
-      home_[copy.vertex] = mesh_.points[copy.vertex];
-    }
-  }
-  for (const auto& triangle : mesh_.triangles) {
-    if (std::none_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return is_copy[v]; })) continue;
-    for (const std::uint32_t v : triangle) fans_[origin_of_[v].index()];
-  }
-  std::vector<bool> has_fan(mesh_.points.size());
-  for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) has_fan[v] = fans_.contains(origin_of_[v].index());
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh_.triangles[t]) {
-      if (!has_fan[v]) continue;
-      std::vector<std::uint32_t>& fan = fans_[origin_of_[v].index()];
-      if (fan.empty() || fan.back() != t) fan.push_back(t);
-    }
-  }
-}
-
 // What is done with a group depends on the vertices of the triangles around it alone, and sweeps that only others need
 // move none of its copies.
 void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
   const auto visit_vertices_around = [&](std::size_t group, const auto& visit) {
-    for (const std::uint32_t t : triangles_around(groups_[group])) {
+    for (const std::uint32_t t : around_.triangles(group)) {
       for (const std::uint32_t v : mesh_.triangles[t]) visit(v);
     }
   };
   chosen_ = groups_that_matter(groups_, visit_vertices_around, is_wanted);
 }
 
-// Those at the vertices of the triangles at its copies, ascending.
-std::vector<std::uint32_t> Separation::triangles_around(const CopyGroup& group) const {
-  std::vector<std::uint32_t> triangles;
-  for (const Copy& copy : group) {
-    for (const std::uint32_t t : fan(copy.vertex)) {
-      if (!is_around(t, copy.vertex)) continue;
-      for (const std::uint32_t v : mesh_.triangles[t]) triangles.insert(triangles.end(), fan(v).begin(), fan(v).end());
-    }
-  }
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  return triangles;
-}
-
-void Separation::find_surroundings(const CopyGroup& group) {
+void Separation::find_surroundings(std::size_t group) {
   surroundings_.clear();
-  for (const std::uint32_t t : triangles_around(group)) surroundings_.push_back({t, box_of(t), has_area_at(t)});
+  for (const std::uint32_t t : around_.triangles(group)) surroundings_.push_back({t, box_of(t), has_area_at(t)});
 }
 
 // A copy may have moved, and the triangles at it with it.
 void Separation::look_again_at(std::uint32_t copy) {
   for (Surrounding& t : surroundings_) {
-    if (is_around(t.triangle, copy)) t = {t.triangle, box_of(t.triangle), has_area_at(t.triangle)};
+    if (around_.is_at(t.triangle, copy)) t = {t.triangle, box_of(t.triangle), has_area_at(t.triangle)};
   }
 }
 
 double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
   double shortest = box_.diagonal();
-  for (const std::uint32_t t : fan(copy)) {
-    if (!is_around(t, copy)) continue;
+  for (const std::uint32_t t : around_.fan(copy)) {
+    if (!around_.is_at(t, copy)) continue;
     for (const std::uint32_t v : mesh_.triangles[t]) {
       const double length = distance(home, mesh_.points[v]);
       if (v != copy && length > 2 * kDistances.front()) shortest = std::min(shortest, length);
@@ -240,8 +196,8 @@ Vec3 Separation::within_box_face(const Vec3& at, Vec3 d) const {
 std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const {
   std::vector<Vec3> normals;
   Vec3 sum;
-  for (const std::uint32_t t : fan(copy)) {
-    if (!is_around(t, copy)) continue;
+  for (const std::uint32_t t : around_.fan(copy)) {
+    if (!around_.is_at(t, copy)) continue;
     const auto& v = mesh_.triangles[t];
     const Vec3 n = cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]);
     if (!(norm(n) > 0)) continue;
@@ -265,8 +221,8 @@ std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const
 int Separation::conflicts(std::uint32_t copy) {
   look_again_at(copy);
   int count = 0;
-  for (const std::uint32_t s : fan(copy)) {
-    if (!is_around(s, copy)) continue;
+  for (const std::uint32_t s : around_.fan(copy)) {
+    if (!around_.is_at(s, copy)) continue;
     if (!has_area_at(s)) {
       count += kCrossingWeight;
       continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/stopwatch.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kOnBox = 1e-3;        // voxels that a point of a boundary edge may be off its face
 constexpr double kMaxResidual = 1e-3;  // voxels that a vertex may be off the isosurface
 constexpr double kMaxDistance = 1.0;   // voxels that the isosurface may be off the mesh
+constexpr std::size_t kMostPlaces = 10;
 
 // Triangles with the same three vertices as an earlier one, whatever their order.
 std::int64_t count_duplicates(const TriangleMesh& mesh) {
@@ -44,8 +46,20 @@ ManifoldCheck check_manifold(const TriangleMesh& mesh, const MeshTopology& topol
   return check;
 }
 
+// A vertex of each of the first components with negative flux.
+std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& topology, std::vector<double> flux) {
+  std::vector<Vec3> places;
+  for (const auto& triangle : mesh.triangles) {
+    double& of_component = flux[topology.component_of_vertex[triangle[0]]];
+    if (of_component >= 0 || places.size() == kMostPlaces) continue;
+    places.push_back(mesh.points[triangle[0]]);
+    of_component = 0;  // told
+  }
+  return places;
+}
+
 // `voxels` is the mesh in voxel space.
-OrientationCheck check_orientation(const TriangleMesh& voxels, const MeshTopology& topology,
+OrientationCheck check_orientation(const TriangleMesh& mesh, const TriangleMesh& voxels, const MeshTopology& topology,
                                    const IsosurfaceProbe& probe) {
   OrientationCheck check;
   check.misoriented_edges = topology.misoriented_edges;
@@ -57,6 +71,7 @@ OrientationCheck check_orientation(const TriangleMesh& voxels, const MeshTopolog
   }
   check.reversed_components = std::count_if(flux.begin(), flux.end(), [](double f) { return f < 0; });
   check.pass = topology.is_oriented() && check.reversed_components == 0;
+  check.reversed_at = reversed_places(mesh, topology, std::move(flux));
   return check;
 }
 
@@ -197,13 +212,13 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   for (Vec3& p : voxels.points) p = probe.to_voxels(p);
 
   // Combinatorics.
-  v.self_intersection.found = self_intersections(mesh);
+  v.self_intersection.found = self_intersections(mesh, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
   {
     const MeshConnectivity connectivity(mesh);
     const MeshTopology topology = mesh_topology(connectivity);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
-    v.orientation = check_orientation(voxels, topology, probe);
+    v.orientation = check_orientation(mesh, voxels, topology, probe);
     v.boundary = check_boundary(voxels, connectivity, probe.box());
   }
   v.topology = certify(mesh, truth);

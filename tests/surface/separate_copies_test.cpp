@@ -49,6 +49,19 @@ TEST(SeparateCopies, TetrahedraThatShareAnEdgeNoLongerTouch) {
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
 
+// A pyramid whose apex pierces a triangle that it has nothing to do with, unless it starts from its other home.
+TEST(SeparateCopies, AnotherHomeIsTakenWhereOneIsBeyondAForeignTriangle) {
+  SurfaceMesh mesh;
+  mesh.points = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-3, -3, 0.5}, {3, -3, 0.5}, {0, 3, 0.5}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 6, 7}};
+  ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 4);
+  std::vector<VertexId> origin;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) origin.emplace_back(v);
+  separate_copies(mesh, std::vector<CopyGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox);
+  EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
+  EXPECT_NEAR(mesh.points[0].z, 0.2, 1e-3);
+}
+
 TEST(SeparateCopies, OnABoxFaceCopiesStayOnIt) {
   SurfaceMesh mesh;
   append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, 1, 0}, {-9, 2, 1}, {-9, 1, 1}});

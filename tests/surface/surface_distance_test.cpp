@@ -145,6 +145,22 @@ TEST(IsosurfaceProbe, StaysOnTheSurfaceAtCreases) {
   EXPECT_LT(largest, 1e-10);
 }
 
+// Two sheets that meet in the saddle of a grid face, as sharp as a knife: away from the face the values rise to both
+// sides, so of four quarters around the saddle two hold nothing, and no line from there leads into the wedges.
+TEST(IsosurfaceProbe, LeadsBackToTheSaddleOfAFace) {
+  const ScalarGrid grid({2, 2, 3}, std::vector<double>{131, 128, 129, 131, 130, 127, 128, 130, 131, 128, 129, 131});
+  const double isovalue = 128.8;
+  const IsosurfaceTopology topology = exact_topology(grid, isovalue);
+  IsosurfaceProbe probe(grid, isovalue, topology.crossings);
+  const Vec3 saddle{0.4, 0.6, 1};
+  ASSERT_LT(std::abs(probe.value(saddle)), 1e-12);
+  for (const double side : {1.0, -1.0}) {
+    const Vec3 p = saddle + Vec3{1e-4 * side, 1.4e-4 * side, -1e-5};
+    ASSERT_GT(probe.value(p), 0);
+    EXPECT_LT(probe.foot_point(p).distance, 1.8e-4) << side;
+  }
+}
+
 TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
   // Great-circle edges of an octahedron inscribed in a ball: the face centres are farthest in.
   const double radius = 6.03;

@@ -91,6 +91,8 @@ TEST(Verification, SaysWhatIsWrong) {
   Verification v = verify_mesh(reversed, grid, 0);
   EXPECT_FALSE(v.proven || v.orientation.pass || v.normals.pass);
   EXPECT_EQ(v.orientation.reversed_components, 1);
+  ASSERT_EQ(v.orientation.reversed_at.size(), 1u);
+  EXPECT_NE(std::find(mesh.points.begin(), mesh.points.end(), v.orientation.reversed_at[0]), mesh.points.end());
   EXPECT_EQ(v.failures.size(), 1u);
 
   TriangleMesh displaced = mesh;
