@@ -58,7 +58,6 @@ Json repair_json(const RepairStats& repair) {
               {"components_before", repair.components_before},
               {"components_mixed", repair.components_mixed},
               {"components_stray", repair.components_stray},
-              {"components_partial", repair.components_partial},
               {"components_polygonized", repair.components_polygonized},
               {"dents_removed", repair.dents_removed},
               {"vertices_before", repair.vertices_before},

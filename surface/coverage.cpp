@@ -20,7 +20,9 @@ namespace {
 constexpr double kNear = 0.8;  // mesh-space units
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
-constexpr double kFewRadii = 0.5;        // the same where little is at stake
+// How far a sample may be left out by the mesh: crossings that were not inserted because it is near, within
+// stage1.size_bound_voxels, are less than a voxel off then.
+constexpr double kSampleReach = 0.65;
 constexpr int kLongestWalk = 16;         // triangles
 constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
 // Crossings are asked about brick by brick of so many samples.
@@ -32,15 +34,10 @@ Box3 box_of(const SurfaceMesh& mesh, std::size_t t) {
   return box;
 }
 
-// Whether a triangle's corners lie within `length` of each other and its circumradius is below twice that; may say no.
-bool is_small(const SurfaceMesh& mesh, std::uint32_t t, double length) {
+double squared_longest_edge(const SurfaceMesh& mesh, std::uint32_t t) {
   const auto& v = mesh.triangles[t];
-  const Vec3 ab = mesh.points[v[1]] - mesh.points[v[0]];
-  const Vec3 ac = mesh.points[v[2]] - mesh.points[v[0]];
-  const std::array<double, 3> squared = {squared_norm(ab), squared_norm(ac), squared_norm(ac - ab)};
-  if (*std::max_element(squared.begin(), squared.end()) > length * length) return false;
-  // The circumradius is the product of the sides over four times the area.
-  return squared[0] * squared[1] * squared[2] < 3.9 * 4 * length * length * squared_norm(cross(ab, ac));
+  const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+  return std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
 }
 
 // The blocks of space near some points: a cheap way to see that a small triangle is far from all of them.
@@ -90,35 +87,19 @@ class NearBlocks {
   std::vector<bool> is_near_;
 };
 
-double circumradius(const SurfaceMesh& mesh, std::uint32_t t) {
+// The circumradius or, of a sliver, whose circumradius tells nothing, the longest edge.
+double extent(const SurfaceMesh& mesh, std::uint32_t t) {
   const auto& v = mesh.triangles[t];
-  return circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
+  const double radius = circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
+  const double edge = std::sqrt(squared_longest_edge(mesh, t));
+  return radius < edge ? radius : edge;
 }
 
-double longest_edge(const SurfaceMesh& mesh, std::uint32_t t) {
-  const auto& v = mesh.triangles[t];
-  const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-  return std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-}
-
-// How far a triangle covers points: a sliver, whose circumradius tells nothing, by its longest edge.
-double reach_of(const SurfaceMesh& mesh, std::uint32_t t) {
-  const double radius = circumradius(mesh, t), edge = longest_edge(mesh, t);
-  return std::max(kNear, kFewRadii * (radius < edge ? radius : edge));
-}
-
-Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t, double reach) {
-  Box3 around;
-  for (const std::uint32_t q : mesh.triangles[t]) {
-    around.extend(mesh.points[q] - Vec3{reach, reach, reach});
-    around.extend(mesh.points[q] + Vec3{reach, reach, reach});
-  }
-  return around;
-}
-
-bool is_within(double reach, const Vec3& p, const SurfaceMesh& mesh, std::uint32_t t) {
-  const auto& v = mesh.triangles[t];
-  return squared_distance_to_triangle(p, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= reach * reach;
+// All that a triangle covers lies in it.
+Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
+  constexpr Vec3 kReach{kSampleReach, kSampleReach, kSampleReach};
+  const Box3 box = box_of(mesh, t);
+  return {box.low - kReach, box.high + kReach};
 }
 
 }  // namespace
@@ -148,7 +129,7 @@ bool MeshCover::covers(const Vec3& p, std::uint32_t& guess) const {
     guess = nearest;
     return true;
   }
-  const double reach = kRadiusFraction * circumradius(mesh_, nearest);
+  const double reach = kRadiusFraction * extent(mesh_, nearest);
   return squared <= reach * reach;
 }
 
@@ -168,8 +149,10 @@ std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uin
 }
 
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle) {
-  const double reach = reach_of(mesh, triangle);
-  return box_around(mesh, triangle, reach).contains(p) && is_within(reach, p, mesh, triangle);
+  if (!box_around(mesh, triangle).contains(p)) return false;
+  const auto& v = mesh.triangles[triangle];
+  return squared_distance_to_triangle(p, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <=
+         kSampleReach * kSampleReach;
 }
 
 std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
@@ -183,13 +166,13 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
   const auto append_if_near = [&](std::size_t i, std::vector<std::uint32_t>& near) {
     const auto t = static_cast<std::uint32_t>(i);
     // A corner far from all points tells of a small triangle: sides and reach together stay within a block.
-    if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && is_small(mesh, t, blocks.reach() / 3)) return;
+    const double small = blocks.reach() - 2 * kSampleReach;
+    if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && squared_longest_edge(mesh, t) <= small * small) return;
     if (takes(t)) near.push_back(t);
   };
   for (const std::uint32_t t : collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, append_if_near)) {
-    const double reach = reach_of(mesh, t);
-    tree.for_each_meeting(box_around(mesh, t, reach), [&](std::uint32_t i) {
-      if (covering[i] == kNoTriangle && is_within(reach, points[i], mesh, t)) covering[i] = t;
+    tree.for_each_meeting(box_around(mesh, t), [&](std::uint32_t i) {
+      if (covering[i] == kNoTriangle && is_covered_by(points[i], mesh, t)) covering[i] = t;
     });
   }
   return covering;

@@ -22,9 +22,10 @@ class MeshCover {
   // Keeps a reference to the mesh. Many questions are answered faster when its triangles have neighbours.
   explicit MeshCover(const SurfaceMesh& mesh, int threads = 1);
 
-  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one: a coarse
-  // triangle may well be that far off the surface that it approximates. The search begins at the triangle `guess`,
-  // which becomes the one that covers p, if any: a good guess for a point nearby. The answer does not depend on it.
+  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (of a
+  // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. The search
+  // begins at the triangle `guess`, which becomes the one that covers p, if any: a good guess for a point nearby. The
+  // answer does not depend on it.
   [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const;
 
  private:
@@ -36,8 +37,7 @@ class MeshCover {
   BoxTree tree_;
 };
 
-// Whether a point lies within 0.8 mesh-space units of a triangle, or within half its circumradius or, of a sliver, half
-// its longest edge.
+// Whether a sample lies within 0.65 mesh-space units of a triangle.
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);
 // For each of a few points, on several threads: the first triangle t that covers it so and for which takes(t) holds;
 // kNoTriangle when there is none.

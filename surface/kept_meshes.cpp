@@ -156,7 +156,6 @@ void KeptMeshes::append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box
       if (!left[c] || !may_give(*kept_[i].mesh, c)) continue;
       left[c] = false;
       wanted[i][match.main_piece[c]] = true;
-      stats.components_partial += match.agreement[c] == Agreement::kPartial ? 1 : 0;
       stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
       stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }

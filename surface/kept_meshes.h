@@ -24,16 +24,13 @@ class KeptMeshes {
   }
   // Whether nothing would be left to do with this mesh.
   [[nodiscard]] bool would_be_done(const MatchedMesh& mesh) const;
-  // Components that no mesh has right.
-  [[nodiscard]] std::int64_t count_missing() const { return std::count(best_.begin(), best_.end(), Agreement::kNone); }
-
   // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be
   // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
   void give_poles(RepairRound& round);
-  // Appends every component as the latest mesh that agrees with it at its best has it, and notes what is `left`. Meshes
-  // are of no more use then.
+  // Appends every component as the latest mesh that agrees with it at its best has it, unless none has all of it, and
+  // notes what is `left`. Meshes are of no more use then.
   void append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats);
 
  private:
@@ -44,7 +41,7 @@ class KeptMeshes {
   void drop_outdone();
   void cut_down(KeptMesh& kept, const std::vector<bool>& gives) const;
   [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
-    return best_[component] != Agreement::kNone && mesh.match.agreement[component] >= best_[component];
+    return best_[component] > Agreement::kPartial && mesh.match.agreement[component] >= best_[component];
   }
 
   std::vector<bool> done_;       // of each exact component

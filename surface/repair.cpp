@@ -9,6 +9,7 @@
 
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
+#include "surface/crossing_pieces.h"
 #include "surface/dents.h"
 #include "surface/kept_meshes.h"
 #include "surface/mesh_differences.h"
@@ -30,8 +31,6 @@ namespace {
 // is more than kFewPlaces.
 constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
-// A surface of so many crossings is polygonized as a whole when one of its components has to be.
-constexpr std::size_t kSmallSurface = 100000;
 
 class Repair {
  public:
@@ -76,6 +75,7 @@ class Repair {
   RepairSamples samples_;              // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   KeptMeshes kept_;
+  std::vector<bool> is_polygonized_;  // of each component, at last
   MeshDifferences differences_;
 };
 
@@ -106,6 +106,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   round_.reset();
   SurfaceMesh kept = assemble_kept();
   stats_.dents_removed = remove_dents(kept, isosurface_);
+  stats_.components_polygonized += polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_);
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
 }
@@ -199,16 +200,11 @@ void Repair::try_signs(Controls& controls) {
 // dropped.
 SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
-  std::vector<bool> left(topology_.components.size(), true);
-  stats_.components_polygonized = kept_.count_missing();
-  // Pieces of two meshes may cross where components come near each other; a small surface is polygonized as a whole.
-  if (stats_.components_polygonized > 0 && topology_.crossings.size() <= kSmallSurface) {
-    stats_.components_polygonized = static_cast<std::int64_t>(left.size());
-  } else {
-    kept_.append_to(kept, left, isosurface_.box(), threads_, stats_);
-  }
+  is_polygonized_.assign(topology_.components.size(), true);
+  kept_.append_to(kept, is_polygonized_, isosurface_.box(), threads_, stats_);
+  stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   if (stats_.components_polygonized == 0) return kept;
-  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, left, kept);
+  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, is_polygonized_, kept);
   return kept;
 }
 

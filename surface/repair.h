@@ -6,7 +6,8 @@
 // over single disputed signs where a few handles are wrong (sign_trials.h). A component is done when
 // its main piece has its topology, holds no vertex of another component and lies near all of it. At the end each
 // component is taken from the latest mesh that has it at its best; one that no mesh has right is meshed by marching
-// cubes, whose topology is exact, and reported. Dents (dents.h) are removed from what that makes.
+// cubes, whose topology is exact, and reported. Dents (dents.h) are removed from what that makes; components whose
+// triangles cross others are meshed by marching cubes, too, until none do.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,6 @@ struct RepairStats : StageStats {
   std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
   std::int64_t components_mixed = 0;        // taken with vertices of another component at last
   std::int64_t components_stray = 0;        // done after stray pieces were dropped
-  std::int64_t components_partial = 0;      // right in topology, though a part of the surface is far from the piece
   std::int64_t components_polygonized = 0;  // taken from marching cubes at last
   std::int64_t dents_removed = 0;           // vertices taken out of the mesh at last (dents.h)
   std::int64_t vertices_before = 0;         // of the mesh of stage 1

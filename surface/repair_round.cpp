@@ -14,8 +14,6 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
-// A piece of so few vertices may be so flat that it faces against the surface.
-constexpr std::int64_t kSmallPiece = 64;
 
 // Of a component whose main piece has the right topology, and yet not all of it.
 void make_partial(ComponentMatch& match, std::uint32_t component) {
@@ -31,6 +29,7 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
     : grid_(grid),
       topology_(topology),
       raised_(raised),
+      specks_(grid, topology, restricted->isosurface().step()),
       threads_(threads),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
@@ -149,24 +148,8 @@ std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, cons
   mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
   if (is_of_use && !is_of_use(mesh)) return std::nullopt;
   find_missing_parts(mesh, facets, threads);
-  find_reversed_pieces(mesh);
+  for (const std::uint32_t component : specks_.missed_by(mesh)) make_partial(mesh.match, component);
   return mesh;
-}
-
-// A speck of which a half is missing may be so flat that, on the whole, it faces the higher values.
-void RepairRound::find_reversed_pieces(MatchedMesh& mesh) const {
-  ComponentMatch& match = mesh.match;
-  const std::vector<Vec3>& points = mesh.built.mesh.points;
-  std::vector<double> flux(match.pieces.size(), 0);  // of the descent direction, through small pieces
-  for (const auto& [a, b, c] : mesh.built.mesh.triangles) {
-    const std::uint32_t piece = match.piece_of[a];
-    if (match.pieces[piece].vertices > kSmallPiece) continue;
-    const Vec3 descent = -restricted_->isosurface().gradient((points[a] + points[b] + points[c]) / 3);
-    flux[piece] += dot(cross(points[b] - points[a], points[c] - points[a]), descent);
-  }
-  for (std::uint32_t c = 0; c < match.main_piece.size(); ++c) {
-    if (match.main_piece[c] != kNoPiece && flux[match.main_piece[c]] < 0) make_partial(match, c);
-  }
 }
 
 // A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out

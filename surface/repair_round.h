@@ -21,6 +21,7 @@
 #include "surface/raised_cells.h"
 #include "surface/sign_rules.h"
 #include "surface/signed_delaunay.h"
+#include "surface/specks.h"
 #include "surface/trouble.h"
 #include "volume/exact_topology.h"
 
@@ -84,12 +85,12 @@ class RepairRound {
   std::optional<PairedTriangles> take_triangles();
   std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
-  void find_reversed_pieces(MatchedMesh& mesh) const;
   [[nodiscard]] std::vector<std::uint32_t> crossings_at_strays(const MatchedMesh& mesh) const;
 
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& raised_;
+  Specks specks_;
   int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;

@@ -188,8 +188,10 @@ void TroubleFinder::flag_silent_components() {
   }
   const std::vector<bool> had_saddle = has_sign_;
   for (const EdgeCrossing& crossing : topology_.crossings) {
-    if (!had_saddle[crossing.component])
-      flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component, Tells::kTopology);
+    if (had_saddle[crossing.component]) continue;
+    const bool is_partial = mesh_.match.agreement[crossing.component] == Agreement::kPartial;
+    flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component,
+         is_partial ? Tells::kMissingPart : Tells::kTopology);
   }
 }
 

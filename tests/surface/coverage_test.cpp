@@ -70,11 +70,12 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
       const double d = distance_to(mesh, t, points[i]);
       if (d < nearest) triangle = t;
       nearest = std::min(nearest, d);
-      const bool is_covered = d <= std::max(0.8, 0.5 * std::min(radius_of(mesh, t), longest_edge_of(mesh, t)));
+      const bool is_covered = d <= 0.65;
       EXPECT_EQ(is_covered_by(points[i], mesh, t), is_covered);
       if (is_covered && takes(t) && by_some == kNoTriangle) by_some = t;
     }
-    const bool expected = nearest < 0.8 || nearest <= 0.3 * radius_of(mesh, triangle);
+    const bool expected =
+        nearest < 0.8 || nearest <= 0.3 * std::min(radius_of(mesh, triangle), longest_edge_of(mesh, triangle));
     EXPECT_EQ(cover.covers(points[i], guess), expected);
     EXPECT_EQ(few[i], by_some);
     covered += expected ? 1 : 0;

@@ -85,7 +85,7 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       for (std::size_t c = 0; c < components; ++c) helps = helps || agreement[c] > best[c];
       for (std::size_t c = 0; c < components && helps; ++c) {
         best[c] = std::max(best[c], std::min(agreement[c], Agreement::kWithStrays));
-        if (agreement[c] != Agreement::kNone && agreement[c] >= best[c]) giver[c] = i;
+        if (agreement[c] > Agreement::kPartial && agreement[c] >= best[c]) giver[c] = i;
       }
       kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[i]), attempts.signs[i]);
     }

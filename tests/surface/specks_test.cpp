@@ -1,0 +1,64 @@
+#include "surface/specks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/component_match.h"
+#include "surface/link_sides.h"
+#include "volume/marching_cubes.h"
+
+namespace deliso {
+namespace {
+
+// Two samples that stand out, one of them less than the other, and a third beside the second.
+ScalarGrid two_specks() {
+  std::vector<double> samples(9 * 5 * 5, 0);
+  const auto at = [&](std::size_t x, std::size_t y, std::size_t z) -> double& { return samples[x + 9 * (y + 5 * z)]; };
+  at(2, 2, 2) = 1.1;
+  at(6, 2, 2) = 3;
+  at(6, 3, 2) = 3;
+  return {{9, 5, 5}, samples};
+}
+
+MatchedMesh matched(const TriangleMesh& mesh, const IsosurfaceTopology& topology) {
+  MatchedMesh matched;
+  matched.built.mesh.points = mesh.points;
+  matched.built.mesh.triangles = mesh.triangles;
+  link_sides(matched.built.mesh);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) matched.component.push_back(mesh.points[v].x < 4 ? 0 : 1);
+  matched.match = match_components(matched.built.mesh, matched.component, topology.components);
+  return matched;
+}
+
+TEST(Specks, AreMissedWhereACrossingIsFarForTheirSize) {
+  const ScalarGrid grid = two_specks();
+  const IsosurfaceTopology topology = exact_topology(grid, 1);
+  ASSERT_EQ(topology.components.size(), 2u);
+  const MarchingCubesMesh cubes = marching_cubes(grid, 1);
+  const TriangleMesh mesh{cubes.points, cubes.triangles};
+  const Specks specks(grid, topology, {1, 1, 1});
+  EXPECT_TRUE(specks.missed_by(matched(mesh, topology)).empty());
+
+  // One corner of the small octahedron is drawn in to the middle: nearer than a tenth of a voxel, but half of it.
+  TriangleMesh flat = mesh;
+  const auto top = std::max_element(flat.points.begin(), flat.points.end(), [](const Vec3& a, const Vec3& b) {
+    return (a.x < 4 ? a.z : -1) < (b.x < 4 ? b.z : -1);
+  });
+  ASSERT_LT(top->z, 2.1);
+  top->z = 2;
+  EXPECT_EQ(specks.missed_by(matched(flat, topology)), std::vector<std::uint32_t>{0});
+
+  // As far as that the larger one may be off.
+  TriangleMesh larger = mesh;
+  for (Vec3& p : larger.points) p.z += p.x > 4 && p.z > 2.1 ? -0.1 : 0;
+  EXPECT_TRUE(specks.missed_by(matched(larger, topology)).empty());
+
+  // A speck without a piece is missed altogether.
+  TriangleMesh none = mesh;
+  std::erase_if(none.triangles, [&](const auto& t) { return none.points[t[0]].x > 4; });
+  EXPECT_EQ(specks.missed_by(matched(none, topology)), std::vector<std::uint32_t>{1});
+}
+
+}  // namespace
+}  // namespace deliso
