@@ -143,6 +143,10 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   bound_clearances(mesh, std::move(reached));
 }
 
+void distrust_all(RefinementMesh& mesh) {
+  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = 0;
+}
+
 CrossingGuard::CrossingGuard(RefinementMesh& mesh, int threads) : mesh_(mesh) {
   for (const RefinementMesh::Triangle& t : mesh.triangles) {
     if (t.has_hit()) continue;

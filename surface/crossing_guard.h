@@ -25,6 +25,8 @@ namespace deliso {
 void set_clearances(RefinementMesh& mesh);
 // Takes clearances away near places where triangles came to meet.
 void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
+// Takes all clearances away: then every star is tested against all triangles around it, and none can come to cross.
+void distrust_all(RefinementMesh& mesh);
 
 class CrossingGuard {
  public:

@@ -41,7 +41,7 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
 }
 
 // Refines a part; where more triangles came to meet than before, takes all back and does it again, with no trust around
-// them. What has the fewest such pairs stays.
+// them, and at last with none at all. What has the fewest such pairs stays.
 void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, int threads,
                  RefineStats& stats) {
   const auto meeting = [&] {
@@ -74,8 +74,12 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     refinement.take_back();
     if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
-    add_places(found, suspects);
-    distrust(part.mesh, suspects);
+    if (restarts + 1 == kMostRestarts) {
+      distrust_all(part.mesh);
+    } else {
+      add_places(found, suspects);
+      distrust(part.mesh, suspects);
+    }
   }
   part.mesh = std::move(least);
 }

@@ -109,6 +109,24 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
   }
 }
 
+TEST(RefineRestart, WithNoTrustAtAllNothingComesToMeet) {
+  for (const Vec3& place : kPlaces) {
+    const auto [scene, mesh] = crossed_hill_at(place);
+    RefinementPart part;
+    part.mesh = RefinementMesh(mesh);
+    set_clearances(part.mesh);
+    distrust_all(part.mesh);
+    const RefineOptions options = fine_options();
+    RefineStats stats;
+    Controls controls(BudgetParameters{}, nullptr, {});
+    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
+    Refinement(part, *scene->isosurface, options, stats).run(controls, 1);
+    EXPECT_GT(stats.insertions, 30);
+    const SelfIntersections found = meeting_pairs(part.mesh, 1);
+    EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
+  }
+}
+
 TEST(RefineRestart, WhatWasRenewedHoldsAllPairsThatCameToMeet) {
   for (const Vec3& place : kPlaces) {
     const auto [scene, mesh] = crossed_hill_at(place);
