@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"delaunay/base", {}},
     {"delaunay", {"delaunay/base"}},
-    {"volume", {"delaunay/base"}},
+    {"volume", {"delaunay/base", "delaunay"}},
     {"raycast", {"delaunay/base", "volume"}},
     {"surface", {"delaunay/base", "delaunay", "volume", "raycast"}},
     {"experiments", {"delaunay/base", "delaunay", "volume", "raycast", "surface"}},
