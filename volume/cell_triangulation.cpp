@@ -39,14 +39,14 @@ const MarchingCubesPatch& CellTriangulation::triangulate(const CellIndex& cell, 
   patch_.points.clear();
   patch_.triangles.clear();
   add_crossings(pattern);
-  corners_ = grid_.cell(cell[0], cell[1], cell[2]);
   if (is_simple(pattern)) {
-    add_disk(simple_loop(pattern));
+    add_disk(simple_loop(pattern));  // chords do: no inner point
     return patch_;
   }
+  corners_ = grid_.cell(cell[0], cell[1], cell[2]);
   find_pieces(pattern);
-  draw(nullptr);
-  if (!is_embedded(patch_)) mend();
+  const auto add_ring_of = [this](const Piece& tunnel) { add_ring(tunnel.loop, tunnel.other); };
+  if (!draw(add_ring_of) && !draw_otherwise()) draw(add_ring_of);
   vertex_count_ += patch_.points.size() - patch_.crossing_count;
   return patch_;
 }
@@ -93,90 +93,18 @@ void CellTriangulation::find_pieces(std::uint8_t pattern) {
   }
 }
 
-// Draws all pieces anew, tunnels as a ring, or as a band.
-void CellTriangulation::draw(const Band* band) {
+bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel) {
   patch_.vertices.resize(patch_.crossing_count);
   patch_.points.resize(patch_.crossing_count);
   patch_.triangles.clear();
   for (const Piece& piece : pieces_) {
-    if (piece.other.size == 0) {
+    if (piece.is_disk()) {
       add_disk(piece.loop);
-    } else if (band == nullptr) {
-      add_ring(piece.loop, piece.other);
     } else {
-      add_band(piece.loop, piece.other, *band);
+      add_tunnel(piece);
     }
   }
-}
-
-int g_stat[16]; int g_fail;
-void CellTriangulation::mend() {
-  for (const Piece& piece : pieces_) {
-    if (piece.other.size == 0) continue;
-    for (const Band& band : bands(piece)) {
-      draw(&band);
-      if (is_embedded(patch_)) {
-        int a = std::max(band.depths[0], band.depths[1]) > 0 ? int(-std::log2(std::max(band.depths[0], band.depths[1])))/4 : 0;
-        g_stat[(a == 0 ? 0 : (a-1)*3+ (band.depths[0]>0)+2*(band.depths[1]>0))]++;
-        return;
-      }
-    }
-  }
-  g_fail++;
-  draw(nullptr);
-}
-
-std::vector<CellTriangulation::Band> CellTriangulation::bands(const Piece& tunnel) const {
-  std::vector<Band> result;
-  CellLoop second = tunnel.other;
-  std::reverse(second.edges.begin(), second.edges.begin() + static_cast<std::ptrdiff_t>(second.size));
-  const auto add = [&](double a, double b) {
-    for (const LoopBand& band : loop_bands(tunnel.loop.size, second.size, [&](std::size_t i, std::size_t j) {
-           if (a == 0 && b == 0 && have_common_face(tunnel.loop.edges[i], second.edges[j]))
-             return std::numeric_limits<double>::infinity();
-           return squared_distance(drawn_in(tunnel.loop.edges[i], a), drawn_in(second.edges[j], b));
-         })) {
-      result.push_back({{a, b}, band});
-    }
-  };
-  add(0, 0);
-  for (double d = 0x1p-11; d > 0x1p-25; d /= 16) {
-    add(0, d);
-    add(d, 0);
-    add(d, d);
-  }
-  return result;
-}
-
-void CellTriangulation::add_band(const CellLoop& first, const CellLoop& second, const Band& band) {
-  std::array<std::array<std::uint32_t, kCellEdges>, 2> rims{};
-  const std::array<const CellLoop*, 2> loops{&first, &second};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const std::size_t n = loops[side]->size;
-    const double depth = band.depths[side];
-    const auto& edges = loops[side]->edges;
-    for (std::size_t k = 0; k < n; ++k) {
-      rims[side][k] = depth == 0 ? vertex(edges[k]) : add_point_at(drawn_in(edges[k], depth));
-    }
-    if (depth == 0) continue;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t l = (k + 1) % n;
-      add_triangle(vertex(edges[k]), vertex(edges[l]), rims[side][k]);
-      add_triangle(vertex(edges[l]), rims[side][l], rims[side][k]);
-    }
-  }
-  const std::size_t n = first.size;
-  const std::size_t m = second.size;
-  std::reverse(rims[1].begin(), rims[1].begin() + static_cast<std::ptrdiff_t>(m));
-  for (std::size_t i = 0, j = 0; i + j < n + m;) {
-    const std::uint32_t a = rims[0][i % n];
-    const std::uint32_t b = rims[1][(band.band.start + j) % m];
-    if ((band.band.along_second >> (i + j) & 1u) != 0) {
-      add_triangle(a, rims[1][(band.band.start + ++j) % m], b);
-    } else {
-      add_triangle(a, rims[0][++i % n], b);
-    }
-  }
+  return is_embedded(patch_);
 }
 
 // Triangulates the loop by the chords of least total squared length. A chord between two crossings of one face is
@@ -208,7 +136,7 @@ void CellTriangulation::add_disk(const CellLoop& loop) {
   if (!std::isfinite(cost[0][n - 1])) {
     Vec3 center;
     for (std::size_t i = 0; i < n; ++i) center += point(loop.edges[i]) / static_cast<double>(n);
-    const std::uint32_t apex = add_inner_point(center);
+    const std::uint32_t apex = add_point(onto_surface(center).at);
     for (std::size_t i = 0; i < n; ++i) add_triangle(vertex(loop.edges[i]), vertex(loop.edges[(i + 1) % n]), apex);
     return;
   }
@@ -246,7 +174,7 @@ void CellTriangulation::add_ring(CellLoop outer, CellLoop inner) {
 
   std::array<std::uint32_t, kCellEdges> ring{};
   for (std::size_t k = 0; k < n; ++k) {
-    ring[k] = add_inner_point(0.5 * (point(outer.edges[k]) + point(inner.edges[partner(k)])));
+    ring[k] = add_point(onto_surface(0.5 * (point(outer.edges[k]) + point(inner.edges[partner(k)]))).at);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t here = ring[k];
@@ -258,9 +186,9 @@ void CellTriangulation::add_ring(CellLoop outer, CellLoop inner) {
   }
 }
 
-// Adds a point of the surface inside the cell, as near to `near` as a few Newton steps along the gradient come. Its
-// place only measures: the mesh is right wherever it lies.
-std::uint32_t CellTriangulation::add_inner_point(const Vec3& near) {
+// Moves a point onto the surface inside the cell, as near as a few Newton steps along the gradient come. The place
+// only measures: the mesh is right wherever it lies.
+CellTriangulation::SurfacePoint CellTriangulation::onto_surface(const Vec3& near) const {
   static constexpr double kMargin = 1e-3;
   constexpr int kSteps = 8;
   const auto inside = [](const Vec3& p) {
@@ -280,11 +208,10 @@ std::uint32_t CellTriangulation::add_inner_point(const Vec3& near) {
     best = p;
     best_residual = residual;
   }
-  return add_point_at(base() + best);
+  return {base() + best, best_residual <= 1e-4 * norm(trilinear_gradient(corners_, best))};
 }
 
-
-std::uint32_t CellTriangulation::add_point_at(const Vec3& at) {
+std::uint32_t CellTriangulation::add_point(const Vec3& at) {
   patch_.vertices.push_back(static_cast<std::uint32_t>(vertex_count_ + patch_.points.size() - patch_.crossing_count));
   patch_.points.push_back(at);
   return static_cast<std::uint32_t>(patch_.points.size() - 1);
@@ -293,11 +220,6 @@ std::uint32_t CellTriangulation::add_point_at(const Vec3& at) {
 Vec3 CellTriangulation::base() const {
   const auto [i, j, k] = patch_.cell;
   return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-}
-
-Vec3 CellTriangulation::drawn_in(int edge, double depth) const {
-  const Vec3 centre = base() + Vec3{0.5, 0.5, 0.5};
-  return point(edge) + depth * (centre - point(edge));
 }
 
 }  // namespace deliso

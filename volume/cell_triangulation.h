@@ -1,15 +1,23 @@
 // The triangles of marching cubes in one cell.
 //
-// They lie in the cell, which is convex, and meet its boundary in nothing but the chords of the loops (cell_loops.h),
-// which both cells of a face share: a chord between two crossings of one face that are not neighbours on a loop is
-// forbidden, and inner points lie strictly inside. So triangles of different cells have only those chords and their
-// ends in common, and the whole mesh is free of crossings when the triangles of each cell are.
+// Triangles of different cells have nothing in common but what they share, so the whole mesh is embedded when the
+// triangles of each cell are. They lie in the cell, which is convex, and meet its boundary in the chords of the loops
+// alone, which are the same for both cells of a face and disjoint on it (cell_loops.h): a segment between two crossings
+// lies in a face only if both do, and such a segment is forbidden unless it is one of the chords; inner points lie
+// strictly inside.
+//
+// Within a cell a disk of least chords has not been seen to cross itself or another disk (in more than 10^7 random
+// cells); triangles around a tunnel do. So cells that are not simple are tested exactly, and tunnels whose triangles
+// meet are drawn in another way (cell_tunnel.cpp). Both is decided in index space: where a spacing that is no power of
+// two rounds the points anew, what comes within a rounding may meet again, as may edges whose crossings round to a
+// sample.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "volume/cell_loops.h"
@@ -32,27 +40,39 @@ class CellTriangulation {
   struct Piece {
     CellLoop loop;
     CellLoop other;  // empty for a disk
+    [[nodiscard]] bool is_disk() const { return other.size == 0; }
   };
-  // A tunnel as a band between its loops, or between copies of them drawn into the cell by these parts of the way to
-  // its centre; 0 stands for the loop itself.
-  struct Band {
-    std::array<double, 2> depths{};
-    LoopBand band;
+  // The corners of one end of a band: a loop, or a ring drawn from it into the cell.
+  struct Rim {
+    std::array<Vec3, kCellEdges> points{};
+    bool is_loop = true;
+  };
+  struct SurfacePoint {
+    Vec3 at;
+    bool is_near = false;  // to the surface
   };
 
   void add_crossings(std::uint8_t pattern);
   void find_pieces(std::uint8_t pattern);
-  void draw(const Band* band);
-  void mend();
+  // Draws all pieces anew; returns whether the triangles have no contacts.
+  bool draw(const std::function<void(const Piece&)>& add_tunnel);
   void add_disk(const CellLoop& loop);
   void add_ring(CellLoop outer, CellLoop inner);
-  void add_band(const CellLoop& first, const CellLoop& second, const Band& band);
-  [[nodiscard]] std::vector<Band> bands(const Piece& tunnel) const;
-  std::uint32_t add_inner_point(const Vec3& near);
-  std::uint32_t add_point_at(const Vec3& at);
+
+  // cell_tunnel.cpp: what else can be drawn for a tunnel.
+  bool draw_otherwise();
+  bool draw_bands(const Piece& tunnel, const std::array<double, 2>& depths);
+  bool draw_part_of_hull(double depth);
+  std::array<std::uint32_t, kCellEdges> add_rim(const CellLoop& loop, const Rim& rim);
+  void add_band(const Piece& tunnel, const std::array<Rim, 2>& rims, const LoopBand& band);
+  void add_part_of_hull(const Piece& tunnel, double depth);
+  [[nodiscard]] std::optional<Rim> rim(const CellLoop& loop, double depth) const;
+  [[nodiscard]] Vec3 drawn_in(const Vec3& at, double depth) const;
+
+  [[nodiscard]] SurfacePoint onto_surface(const Vec3& near) const;
+  std::uint32_t add_point(const Vec3& at);
 
   [[nodiscard]] Vec3 base() const;
-  [[nodiscard]] Vec3 drawn_in(int edge, double depth) const;
   [[nodiscard]] std::uint32_t vertex(int edge) const { return places_[static_cast<std::size_t>(edge)]; }
   [[nodiscard]] const Vec3& point(int edge) const { return patch_.points[vertex(edge)]; }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { patch_.triangles.push_back({a, b, c}); }
@@ -63,9 +83,10 @@ class CellTriangulation {
   std::span<const EdgeCrossing> crossings_;
   std::size_t vertex_count_;  // crossings, and the inner points of the cells so far
 
-  MarchingCubesPatch patch_;                        // the cell at hand
-  CellCorners corners_{};                           // its samples, and
+  // Of the cell at hand:
+  MarchingCubesPatch patch_;
   std::array<std::uint32_t, kCellEdges> places_{};  // of its crossings in patch_.vertices, by edge
+  CellCorners corners_{};                           // its samples and its pieces, when it is not simple
   std::vector<Piece> pieces_;
 };
 

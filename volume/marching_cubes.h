@@ -3,7 +3,8 @@
 // One vertex per grid-edge crossing. In every cell the arcs on its faces (asymptotic decider; Nielson and Hamann 1991)
 // close to loops, and the exact pieces of the surface in the cell (exact_topology_cell.h) say which loops bound a disk
 // and which two bound a tunnel (Chernyaev 1995). All decisions are the exact ones of exact_topology, so the mesh is
-// homeomorphic to the isosurface.
+// homeomorphic to the isosurface. No triangles meet beyond what they share (cell_triangulation.h says how far that
+// goes).
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ namespace deliso {
 
 struct MarchingCubesMesh {
   // In world coordinates. First the grid-edge crossings, in (sample, axis) order; then points inside cells, on the
-  // surface but for rounding: around tunnels, and in disks that no chords inside the cell can triangulate.
+  // surface but for rounding, nearly all: around tunnels, and in disks that no chords inside the cell can triangulate.
   std::vector<Vec3> points;
   std::size_t crossing_count = 0;
   // Counterclockwise seen from the side of lower values. A closed manifold up to the box.

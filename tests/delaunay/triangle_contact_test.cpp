@@ -78,7 +78,7 @@ TEST(TriangleContact, DecidesOneRoundingApart) {
   const double a = 0.1, above = std::nextafter(a, 1.0), below = std::nextafter(a, 0.0);
   const auto corner_on_face = [](double z_face, double z_corner) {
     return Pair{{{0, 0, z_face}, {3, 0, z_face}, {0, 3, z_face}, {1, 1, z_corner}, {1, 1, 5}, {2, 1, 5}},
-                        {{0, 1, 2}, {3, 4, 5}}};
+                {{0, 1, 2}, {3, 4, 5}}};
   };
   EXPECT_EQ(contact(corner_on_face(a, a)), TriangleContact::kTouching);
   EXPECT_EQ(contact(corner_on_face(a, above)), TriangleContact::kNone);
