@@ -27,7 +27,7 @@ bool CellTriangulation::draw_otherwise() {
     }
   }
   // So near to the loops, which lie on the surface, that the copies need not be moved onto it.
-  constexpr double kShallow = 0x1p-11;
+  constexpr double kShallow = 0x1p-12;
   return draw_part_of_hull(kShallow);
 }
 
@@ -126,6 +126,7 @@ void CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
                                     patch_.points.begin() + static_cast<std::ptrdiff_t>(patch_.crossing_count));
   const auto region = hull_annulus(crossings, polygon(tunnel.loop), polygon(tunnel.other));
   // Its copy between copies of the loops.
+  constexpr std::uint32_t kNone = 0;  // a crossing's number
   std::array<std::uint32_t, kCellEdges> copies{};
   for (const CellLoop& loop : {tunnel.loop, tunnel.other}) {
     Rim rim;
@@ -134,7 +135,12 @@ void CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
     const auto corners = add_rim(loop, rim);
     for (std::size_t k = 0; k < loop.size; ++k) copies[vertex(loop.edges[k])] = corners[k];
   }
-  for (const auto& [a, b, c] : region) add_triangle(copies[a], copies[b], copies[c]);
+  for (const auto& [a, b, c] : region) {
+    for (const std::uint32_t v : {a, b, c}) {
+      if (copies[v] == kNone) copies[v] = add_point(drawn_in(crossings[v], depth));  // of a loop in between
+    }
+    add_triangle(copies[a], copies[b], copies[c]);
+  }
 }
 
 }  // namespace deliso

@@ -93,7 +93,8 @@ std::vector<Corners> hull_annulus(std::span<const Vec3> points, std::span<const 
       for (auto t = reached; t != hull.end(); ++t) {
         part.push_back(*t);
         for (const Edge& e : edges_of(*t)) {
-          if (!rims.contains(e)) entered.insert({e.second, e.first});
+          const Edge back{e.second, e.first};
+          if (!rims.contains(e) && !rims.contains(back)) entered.insert(back);
         }
       }
       hull.erase(reached, hull.end());
