@@ -6,8 +6,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "delaunay/triangle_contact.h"
 #include "surface/copy_groups.h"
-#include "surface/self_intersection.h"
 
 namespace deliso {
 

@@ -74,7 +74,8 @@ std::vector<LoopBand> loop_bands(std::size_t first_size, std::size_t second_size
   std::vector<LoopBand> bands;
   for (std::size_t start = 0; start < second_size; ++start) {
     const CheapestPaths paths(first_size, second_size, [&](std::size_t i, std::size_t j) {
-      return chord[i % first_size][(start + j) % second_size];
+      const auto wrapped = [](std::size_t k, std::size_t size) { return k < size ? k : k - size; };
+      return chord[wrapped(i, first_size)][wrapped(start + j, second_size)];
     });
     const double cost = paths.cost(first_size, second_size);
     if (std::isfinite(cost)) bands.push_back({start, paths.steps_along_second(first_size, second_size), cost});

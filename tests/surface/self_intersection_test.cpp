@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "delaunay/predicates.h"
 #include "surface/box_tree.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/random_boxes.h"
