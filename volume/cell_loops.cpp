@@ -2,20 +2,6 @@
 
 namespace deliso {
 
-namespace {
-
-// Bit f is set for the two faces that contain the edge.
-unsigned faces_of_edge(int edge) {
-  const CellEdge e = cell_edge(edge);
-  unsigned faces = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis != e.axis) faces |= 1u << (2 * axis + (e.corner >> axis & 1));
-  }
-  return faces;
-}
-
-}  // namespace
-
 std::size_t split_into_loops(const EdgeSuccessors& next, std::array<CellLoop, kMaxCellPieces>& loops) {
   std::size_t count = 0;
   std::array<bool, kCellEdges> seen{};
@@ -44,7 +30,5 @@ const CellLoop& simple_loop(std::uint8_t pattern) {
   }();
   return kLoops[pattern];
 }
-
-bool have_common_face(int edge_a, int edge_b) { return (faces_of_edge(edge_a) & faces_of_edge(edge_b)) != 0; }
 
 }  // namespace deliso

@@ -26,7 +26,20 @@ std::size_t split_into_loops(const EdgeSuccessors& next, std::array<CellLoop, kM
 // The one loop of a simple sign pattern (is_simple), from a table.
 const CellLoop& simple_loop(std::uint8_t pattern);
 
+// For each edge of the cell a bit for either face that contains it.
+inline constexpr std::array<std::uint8_t, kCellEdges> kFacesOfEdge = [] {
+  std::array<std::uint8_t, kCellEdges> faces{};
+  for (unsigned edge = 0; edge < kCellEdges; ++edge) {
+    const unsigned axis = edge / 4;
+    const unsigned first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;  // the other axes
+    faces[edge] = static_cast<std::uint8_t>(1u << (2 * first + (edge & 1)) | 1u << (2 * second + (edge >> 1 & 1)));
+  }
+  return faces;
+}();
+
 // Whether some face of the cell contains both edges.
-bool have_common_face(int edge_a, int edge_b);
+inline bool have_common_face(int edge_a, int edge_b) {
+  return (kFacesOfEdge[static_cast<std::size_t>(edge_a)] & kFacesOfEdge[static_cast<std::size_t>(edge_b)]) != 0;
+}
 
 }  // namespace deliso
