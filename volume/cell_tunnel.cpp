@@ -4,8 +4,8 @@
 // corner of the convex hull H of all, and the chords of the loops, which are sides of the polygons that H has in
 // common with the cell's faces, are edges of H. So the loops cut H's boundary into regions, and one of them joins the
 // tunnel's loops. Shrink it towards a point within H, a little, and join its rims to the loops: seen from that point
-// nothing lies behind anything else. A disk beside the tunnel is a triangle that cuts off a corner of the cell; it is a
-// facet of H, outside of what has been shrunk.
+// nothing lies behind anything else. A disk beside the tunnel (at most one has been seen) is a triangle that cuts off a
+// corner of the cell; it is a facet of H, outside of what has been shrunk.
 #include <algorithm>
 #include <limits>
 

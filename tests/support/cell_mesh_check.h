@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <string>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -14,10 +15,11 @@
 
 namespace deliso::test {
 
-// The pairs of triangles that meet beyond what they share, and the triangles without an area.
+// The triangles without an area, and the pairs that meet beyond what they share (some of them more than once): sweeps
+// along x, over the boxes in each column of unit squares that they meet.
 inline int contacts(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   int count = 0;
-  std::vector<std::pair<Box3, std::uint32_t>> boxes;
+  std::map<std::pair<long, long>, std::vector<std::pair<Box3, std::uint32_t>>> columns;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     if (!has_area(points[a], points[b], points[c])) {
@@ -26,14 +28,20 @@ inline int contacts(const std::vector<Vec3>& points, const std::vector<std::arra
     }
     Box3 box;
     for (const std::uint32_t v : triangles[t]) box.extend(points[v]);
-    boxes.emplace_back(box, t);
+    for (long y = std::lround(std::floor(box.low.y)); static_cast<double>(y) <= box.high.y; ++y) {
+      for (long z = std::lround(std::floor(box.low.z)); static_cast<double>(z) <= box.high.z; ++z) {
+        columns[{y, z}].emplace_back(box, t);
+      }
+    }
   }
-  std::sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.first.low.x < b.first.low.x; });
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].first.low.x <= boxes[i].first.high.x; ++j) {
-      if (!boxes[i].first.meets(boxes[j].first)) continue;
-      const auto contact = triangle_contact(points, triangles[boxes[i].second], triangles[boxes[j].second]);
-      if (contact != TriangleContact::kNone) ++count;
+  for (auto& [place, boxes] : columns) {
+    std::sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.first.low.x < b.first.low.x; });
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].first.low.x <= boxes[i].first.high.x; ++j) {
+        if (!boxes[i].first.meets(boxes[j].first)) continue;
+        const auto contact = triangle_contact(points, triangles[boxes[i].second], triangles[boxes[j].second]);
+        if (contact != TriangleContact::kNone) ++count;
+      }
     }
   }
   return count;
