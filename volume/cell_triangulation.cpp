@@ -12,27 +12,6 @@
 
 namespace deliso {
 
-namespace {
-
-// Whether no two triangles have points in common beyond their common vertices, and none is degenerate.
-bool is_embedded(const MarchingCubesPatch& patch) {
-  const auto& points = patch.points;
-  const auto& triangles = patch.triangles;
-  const auto has_an_area = [&](const auto& t) { return has_area(points[t[0]], points[t[1]], points[t[2]]); };
-  if (!std::all_of(triangles.begin(), triangles.end(), has_an_area)) return false;
-  std::vector<Box3> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const std::uint32_t v : triangles[t]) boxes[t].extend(points[v]);
-    for (std::size_t s = 0; s < t; ++s) {
-      if (!boxes[s].meets(boxes[t])) continue;
-      if (triangle_contact(points, triangles[s], triangles[t]) != TriangleContact::kNone) return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
-
 const MarchingCubesPatch& CellTriangulation::triangulate(const CellIndex& cell, std::uint8_t pattern) {
   patch_.cell = cell;
   patch_.vertices.clear();
@@ -93,6 +72,20 @@ void CellTriangulation::find_pieces(std::uint8_t pattern) {
   }
 }
 
+bool CellTriangulation::is_embedded(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  const auto has_an_area = [&](const Triangle& t) { return has_area(points[t[0]], points[t[1]], points[t[2]]); };
+  if (!std::all_of(triangles.begin(), triangles.end(), has_an_area)) return false;
+  std::vector<Box3> boxes(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const std::uint32_t v : triangles[t]) boxes[t].extend(points[v]);
+    for (std::size_t s = 0; s < t; ++s) {
+      if (!boxes[s].meets(boxes[t])) continue;
+      if (triangle_contact(points, triangles[s], triangles[t]) != TriangleContact::kNone) return false;
+    }
+  }
+  return true;
+}
+
 bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel) {
   patch_.vertices.resize(patch_.crossing_count);
   patch_.points.resize(patch_.crossing_count);
@@ -104,7 +97,7 @@ bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel
       add_tunnel(piece);
     }
   }
-  return is_embedded(patch_);
+  return is_embedded(patch_.points, patch_.triangles);
 }
 
 // Triangulates the loop by the chords of least total squared length. A chord between two crossings of one face is

@@ -8,9 +8,9 @@
 //
 // Within a cell a disk of least chords has not been seen to cross itself or another disk (in more than 10^7 random
 // cells); triangles around a tunnel do. So cells that are not simple are tested exactly, and tunnels whose triangles
-// meet are drawn in another way (cell_tunnel.cpp). Both is decided in index space: where a spacing that is no power of
-// two rounds the points anew, what comes within a rounding may meet again, as may edges whose crossings round to a
-// sample.
+// meet are drawn in another way (cell_tunnel.cpp). Both is decided in index space; what is drawn otherwise also bears
+// small displacements. A spacing that is no power of two rounds the points anew: what comes within a rounding may meet
+// again, as may edges whose crossings round to a sample.
 #pragma once
 
 #include <array>
@@ -52,6 +52,11 @@ class CellTriangulation {
     bool is_near = false;  // to the surface
   };
 
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  // Whether no two triangles have points in common beyond their common vertices, and none is degenerate.
+  static bool is_embedded(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
+
   void add_crossings(std::uint8_t pattern);
   void find_pieces(std::uint8_t pattern);
   // Draws all pieces anew; returns whether the triangles have no contacts.
@@ -63,6 +68,7 @@ class CellTriangulation {
   bool draw_otherwise();
   bool draw_bands(const Piece& tunnel, const std::array<double, 2>& depths);
   bool draw_part_of_hull(double depth);
+  [[nodiscard]] bool stays_embedded() const;
   std::array<std::uint32_t, kCellEdges> add_rim(const CellLoop& loop, const Rim& rim);
   void add_band(const Piece& tunnel, const std::array<Rim, 2>& rims, const LoopBand& band);
   void add_part_of_hull(const Piece& tunnel, double depth);

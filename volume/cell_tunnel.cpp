@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "delaunay/base/rng.h"
 #include "volume/cell_triangulation.h"
 #include "volume/hull_annulus.h"
 
@@ -45,8 +46,28 @@ bool CellTriangulation::draw_bands(const Piece& tunnel, const std::array<double,
   };
   const std::vector<LoopBand> bands = loop_bands(tunnel.loop.size, tunnel.other.size, chord_cost);
   return std::any_of(bands.begin(), bands.end(), [&](const LoopBand& band) {
-    return draw([&](const Piece& piece) { add_band(piece, {*first, *second}, band); });
+    return draw([&](const Piece& piece) { add_band(piece, {*first, *second}, band); }) && stays_embedded();
   });
+}
+
+// Whether small displacements make no triangles meet. In symmetric cells triangles can come as near to each other as
+// rounding leaves them, and would meet elsewhere in the volume or with another spacing.
+bool CellTriangulation::stays_embedded() const {
+  constexpr int kTrials = 8;
+  constexpr double kStep = 0x1p-20;
+  Rng rng(1);
+  std::vector<Vec3> moved(patch_.points.size());
+  for (int trial = 0; trial < kTrials; ++trial) {
+    // A crossing stays on its edge, where only one of these distances from the cell's faces is not zero.
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double from_low = patch_.points[v][axis] - base()[axis];
+        moved[v][axis] = from_low + kStep * rng.uniform(-1, 1) * std::min(from_low, 1 - from_low);
+      }
+    }
+    if (!is_embedded(moved, patch_.triangles)) return false;
+  }
+  return true;
 }
 
 // Here rounding could move an inner point onto the cell's boundary.
