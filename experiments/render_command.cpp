@@ -17,6 +17,7 @@
 #include "experiments/mesh_shape.h"
 #include "experiments/picture.h"
 #include "experiments/text_table.h"
+#include "surface/exact_tests.h"
 #include "surface/mesh_io.h"
 #include "volume/marching_cubes.h"
 
@@ -134,7 +135,7 @@ std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_
     panels.push_back({"isosurface", std::move(surface), nullptr});
   }
   if (options.marching_cubes) {
-    MarchingCubesMesh cubes = marching_cubes(grid, isovalue);
+    MarchingCubesMesh cubes = marching_cubes(grid, isovalue, &kExactTests);
     panels.push_back(mesh_panel("marching cubes", {std::move(cubes.points), std::move(cubes.triangles)}));
   }
   for (const std::string& path : options.meshes) panels.push_back(mesh_panel(path, read_mesh(path)));

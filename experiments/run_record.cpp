@@ -7,6 +7,7 @@
 #include "experiments/program_info.h"
 #include "experiments/record.h"
 #include "surface/deliso.h"
+#include "surface/exact_tests.h"
 #include "surface/surface_distance.h"
 #include "surface/verification.h"
 #include "volume/exact_topology.h"
@@ -77,7 +78,7 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
   std::optional<ScalarGrid> closed;
   const ScalarGrid& grid = meshed_grid(input, parameters, closed);
   const double used = regular_isovalue(grid, isovalue);
-  MarchingCubesMesh cubes = marching_cubes(grid, used);
+  MarchingCubesMesh cubes = marching_cubes(grid, used, &kExactTests);
   mesh = {std::move(cubes.points), std::move(cubes.triangles)};
   Certificate certificate;
   if (parameters.certify) certificate = certify(mesh, exact_topology(grid, used));

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "delaunay/triangle_contact.h"
 #include "surface/blocks.h"
-#include "surface/self_intersection.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {

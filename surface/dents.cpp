@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/triangle_contact.h"
 #include "surface/box_tree.h"
 #include "surface/least_triangulation.h"
-#include "surface/self_intersection.h"
 #include "surface/surface_distance.h"
 #include "surface/vertex_fans.h"
 

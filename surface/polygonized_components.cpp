@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "surface/exact_tests.h"
 #include "surface/link_sides.h"
 #include "volume/marching_cubes.h"
 
@@ -12,7 +13,8 @@ namespace deliso {
 
 PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
                                        const IsosurfaceTopology& topology) {
-  MarchingCubesMesh cubes = marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings);
+  MarchingCubesMesh cubes =
+      marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
   PolygonizedSurface surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.

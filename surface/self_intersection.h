@@ -1,13 +1,6 @@
 // Pairs of triangles of a mesh that meet where they should not, decided exactly on the given coordinates.
-//
-// Two triangles may share the simplex that they name together: nothing, a vertex or an edge. What they have in common
-// beyond it makes them
-//   crossing  when a point lies in the relative interior of both (they pierce each other, or overlap in their plane),
-//   touching  when they have other points in common, but not of both interiors (a corner on a face, two edges that
-//             meet, different vertices at the same place).
-// Both are decided by the signs of orient3d alone (interval overlap on the common line of the two planes, after
-// Guigue and Devillers: Fast and robust triangle-triangle overlap test using orientation predicates, 2003; separating
-// edges in the plane). Triangles of zero area have no plane; they are counted and left out.
+// (delaunay/triangle_contact.h says what crossing and touching mean). Triangles of zero area have no plane; they are
+// counted and left out.
 #pragma once
 
 #include <array>
@@ -15,11 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/triangle_contact.h"
 #include "surface/triangle_mesh.h"
 
 namespace deliso {
-
-enum class TriangleContact { kNone, kTouching, kCrossing };
 
 struct TrianglePair {
   std::uint32_t first = 0;  // indices of the triangles, first < second
@@ -35,18 +27,6 @@ struct SelfIntersections {
   std::vector<TrianglePair> crossing;    // the first ones in order of (first, second)
   std::vector<TrianglePair> touching;    // the same
 };
-
-// How two triangles, given by the indices and the places of their corners, meet beyond what they share. Precondition:
-// neither has zero area.
-TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
-                                 const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points);
-inline TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,
-                                        const std::array<std::uint32_t, 3>& t) {
-  return triangle_contact(s, {points[s[0]], points[s[1]], points[s[2]]}, t, {points[t[0]], points[t[1]], points[t[2]]});
-}
-
-// Whether three points are not in line, exactly.
-bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // All pairs; at most `keep` of each kind are kept, the same for any number of threads. Precondition: indices in range,
 // coordinates as orient3d wants them (delaunay/predicates.h).

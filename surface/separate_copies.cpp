@@ -6,9 +6,9 @@
 #include <optional>
 #include <unordered_map>
 
+#include "delaunay/triangle_contact.h"
 #include "surface/copy_groups.h"
 #include "surface/group_surroundings.h"
-#include "surface/self_intersection.h"
 
 namespace deliso {
 

@@ -3,7 +3,8 @@
 // One vertex per grid-edge crossing. In every cell the arcs on its faces (asymptotic decider; Nielson and Hamann 1991)
 // close to loops, and the exact pieces of the surface in the cell (exact_topology_cell.h) say which loops bound a disk
 // and which two bound a tunnel (Chernyaev 1995). All decisions are the exact ones of exact_topology, so the mesh is
-// homeomorphic to the isosurface.
+// homeomorphic to the isosurface. With exact tests no triangles meet beyond what they share (cell_triangulation.h
+// says how far that goes); without them some may, around tunnels.
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "volume/exact_tests.h"
 #include "volume/exact_topology_crossings.h"
 #include "volume/scalar_grid.h"
 
@@ -20,7 +22,7 @@ namespace deliso {
 
 struct MarchingCubesMesh {
   // In world coordinates. First the grid-edge crossings, in (sample, axis) order; then points inside cells, on the
-  // surface but for rounding: around tunnels, and in disks that no chords inside the cell can triangulate.
+  // surface but for rounding, nearly all: around tunnels, and in disks that no chords inside the cell can triangulate.
   std::vector<Vec3> points;
   std::size_t crossing_count = 0;
   // Counterclockwise seen from the side of lower values. A closed manifold up to the box.
@@ -28,10 +30,10 @@ struct MarchingCubesMesh {
 };
 
 // Precondition: no sample equals `isovalue` (see regular_isovalue), and it is finite.
-MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue);
+MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const ExactTests* tests = nullptr);
 // The same for callers that have the index of the crossings and their list (list_crossings).
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                 std::span<const EdgeCrossing> crossings);
+                                 std::span<const EdgeCrossing> crossings, const ExactTests* tests = nullptr);
 
 // The same mesh cell by cell, for callers that need not keep it: calls visit(patch) for every active cell, x fastest.
 struct MarchingCubesPatch {
@@ -45,6 +47,7 @@ struct MarchingCubesPatch {
 };
 void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                    std::span<const EdgeCrossing> crossings,
-                                   const std::function<void(const MarchingCubesPatch&)>& visit);
+                                   const std::function<void(const MarchingCubesPatch&)>& visit,
+                                   const ExactTests* tests = nullptr);
 
 }  // namespace deliso

@@ -63,6 +63,8 @@ TEST(IncludeDirection, ArrowsPointDownwards) {
 
 TEST(IncludeDirection, WrongArrowsWouldBeSeen) {
   EXPECT_FALSE(may_include("volume", "delaunay/predicates.h"));
+  EXPECT_FALSE(may_include("delaunay", "volume/scalar_grid.h"));
+  EXPECT_FALSE(may_include("raycast", "delaunay/predicates.h"));
   EXPECT_FALSE(may_include("delaunay/base", "delaunay/ids.h"));
   EXPECT_FALSE(may_include("raycast", "surface/parameters.h"));
   EXPECT_FALSE(may_include("surface", "experiments/json.h"));

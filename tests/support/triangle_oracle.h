@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/self_intersection.h"
-#include "surface/triangle_mesh.h"
+#include "delaunay/triangle_contact.h"
 
 namespace deliso::testing {
 

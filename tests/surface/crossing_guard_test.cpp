@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "delaunay/base/rng.h"
+#include "delaunay/triangle_contact.h"
 #include "surface/link_sides.h"
-#include "surface/self_intersection.h"
 
 namespace deliso {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "surface/self_intersection.h"
+#include "delaunay/triangle_contact.h"
 #include "tests/support/mesh_examples.h"
 
 namespace deliso {

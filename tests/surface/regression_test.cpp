@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include "delaunay/base/rng.h"
@@ -73,6 +74,7 @@ TEST(Regression, NoPartOfTheSurfaceIsLeftOut) {
 struct Input {
   const char* name;
   double isovalue;
+  friend std::ostream& operator<<(std::ostream& out, const Input& input) { return out << input.name; }
 };
 class ProvenInput : public ::testing::TestWithParam<Input> {};
 

@@ -1,9 +1,10 @@
+#include "delaunay/triangle_contact.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "delaunay/predicates.h"
-#include "surface/self_intersection.h"
 
 namespace deliso {
 
