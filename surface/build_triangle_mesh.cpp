@@ -159,23 +159,26 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
   return kNoSide;
 }
 
-// Places for a vertex on an edge: hits along the triangles' common normal or down the gradient, from the middle of the
-// edge to near its ends, where the surface is not far; at last the middle itself.
+// Places for a vertex on an edge, where the surface is not far: hits along the triangles' common normal or down the
+// gradient, from the middle of the edge to near its ends; then where the surface faces the other way; at last the
+// middle itself.
 std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const {
   const Isosurface& isosurface = restricted_.isosurface();
   const Box3& box = isosurface.box();
   std::vector<Vec3> places;
   SearchCounters ignored;
-  for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
-    const Vec3 from = a + weight * (b - a);
-    for (Vec3 direction : {normal, -isosurface.gradient(from)}) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {  // an edge on a face of the box keeps its vertices there
-        if (a[axis] == b[axis] && (a[axis] == box.low[axis] || a[axis] == box.high[axis])) direction[axis] = 0;
+  for (const double facing : {1.0, -1.0}) {
+    for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
+      const Vec3 from = a + weight * (b - a);
+      for (Vec3 direction : {facing * normal, -facing * isosurface.gradient(from)}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {  // an edge on a face of the box keeps its vertices there
+          if (a[axis] == b[axis] && (a[axis] == box.low[axis] || a[axis] == box.high[axis])) direction[axis] = 0;
+        }
+        if (!(norm(direction) > 0)) continue;
+        const Line line{from, direction / norm(direction)};
+        const auto hit = isosurface.nearest_falling_hit(line, distance(a, b), ignored);
+        if (hit && box.contains(line.at(*hit))) places.push_back(line.at(*hit));
       }
-      if (!(norm(direction) > 0)) continue;
-      const Line line{from, direction / norm(direction)};
-      const auto hit = isosurface.nearest_falling_hit(line, distance(a, b), ignored);
-      if (hit && box.contains(line.at(*hit))) places.push_back(line.at(*hit));
     }
   }
   places.push_back(0.5 * (a + b));
@@ -199,7 +202,7 @@ Copy MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
-  return {m, {places.begin() + 1, places.end()}};
+  return {m, {places.begin() + 1, places.end()}, true};
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
@@ -245,7 +248,7 @@ void MeshBuilder::group_copies() {
     const bool continues = built_.groups.size() > subdivided &&
                            built_.vertex_of[built_.groups.back().back().vertex] == built_.vertex_of[copy];
     if (!continues) built_.groups.emplace_back();
-    built_.groups.back().push_back({copy, {}});
+    built_.groups.back().push_back({copy, {}, false});
   }
 }
 

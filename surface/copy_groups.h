@@ -11,10 +11,12 @@
 
 namespace deliso {
 
-// A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first.
+// A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first. The last
+// of all its homes may be none on the surface, for want of a better one.
 struct Copy {
   std::uint32_t vertex = 0;
   std::vector<Vec3> other_homes;
+  bool has_false_home = false;
 };
 using CopyGroup = std::vector<Copy>;
 

@@ -66,6 +66,37 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
   return part;
 }
 
+// The homes on the surface of the copies that have another one, too.
+class TrueHomes {
+ public:
+  // Of copies that still are at their first homes.
+  explicit TrueHomes(const BuiltMesh& built) {
+    for (const CopyGroup& group : built.groups) {
+      for (const Copy& copy : group) {
+        if (!copy.has_false_home) continue;
+        std::vector<Vec3> homes = copy.other_homes;
+        homes.insert(homes.begin(), built.mesh.points[copy.vertex]);
+        homes.pop_back();
+        homes_.emplace_back(copy.vertex, std::move(homes));
+      }
+    }
+  }
+  // The copies that were moved away from all of theirs, by more than a hair's breadth.
+  [[nodiscard]] std::vector<std::uint32_t> left_by(const std::vector<Vec3>& points) const {
+    std::vector<std::uint32_t> left;
+    for (const auto& [v, homes] : homes_) {
+      const Vec3& p = points[v];
+      const auto is_near = [&](const Vec3& home) { return squared_distance(p, home) < kHairsBreadth * kHairsBreadth; };
+      if (std::none_of(homes.begin(), homes.end(), is_near)) left.push_back(v);
+    }
+    return left;
+  }
+
+ private:
+  static constexpr double kHairsBreadth = 9e-4;  // mesh-space units
+  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
+};
+
 }  // namespace
 
 bool KeptMeshes::would_be_done(const MatchedMesh& mesh) const {
@@ -149,24 +180,34 @@ void KeptMeshes::give_poles(RepairRound& round) {
 void KeptMeshes::append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads,
                            RepairStats& stats) {
   std::vector<std::vector<bool>> wanted(kept_.size());  // pieces of each mesh
+  std::vector<std::size_t> giver(done_.size(), kept_.size());
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const ComponentMatch& match = kept_[i].mesh->match;
     wanted[i].assign(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (!left[c] || !may_give(*kept_[i].mesh, c)) continue;
-      left[c] = false;
+      if (!left[c] || giver[c] < kept_.size() || !may_give(*kept_[i].mesh, c)) continue;
+      giver[c] = i;
       wanted[i][match.main_piece[c]] = true;
-      stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
-      stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
   }
   run_tasks(kept_.size(), threads, [&](std::size_t i) {
     auto& [built, component, match] = *kept_[i].mesh;
     if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
+    const TrueHomes homes(built);
     separate_copies(built.mesh, built.groups, built.vertex_of, box, [&, &match = match](std::uint32_t v) {
       return match.piece_of[v] != kNoPiece && wanted[i][match.piece_of[v]];
     });
+    // A piece with a vertex off the surface is no good.
+    for (const std::uint32_t v : homes.left_by(built.mesh.points)) wanted[i][match.piece_of[v]] = false;
   });
+  for (std::size_t c = 0; c < done_.size(); ++c) {
+    if (giver[c] == kept_.size()) continue;
+    const ComponentMatch& match = kept_[giver[c]].mesh->match;
+    if (!wanted[giver[c]][match.main_piece[c]]) continue;
+    left[c] = false;
+    stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
+    stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
+  }
   for (std::size_t i = kept_.size(); i-- > 0;) {
     append_pieces(kept_[i].mesh->built.mesh, kept_[i].mesh->match.piece_of, wanted[i], mesh);
   }

@@ -29,8 +29,8 @@ class KeptMeshes {
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
   void give_poles(RepairRound& round);
-  // Appends every component as the latest mesh that agrees with it at its best has it, unless none has all of it, and
-  // notes what is `left`. Meshes are of no more use then.
+  // Appends every component as the latest mesh that agrees with it at its best has it, unless none has all of it or
+  // its copies find no place on the surface; and notes what is `left`. Meshes are of no more use then.
   void append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats);
 
  private:

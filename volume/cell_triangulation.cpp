@@ -72,7 +72,6 @@ void CellTriangulation::find_pieces(std::uint8_t pattern) {
 }
 
 bool CellTriangulation::is_embedded(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) const {
-  if (tests_ == nullptr) return true;
   const auto has_area = [&](const Triangle& t) { return tests_->has_area(points[t[0]], points[t[1]], points[t[2]]); };
   if (!std::all_of(triangles.begin(), triangles.end(), has_area)) return false;
   std::vector<Box3> boxes(triangles.size());
@@ -89,6 +88,7 @@ bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel
   patch_.vertices.resize(patch_.crossing_count);
   patch_.points.resize(patch_.crossing_count);
   patch_.triangles.clear();
+  is_on_surface_ = true;
   for (const Piece& piece : pieces_) {
     if (piece.is_disk()) {
       add_disk(piece.loop);
@@ -96,7 +96,7 @@ bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel
       add_tunnel(piece);
     }
   }
-  return is_embedded(patch_.points, patch_.triangles);
+  return tests_ == nullptr || (is_on_surface_ && is_embedded(patch_.points, patch_.triangles));
 }
 
 // Triangulates the loop by the chords of least total squared length. A chord between two crossings of one face is
@@ -126,9 +126,7 @@ void CellTriangulation::add_disk(const CellLoop& loop) {
     }
   }
   if (!std::isfinite(cost[0][n - 1])) {
-    Vec3 center;
-    for (std::size_t i = 0; i < n; ++i) center += point(loop.edges[i]) / static_cast<double>(n);
-    const std::uint32_t apex = add_point(onto_surface(center).at);
+    const std::uint32_t apex = add_inner_point(apex_of(loop));
     for (std::size_t i = 0; i < n; ++i) add_triangle(vertex(loop.edges[i]), vertex(loop.edges[(i + 1) % n]), apex);
     return;
   }
@@ -144,6 +142,22 @@ void CellTriangulation::add_disk(const CellLoop& loop) {
     if (m > i + 1) open[open_count++] = {i, m};
     if (j > m + 1) open[open_count++] = {m, j};
   }
+}
+
+// From the centre of the crossings or, if that leads nowhere, from between it and one of them.
+CellTriangulation::SurfacePoint CellTriangulation::apex_of(const CellLoop& loop) const {
+  Vec3 centre;
+  for (std::size_t i = 0; i < loop.size; ++i) centre += point(loop.edges[i]) / static_cast<double>(loop.size);
+  const SurfacePoint best = onto_surface(centre);
+  if (best.is_near) return best;
+  for (const double depth : {0.5, 0.25, 0.125}) {
+    for (std::size_t i = 0; i < loop.size; ++i) {
+      const Vec3& crossing = point(loop.edges[i]);
+      const SurfacePoint other = onto_surface(crossing + depth * (centre - crossing));
+      if (other.is_near) return other;
+    }
+  }
+  return best;
 }
 
 // A tunnel: a ring of inner points, as many as the longer loop has, joined to both loops.
@@ -166,7 +180,7 @@ void CellTriangulation::add_ring(CellLoop outer, CellLoop inner) {
 
   std::array<std::uint32_t, kCellEdges> ring{};
   for (std::size_t k = 0; k < n; ++k) {
-    ring[k] = add_point(onto_surface(0.5 * (point(outer.edges[k]) + point(inner.edges[partner(k)]))).at);
+    ring[k] = add_inner_point(onto_surface(0.5 * (point(outer.edges[k]) + point(inner.edges[partner(k)]))));
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t here = ring[k];
@@ -201,6 +215,11 @@ CellTriangulation::SurfacePoint CellTriangulation::onto_surface(const Vec3& near
     best_residual = residual;
   }
   return {base() + best, best_residual <= 1e-4 * norm(trilinear_gradient(corners_, best))};
+}
+
+std::uint32_t CellTriangulation::add_inner_point(const SurfacePoint& p) {
+  is_on_surface_ &= p.is_near;
+  return add_point(p.at);
 }
 
 std::uint32_t CellTriangulation::add_point(const Vec3& at) {

@@ -60,13 +60,14 @@ class CellTriangulation {
 
   using Triangle = std::array<std::uint32_t, 3>;
 
-  // Whether no two triangles have points in common beyond their common vertices, and none is degenerate. Without tests
-  // nothing speaks against it.
+  // Whether no two triangles have points in common beyond their common vertices, and none is degenerate. Precondition:
+  // there are tests.
   [[nodiscard]] bool is_embedded(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) const;
 
   void add_crossings(std::uint8_t pattern);
   void find_pieces(std::uint8_t pattern);
-  // Draws all pieces anew; returns whether the triangles have no contacts.
+  // Draws all pieces anew; returns whether the triangles have no contacts and inner points lie on the surface, where
+  // there are tests.
   bool draw(const std::function<void(const Piece&)>& add_tunnel);
   void add_disk(const CellLoop& loop);
   void add_ring(CellLoop outer, CellLoop inner);
@@ -83,6 +84,8 @@ class CellTriangulation {
   [[nodiscard]] Vec3 drawn_in(const Vec3& at, double depth) const;
 
   [[nodiscard]] SurfacePoint onto_surface(const Vec3& near) const;
+  [[nodiscard]] SurfacePoint apex_of(const CellLoop& loop) const;
+  std::uint32_t add_inner_point(const SurfacePoint& p);
   std::uint32_t add_point(const Vec3& at);
 
   [[nodiscard]] Vec3 base() const;
@@ -102,6 +105,7 @@ class CellTriangulation {
   std::array<std::uint32_t, kCellEdges> places_{};  // of its crossings in patch_.vertices, by edge
   CellCorners corners_{};                           // its samples and its pieces, when it is not simple
   std::vector<Piece> pieces_;
+  bool is_on_surface_ = true;  // all inner points of the latest drawing
 };
 
 }  // namespace deliso

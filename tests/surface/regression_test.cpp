@@ -95,6 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"half_speck.nrrd", 128.9},
         // Tips of fingers as thin as a hair: samples below them were left out, near enough by themselves.
         Input{"left_out_tip_0.nrrd", 128.1}, Input{"left_out_tip_1.nrrd", 128.9},
+        // The vertex of a subdivided edge stayed off the surface, for everywhere on it triangles would have crossed.
+        Input{"off_surface_edge.nrrd", 128.2},
         // Beside the saddle of a face the check did not find the surface that a vertex had been moved from by a hair.
         Input{"face_saddle.nrrd", 128.2}),
     [](const auto& input) {

@@ -44,6 +44,25 @@ void expect_sound(const CellCorners& corners, double isovalue) {
   }
 }
 
+// Of a point of a cell, in index space: in the first order; or, where the surface bends too much for that, the least
+// distance along an axis at which the value has the other sign.
+double distance_to_surface(const ScalarGrid& grid, double isovalue, const Vec3& p) {
+  const auto cell_of = [](double x) { return static_cast<std::int32_t>(std::floor(x)); };
+  const std::array<std::int32_t, 3> cell = {cell_of(p.x), cell_of(p.y), cell_of(p.z)};
+  const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
+  const Vec3 uvw{p.x - cell[0], p.y - cell[1], p.z - cell[2]};
+  const double value = trilinear_value(corners, uvw) - isovalue;
+  double distance = std::abs(value) / norm(trilinear_gradient(corners, uvw));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double step : {1e-4, -1e-4, 9e-4, -9e-4}) {
+      Vec3 q = uvw;
+      q[axis] += step;
+      if ((trilinear_value(corners, q) < isovalue) != (value < 0)) distance = std::min(distance, std::abs(step));
+    }
+  }
+  return distance;
+}
+
 // One of the sign patterns that are simple, or one of those that are not.
 std::uint8_t random_pattern(Rng& rng, bool simple) {
   for (;;) {
@@ -193,11 +212,16 @@ TEST(MarchingCubesEmbedding, HoldsInVolumesOfNoise) {
     for (int i = 0; i < dims[0] * dims[1] * dims[2]; ++i) {
       samples.push_back(seed % 2 == 0 ? static_cast<double>(rng.below(12)) : rng.uniform(0, 12));
     }
-    const Vec3 spacing = seed < 3 ? Vec3{1, 1, 1} : Vec3{0.3, 0.7, 1.1};
-    const MarchingCubesMesh mesh =
-        marching_cubes(ScalarGrid(dims, samples, spacing, {-3.3, 10, 0.1}), 5.7, &kExactTests);
+    const Vec3 spacing = seed < 3 ? Vec3{1, 1, 1} : Vec3{0.3, 0.7, 1.1}, origin{-3.3, 10, 0.1};
+    const ScalarGrid grid(dims, samples, spacing, origin);
+    const MarchingCubesMesh mesh = marching_cubes(grid, 5.7, &kExactTests);
     EXPECT_GT(mesh.points.size(), mesh.crossing_count);
     EXPECT_EQ(test::contacts(mesh.points, mesh.triangles), 0) << "seed " << seed;
+    for (std::size_t v = mesh.crossing_count; v < mesh.points.size(); ++v) {
+      const Vec3 p = mesh.points[v] - origin;
+      EXPECT_LT(distance_to_surface(grid, 5.7, {p.x / spacing.x, p.y / spacing.y, p.z / spacing.z}), 1e-3)
+          << "seed " << seed << " point " << v;
+    }
   }
 }
 
