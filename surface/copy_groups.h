@@ -11,6 +11,9 @@
 
 namespace deliso {
 
+// Copies move less than this from their homes (mesh-space units).
+inline constexpr double kHairsBreadth = 9e-4;
+
 // A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first. The last
 // of all its homes may be none on the surface, for want of a better one.
 struct Copy {

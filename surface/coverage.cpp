@@ -20,8 +20,8 @@ namespace {
 constexpr double kNear = 0.8;  // mesh-space units
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
-// How far a sample may be left out by the mesh: crossings that were not inserted because it is near, within
-// stage1.size_bound_voxels, are less than a voxel off then.
+// How far a sample may be left out by the mesh. Stage 1 leaves out crossings that are nearer to a sample than
+// stage1.size_bound_voxels (0.3), so the crossings around it lie less than a voxel off the mesh, too.
 constexpr double kSampleReach = 0.65;
 constexpr int kLongestWalk = 16;         // triangles
 constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times

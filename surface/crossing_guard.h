@@ -25,7 +25,7 @@ namespace deliso {
 void set_clearances(RefinementMesh& mesh);
 // Takes clearances away near places where triangles came to meet.
 void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
-// Takes all clearances away: then every star is tested against all triangles around it, and none can come to cross.
+// Takes all clearances away: then every star is tested against all triangles around it, so that none comes to cross.
 void distrust_all(RefinementMesh& mesh);
 
 class CrossingGuard {

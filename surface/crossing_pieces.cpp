@@ -28,13 +28,19 @@ std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, st
   return piece;
 }
 
-// The component that most corners of some triangles lie on, the first of equals.
+// The component that most vertices of a piece lie on, the first of equals.
 std::optional<std::uint32_t> component_of_piece(const SurfaceMesh& mesh, std::span<const std::uint32_t> piece,
                                                 const SurfaceFacts& facts, const Isosurface& isosurface) {
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t t : piece) {
+    vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const Vec3& step = isosurface.step();
   std::map<std::uint32_t, std::size_t> votes;
-  for (const std::uint32_t t : piece) {
-    const Vec3& p = mesh.points[mesh.triangles[t][0]];
+  for (const std::uint32_t v : vertices) {
+    const Vec3& p = mesh.points[v];
     const auto component =
         component_of(facts.grid(), isosurface.isovalue(), facts.topology(), {p.x / step.x, p.y / step.y, p.z / step.z});
     if (component) ++votes[*component];
@@ -44,30 +50,46 @@ std::optional<std::uint32_t> component_of_piece(const SurfaceMesh& mesh, std::sp
       ->first;
 }
 
+// Drops the pieces of the pairs whose components are not polygonized yet; these are marked and returned.
+std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const SurfaceFacts& facts,
+                              const Isosurface& isosurface, std::vector<bool>& is_polygonized) {
+  std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
+  std::vector<bool> dropped(is_polygonized.size(), false);
+  for (const TrianglePair& pair : pairs) {
+    for (const std::uint32_t seed : {pair.first, pair.second}) {
+      if (is_seen[seed]) continue;
+      const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
+      const auto component = component_of_piece(mesh, piece, facts, isosurface);
+      if (!component || is_polygonized[*component]) continue;
+      dropped[*component] = is_polygonized[*component] = true;
+      for (const std::uint32_t t : piece) is_gone[t] = true;
+    }
+  }
+  drop_triangles(mesh, is_gone);
+  return dropped;
+}
+
 }  // namespace
 
 std::int64_t polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
-                                        std::vector<bool>& is_polygonized, int threads) {
-  std::int64_t polygonized = 0;
-  for (;;) {
+                                        std::vector<bool>& is_polygonized, int threads, Controls& controls) {
+  const auto count = [](const std::vector<bool>& marks) { return std::count(marks.begin(), marks.end(), true); };
+  const std::int64_t before = count(is_polygonized);
+  while (!controls.poll()) {
     const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostPairs, threads);
-    std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
-    std::vector<bool> wanted(is_polygonized.size(), false);
-    for (const TrianglePair& pair : found.crossing) {
-      for (const std::uint32_t seed : {pair.first, pair.second}) {
-        if (is_seen[seed]) continue;
-        const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-        const auto component = component_of_piece(mesh, piece, facts, isosurface);
-        if (!component || is_polygonized[*component]) continue;
-        wanted[*component] = is_polygonized[*component] = true;
-        for (const std::uint32_t t : piece) is_gone[t] = true;
-        ++polygonized;
-      }
+    if (found.crossing_pairs == 0) break;
+    const PolygonizedSurface& cubes = facts.polygonized();
+    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts, isosurface, is_polygonized);
+    if (count(dropped) > 0) {
+      append_pieces(cubes.mesh, cubes.component, dropped, mesh);
+      continue;
     }
-    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return polygonized;
-    drop_triangles(mesh, is_gone);
-    append_pieces(facts.polygonized().mesh, facts.polygonized().component, wanted, mesh);
+    // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
+    is_polygonized.assign(is_polygonized.size(), true);
+    mesh = cubes.mesh;
+    break;
   }
+  return count(is_polygonized) - before;
 }
 
 }  // namespace deliso

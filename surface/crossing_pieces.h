@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
+#include "surface/controls.h"
 #include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
 
 // Pieces of Delaunay meshes may cross where they come from different ones or where copies of a vertex could not be
-// moved apart. Marching cubes does not cross itself, so with enough of it nothing crosses. A piece of the mesh has the
-// vertices of one component, but for a few. `is_polygonized`, of each component: it comes from marching cubes; kept up
-// to date. Returns how many components became so. The mesh has pole heights.
+// moved apart. The component of a piece is the one that most of its vertices lie on. Marching cubes does not cross
+// itself, so with enough of it nothing crosses; where it is not told which pieces are to blame, all components are
+// polygonized. `is_polygonized`, of each component: it comes from marching cubes; kept up to date. Returns how many
+// components became so. The mesh has pole heights. A run that has to stop keeps what there is.
 std::int64_t polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
-                                        std::vector<bool>& is_polygonized, int threads);
+                                        std::vector<bool>& is_polygonized, int threads, Controls& controls);
 
 }  // namespace deliso

@@ -4,13 +4,6 @@
 
 namespace deliso {
 
-namespace {
-
-// Farther than copies move from their homes, in mesh-space units.
-constexpr double kHairsBreadth = 1e-3;
-
-}  // namespace
-
 GroupSurroundings::GroupSurroundings(const SurfaceMesh& mesh, std::span<const CopyGroup> groups,
                                      std::span<const VertexId> origin_of)
     : mesh_(mesh), groups_(groups), origin_of_(origin_of) {

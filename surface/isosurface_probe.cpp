@@ -128,7 +128,8 @@ void IsosurfaceProbe::look_in_grid_face(const Vec3& p, unsigned axis, FootPoint&
     Vec3 direction;
     direction[(axis + 1) % 3] = u;
     direction[(axis + 2) % 3] = v;
-    const auto found = along_line(q, f, direction / norm(direction), kBeside * kFirstStep, best.distance);
+    const auto found =
+        along_line(q, f, direction / norm(direction), kBeside * kFirstStep, std::min(kReach, best.distance));
     if (!found) continue;
     const double distance = deliso::distance(p, found->point);
     if (distance < best.distance) best = {found->point, distance};

@@ -93,7 +93,6 @@ class TrueHomes {
   }
 
  private:
-  static constexpr double kHairsBreadth = 9e-4;  // mesh-space units
   std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
 };
 

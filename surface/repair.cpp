@@ -105,8 +105,9 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   mesh_.reset();
   round_.reset();
   SurfaceMesh kept = assemble_kept();
-  stats_.dents_removed = remove_dents(kept, isosurface_);
-  stats_.components_polygonized += polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_);
+  if (!controls.poll()) stats_.dents_removed = remove_dents(kept, isosurface_);
+  stats_.components_polygonized +=
+      polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_, controls);
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
 }

@@ -7,7 +7,7 @@
 // its main piece has its topology, holds no vertex of another component and lies near all of it. At the end each
 // component is taken from the latest mesh that has it at its best; one that no mesh has right is meshed by marching
 // cubes, whose topology is exact, and reported. Dents (dents.h) are removed from what that makes; components whose
-// triangles cross others are meshed by marching cubes, too, until none do.
+// triangles cross others are meshed by marching cubes, too, until none do (crossing_pieces.h).
 #pragma once
 
 #include <cstdint>

@@ -17,6 +17,7 @@ namespace {
 // Distances tried, in mesh-space units, the last one in stubborn sweeps only; and the largest fraction of the shortest
 // edge at the copy.
 constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
+static_assert(kDistances.back() < kHairsBreadth);
 constexpr double kEdgeFraction = 0.05;
 // A direction is good when it makes at least this sine with every triangle of the fan.
 constexpr double kLeastSine = 0.05;

@@ -25,7 +25,7 @@ class SurfaceFacts {
   [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
   [[nodiscard]] const std::vector<CriticalPlace>& critical_places() const { return critical_.get(); }
   [[nodiscard]] const SurfaceSweeps& sweeps() const { return sweeps_.get(); }
-  // Rarely needed, and large: never found beforehand.
+  // Needed by few surfaces, and large: never found beforehand.
   [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
 
  private:

@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/box3.h"
 #include "volume/cell_loops.h"
 #include "volume/exact_tests.h"
 #include "volume/loop_band.h"
@@ -79,7 +80,7 @@ class CellTriangulation {
   [[nodiscard]] bool stays_embedded() const;
   std::array<std::uint32_t, kCellEdges> add_rim(const CellLoop& loop, const Rim& rim);
   void add_band(const Piece& tunnel, const std::array<Rim, 2>& rims, const LoopBand& band);
-  void add_part_of_hull(const Piece& tunnel, double depth);
+  bool add_part_of_hull(const Piece& tunnel, double depth);
   [[nodiscard]] std::optional<Rim> rim(const CellLoop& loop, double depth) const;
   [[nodiscard]] Vec3 drawn_in(const Vec3& at, double depth) const;
 

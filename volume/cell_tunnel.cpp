@@ -1,11 +1,11 @@
 // Tunnels whose ring of inner points makes triangles that meet: other ways to draw them, tried one after the other.
 //
-// The last one cannot fail but for rounding. A grid edge holds at most one crossing, so every crossing of the cell is a
-// corner of the convex hull H of all, and the chords of the loops, which are sides of the polygons that H has in
-// common with the cell's faces, are edges of H. So the loops cut H's boundary into regions, and one of them joins the
-// tunnel's loops. Shrink it towards a point within H, a little, and join its rims to the loops: seen from that point
-// nothing lies behind anything else. A disk beside the tunnel (at most one has been seen) is a triangle that cuts off a
-// corner of the cell; it is a facet of H, outside of what has been shrunk.
+// The last one fails only where crossings are rounded to samples or into line. A grid edge holds at most one crossing,
+// so every crossing of the cell is a corner of the convex hull H of all, and the chords of the loops, which are sides
+// of the polygons that H has in common with the cell's faces, are edges of H. So the loops cut H's boundary into
+// regions, and one of them joins the tunnel's loops. Shrink it towards a point within H, a little, and join its rims to
+// the loops: seen from that point nothing lies behind anything else. A disk beside the tunnel (at most one has been
+// seen) is a triangle that cuts off a corner of the cell; it is a facet of H, outside of what has been shrunk.
 #include <algorithm>
 #include <limits>
 
@@ -77,7 +77,8 @@ bool CellTriangulation::draw_part_of_hull(double depth) {
     return std::min({p.x - low.x, p.y - low.y, p.z - low.z}) > 0 &&
            std::max({p.x - low.x, p.y - low.y, p.z - low.z}) < 1;
   };
-  return draw([&](const Piece& piece) { add_part_of_hull(piece, depth); }) &&
+  bool has_region = false;
+  return draw([&](const Piece& piece) { has_region = add_part_of_hull(piece, depth); }) && has_region &&
          std::all_of(patch_.points.begin() + static_cast<std::ptrdiff_t>(patch_.crossing_count), patch_.points.end(),
                      is_inside);
 }
@@ -136,7 +137,8 @@ void CellTriangulation::add_band(const Piece& tunnel, const std::array<Rim, 2>& 
   }
 }
 
-void CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
+// False when the hull has no region between the loops: rounded crossings need not be its corners.
+bool CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
   // The region of the hull that joins the loops, by places in the patch.
   const auto polygon = [&](const CellLoop& loop) {
     std::vector<std::uint32_t> corners;
@@ -146,6 +148,7 @@ void CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
   const std::vector<Vec3> crossings(patch_.points.begin(),
                                     patch_.points.begin() + static_cast<std::ptrdiff_t>(patch_.crossing_count));
   const auto region = hull_annulus(crossings, polygon(tunnel.loop), polygon(tunnel.other), *tests_);
+  if (region.empty()) return false;
   // Its copy between copies of the loops.
   constexpr std::uint32_t kNone = 0;  // a crossing's number
   std::array<std::uint32_t, kCellEdges> copies{};
@@ -162,6 +165,7 @@ void CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
     }
     add_triangle(copies[a], copies[b], copies[c]);
   }
+  return true;
 }
 
 }  // namespace deliso

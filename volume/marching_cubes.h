@@ -3,8 +3,8 @@
 // One vertex per grid-edge crossing. In every cell the arcs on its faces (asymptotic decider; Nielson and Hamann 1991)
 // close to loops, and the exact pieces of the surface in the cell (exact_topology_cell.h) say which loops bound a disk
 // and which two bound a tunnel (Chernyaev 1995). All decisions are the exact ones of exact_topology, so the mesh is
-// homeomorphic to the isosurface. With exact tests no triangles meet beyond what they share (cell_triangulation.h
-// says how far that goes); without them some may, around tunnels.
+// homeomorphic to the isosurface. With exact tests no triangles meet beyond what they share, but for crossings
+// that are rounded to samples (cell_triangulation.h); without them some may, around tunnels.
 #pragma once
 
 #include <array>

@@ -204,6 +204,31 @@ TEST(MarchingCubesEmbedding, OfSymmetricCellsHoldsElsewhereAndWithOtherSpacings)
   }
 }
 
+// Beyond the first cells crossings are rounded to samples, and need no longer be corners of their hull. Then triangles
+// may meet, but no cell may lose any.
+TEST(MarchingCubesEmbedding, NeverCostsTheTopology) {
+  int with_tunnels = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Rng rng(seed);
+    CellCorners corners{1e-9, 1e-9, -1, 1, 1e-18, -1, -1e-18, 1};
+    if (seed > 0) {
+      for (double& corner : corners) corner = (rng.below(2) == 0 ? -1 : 1) * std::pow(10, rng.uniform(-20, 0));
+    }
+    std::vector<double> samples(64, -1);
+    for (std::size_t c = 0; c < 8; ++c) {
+      samples[(1 + (c & 1)) + 4 * ((1 + (c >> 1 & 1)) + 4 * (1 + (c >> 2)))] = corners[c];
+    }
+    const ScalarGrid grid({4, 4, 4}, samples);
+    const MarchingCubesMesh mesh = marching_cubes(grid, 0, &kExactTests);
+    const test::MeshFacts facts = test::mesh_facts(mesh.triangles);
+    ASSERT_EQ(facts.defect, "") << "seed " << seed;
+    ASSERT_TRUE(facts.boundary.empty()) << "seed " << seed;
+    ASSERT_EQ(facts.components, test::sorted_components(exact_topology(grid, 0))) << "seed " << seed;
+    with_tunnels += mesh.points.size() > mesh.crossing_count ? 1 : 0;
+  }
+  EXPECT_GT(with_tunnels, 10);
+}
+
 TEST(MarchingCubesEmbedding, HoldsInVolumesOfNoise) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Rng rng(seed);
