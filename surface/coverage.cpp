@@ -28,12 +28,6 @@ constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles b
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
 
-Box3 box_of(const SurfaceMesh& mesh, std::size_t t) {
-  Box3 box;
-  for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
-  return box;
-}
-
 double squared_longest_edge(const SurfaceMesh& mesh, std::uint32_t t) {
   const auto& v = mesh.triangles[t];
   const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
@@ -107,7 +101,7 @@ Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
 MeshCover::MeshCover(const SurfaceMesh& mesh, int threads)
     : mesh_(mesh),
       tree_(
-          mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, t); }, threads) {}
+          mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); }, threads) {}
 
 double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
   const auto& v = mesh_.triangles[triangle];

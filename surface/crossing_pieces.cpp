@@ -1,6 +1,7 @@
 #include "surface/crossing_pieces.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -71,25 +72,21 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
 
 }  // namespace
 
-std::int64_t polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
-                                        std::vector<bool>& is_polygonized, int threads, Controls& controls) {
-  const auto count = [](const std::vector<bool>& marks) { return std::count(marks.begin(), marks.end(), true); };
-  const std::int64_t before = count(is_polygonized);
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+                                std::vector<bool>& is_polygonized, int threads, Controls& controls) {
   while (!controls.poll()) {
     const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostPairs, threads);
-    if (found.crossing_pairs == 0) break;
+    if (found.crossing_pairs == 0) return;
     const PolygonizedSurface& cubes = facts.polygonized();
     const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts, isosurface, is_polygonized);
-    if (count(dropped) > 0) {
-      append_pieces(cubes.mesh, cubes.component, dropped, mesh);
-      continue;
+    if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
+      // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
+      is_polygonized.assign(is_polygonized.size(), true);
+      mesh = cubes.mesh;
+      return;
     }
-    // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
-    is_polygonized.assign(is_polygonized.size(), true);
-    mesh = cubes.mesh;
-    break;
+    append_pieces(cubes.mesh, cubes.component, dropped, mesh);
   }
-  return count(is_polygonized) - before;
 }
 
 }  // namespace deliso

@@ -1,7 +1,6 @@
 // The end of repair: pieces of its mesh that cross are replaced by what marching cubes makes of their components.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -14,9 +13,9 @@ namespace deliso {
 // Pieces of Delaunay meshes may cross where they come from different ones or where copies of a vertex could not be
 // moved apart. The component of a piece is the one that most of its vertices lie on. Marching cubes does not cross
 // itself, so with enough of it nothing crosses; where it is not told which pieces are to blame, all components are
-// polygonized. `is_polygonized`, of each component: it comes from marching cubes; kept up to date. Returns how many
-// components became so. The mesh has pole heights. A run that has to stop keeps what there is.
-std::int64_t polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
-                                        std::vector<bool>& is_polygonized, int threads, Controls& controls);
+// polygonized. `is_polygonized`, of each component: it comes from marching cubes; kept up to date. The mesh has pole
+// heights. A run that has to stop keeps what there is.
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+                                std::vector<bool>& is_polygonized, int threads, Controls& controls);
 
 }  // namespace deliso

@@ -71,11 +71,6 @@ class Dents {
   [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
     return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
   }
-  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
-    Box3 box;
-    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
-    return box;
-  }
   [[nodiscard]] bool has_area_at(const std::array<std::uint32_t, 3>& t) const {
     return has_area(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
   }
@@ -151,7 +146,7 @@ void Dents::find_surroundings() {
   }
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    tree.for_each_meeting(box_of(t), [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+    tree.for_each_meeting(box_of(mesh_, t), [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
   }
 }
 
@@ -171,7 +166,7 @@ void Dents::look_around(Apex& apex, const Box3& box) {
   apex.box = box;
   apex.surroundings.clear();
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (fans_.has_triangle(t) && box.meets(box_of(t))) apex.surroundings.push_back(t);
+    if (fans_.has_triangle(t) && box.meets(box_of(mesh_, t))) apex.surroundings.push_back(t);
   }
 }
 

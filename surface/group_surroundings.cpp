@@ -56,9 +56,7 @@ void GroupSurroundings::find_those_near_homes() {
   if (groups.empty()) return;
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    Box3 box;
-    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
-    tree.for_each_meeting(box, [&](std::uint32_t near) { near_homes_[groups[near]].push_back(t); });
+    tree.for_each_meeting(box_of(mesh_, t), [&](std::uint32_t near) { near_homes_[groups[near]].push_back(t); });
   }
 }
 

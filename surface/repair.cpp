@@ -106,8 +106,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   round_.reset();
   SurfaceMesh kept = assemble_kept();
   if (!controls.poll()) stats_.dents_removed = remove_dents(kept, isosurface_);
-  stats_.components_polygonized +=
-      polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_, controls);
+  polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_, controls);
+  stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
   return kept;
 }
@@ -203,8 +203,7 @@ SurfaceMesh Repair::assemble_kept() {
   SurfaceMesh kept;
   is_polygonized_.assign(topology_.components.size(), true);
   kept_.append_to(kept, is_polygonized_, isosurface_.box(), threads_, stats_);
-  stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
-  if (stats_.components_polygonized == 0) return kept;
+  if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return kept;
   append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, is_polygonized_, kept);
   return kept;
 }

@@ -1,6 +1,5 @@
-// Pairs of triangles of a mesh that meet where they should not, decided exactly on the given coordinates.
-// (delaunay/triangle_contact.h says what crossing and touching mean). Triangles of zero area have no plane; they are
-// counted and left out.
+// Pairs of triangles of a mesh that meet where they should not, decided exactly on the given coordinates: crossing and
+// touching ones (delaunay/triangle_contact.h). Triangles of zero area have no plane; they are counted and left out.
 #pragma once
 
 #include <array>

@@ -71,11 +71,6 @@ class Separation {
   [[nodiscard]] int conflicts(std::uint32_t copy);
   [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
 
-  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
-    Box3 box;
-    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
-    return box;
-  }
   [[nodiscard]] bool has_area_at(std::uint32_t t) const {
     const auto& v = mesh_.triangles[t];
     return has_area(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
@@ -120,13 +115,13 @@ void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
 
 void Separation::find_surroundings(std::size_t group) {
   surroundings_.clear();
-  for (const std::uint32_t t : around_.triangles(group)) surroundings_.push_back({t, box_of(t), has_area_at(t)});
+  for (const std::uint32_t t : around_.triangles(group)) surroundings_.push_back({t, box_of(mesh_, t), has_area_at(t)});
 }
 
 // A copy may have moved, and the triangles at it with it.
 void Separation::look_again_at(std::uint32_t copy) {
   for (Surrounding& t : surroundings_) {
-    if (around_.is_at(t.triangle, copy)) t = {t.triangle, box_of(t.triangle), has_area_at(t.triangle)};
+    if (around_.is_at(t.triangle, copy)) t = {t.triangle, box_of(mesh_, t.triangle), has_area_at(t.triangle)};
   }
 }
 
@@ -228,7 +223,7 @@ int Separation::conflicts(std::uint32_t copy) {
       count += kCrossingWeight;
       continue;
     }
-    const Box3 box = box_of(s);
+    const Box3 box = box_of(mesh_, s);
     for (const Surrounding& t : surroundings_) {
       if (s == t.triangle || !box.meets(t.box) || !t.has_area) continue;
       const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t.triangle]);

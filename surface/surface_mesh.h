@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/box3.h"
 #include "delaunay/base/vec3.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
@@ -23,6 +24,13 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<TriangleSide, 3>> neighbours;
 };
+
+// Around a triangle.
+inline Box3 box_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
+  Box3 box;
+  for (const std::uint32_t v : mesh.triangles[triangle]) box.extend(mesh.points[v]);
+  return box;
+}
 
 // The corners that sides joined by `across` (which names the side across a side, or kNoSide) make one vertex with a
 // corner; corner 3 t + i is that of triangle t at its vertex i. Walks around the vertex one way and, if the fan is

@@ -8,9 +8,10 @@
 //
 // Within a cell a disk of least chords has not been seen to cross itself or another disk (in more than 10^7 random
 // cells); triangles around a tunnel do. So cells that are not simple are tested exactly, where there are tests, and
-// tunnels whose triangles meet are drawn in another way (cell_tunnel.cpp). Both is decided in index space; what is
-// drawn otherwise also bears small displacements. A spacing that is no power of two rounds the points anew: what comes
-// within a rounding may meet again, as may edges whose crossings round to a sample.
+// tunnels whose triangles meet, or whose inner points are off the surface, are drawn in another way (cell_tunnel.cpp).
+// Both is decided in index space; what is drawn otherwise also bears small displacements. A spacing that is no power of
+// two rounds the points anew: what comes within a rounding may meet again, as may edges whose crossings round to a
+// sample.
 #pragma once
 
 #include <array>

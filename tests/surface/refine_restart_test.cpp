@@ -109,37 +109,37 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
   }
 }
 
+// A crossed hill after one pass, which does not look back at what it made.
+enum class Trust { kAsUsual, kNone };
+RefinementMesh refined_once(const Vec3& place, Trust trust, RefineStats& stats) {
+  const auto [scene, mesh] = crossed_hill_at(place);
+  RefinementPart part;
+  part.mesh = RefinementMesh(mesh);
+  set_clearances(part.mesh);
+  if (trust == Trust::kNone) distrust_all(part.mesh);
+  const RefineOptions options = fine_options();
+  Controls controls(BudgetParameters{}, nullptr, {});
+  Refinement(part, *scene->isosurface, options, stats).measure_all(1);
+  Refinement(part, *scene->isosurface, options, stats).run(controls, 1);
+  return std::move(part.mesh);
+}
+
 TEST(RefineRestart, WithNoTrustAtAllNothingComesToMeet) {
   for (const Vec3& place : kPlaces) {
-    const auto [scene, mesh] = crossed_hill_at(place);
-    RefinementPart part;
-    part.mesh = RefinementMesh(mesh);
-    set_clearances(part.mesh);
-    distrust_all(part.mesh);
-    const RefineOptions options = fine_options();
     RefineStats stats;
-    Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
-    Refinement(part, *scene->isosurface, options, stats).run(controls, 1);
+    const RefinementMesh mesh = refined_once(place, Trust::kNone, stats);
     EXPECT_GT(stats.insertions, 30);
-    const SelfIntersections found = meeting_pairs(part.mesh, 1);
+    const SelfIntersections found = meeting_pairs(mesh, 1);
     EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
   }
 }
 
 TEST(RefineRestart, WhatWasRenewedHoldsAllPairsThatCameToMeet) {
   for (const Vec3& place : kPlaces) {
-    const auto [scene, mesh] = crossed_hill_at(place);
-    RefinementPart part;
-    part.mesh = RefinementMesh(mesh);
-    set_clearances(part.mesh);
-    const RefineOptions options = fine_options();
     RefineStats stats;
-    Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
-    Refinement(part, *scene->isosurface, options, stats).run(controls, 1);
-    const SelfIntersections all = meeting_pairs(part.mesh, 1);
-    const SelfIntersections renewed = meeting_pairs_of_renewed(part.mesh, 1);
+    const RefinementMesh mesh = refined_once(place, Trust::kAsUsual, stats);
+    const SelfIntersections all = meeting_pairs(mesh, 1);
+    const SelfIntersections renewed = meeting_pairs_of_renewed(mesh, 1);
     EXPECT_GT(all.crossing_pairs, 0);
     EXPECT_EQ(renewed.crossing_pairs, all.crossing_pairs);
     EXPECT_EQ(renewed.touching_pairs, all.touching_pairs);
