@@ -9,6 +9,28 @@ namespace {
 // So many components are swept in one go.
 constexpr std::size_t kAtOnce = 256;
 
+// The cells whose corners' layers may count in some of several boxes, and few others.
+class ReachedCells {
+ public:
+  ReachedCells(const std::vector<std::optional<PlaceBoxes>>& boxes, const Dims& dims) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto is_reached = [&](std::int32_t layer) {
+        return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box && box->reach(axis, layer); });
+      };
+      for (std::int32_t layer = 0; layer + 1 < dims[axis]; ++layer) {
+        layers_[axis].push_back(is_reached(layer) || is_reached(layer + 1));
+      }
+    }
+  }
+  bool operator()(const CellIndex& cell) const {
+    return layers_[0][static_cast<std::size_t>(cell[0])] && layers_[1][static_cast<std::size_t>(cell[1])] &&
+           layers_[2][static_cast<std::size_t>(cell[2])];
+  }
+
+ private:
+  std::array<std::vector<bool>, 3> layers_;  // of cells, along each axis
+};
+
 }  // namespace
 
 const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
@@ -40,11 +62,37 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
   }
   const std::vector<SweptCharacteristics> swept = swept_characteristics(
       mesh.built.mesh, part_of_vertex, components.size(), isosurface_.step(), facts_.grid().dims());
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    Places& places = places_[components[i]];
-    places.layers = jumps_between(swept[i], facts_.sweeps().of(components[i]));
-    if (places.count() > most_) places = {};
+  const Dims& dims = facts_.grid().dims();
+  std::vector<std::optional<PlaceBoxes>> boxes(components.size());
+  std::vector<std::uint32_t> part_of_component(places_.size(), kNoPart);
+  for (std::uint32_t i = 0; i < components.size(); ++i) {
+    boxes[i] = PlaceBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
+    if (boxes[i] && boxes[i]->count() > 1) part_of_component[components[i]] = i;
   }
+  count_in_boxes(mesh, part_of_vertex, part_of_component, boxes);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (boxes[i] && boxes[i]->count() <= most_) places_[components[i]] = boxes[i]->places();
+  }
+}
+
+// Which places differ indeed is to be found out where there are several.
+void MeshDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                                     const std::vector<std::uint32_t>& part_of_component,
+                                     std::vector<std::optional<PlaceBoxes>>& boxes) const {
+  const auto is_wanted = [](std::uint32_t part) { return part != kNoPart; };
+  if (std::none_of(part_of_component.begin(), part_of_component.end(), is_wanted)) return;
+  const Dims& dims = facts_.grid().dims();
+  const ReachedCells reached(boxes, dims);
+  using Layers = std::array<std::int32_t, 3>;
+  for_each_mesh_change(mesh.built.mesh, part_of_vertex, isosurface_.step(), dims,
+                       [&](std::uint32_t part, const Layers& layers, std::int32_t change) {
+                         if (boxes[part]) boxes[part]->add(layers, 2 * change);
+                       });
+  for_each_exact_change(facts_.grid(), isosurface_, facts_.topology(), reached,
+                        [&](std::uint32_t component, const Layers& layers, std::int32_t twice) {
+                          const std::uint32_t part = part_of_component[component];
+                          if (is_wanted(part)) boxes[part]->add(layers, -twice);
+                        });
 }
 
 }  // namespace deliso

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "surface/place_boxes.h"
 #include "surface/surface_facts.h"
 #include "surface/sweep_difference.h"
 #include "surface/trouble.h"
@@ -18,12 +20,15 @@ class MeshDifferences {
   MeshDifferences(const SurfaceFacts& facts, const Isosurface& isosurface) : facts_(facts), isosurface_(isosurface) {}
 
   // For each component that is not done and whose main piece has another topology: the places at which the two part, if
-  // they are no more than `most`. Known when asked for again.
+  // they are no more than `most` in all. Known when asked for again.
   const std::vector<Places>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
                                   std::size_t most);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
+  void count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                      const std::vector<std::uint32_t>& part_of_component,
+                      std::vector<std::optional<PlaceBoxes>>& boxes) const;
 
   const SurfaceFacts& facts_;
   const Isosurface& isosurface_;

@@ -32,6 +32,10 @@ namespace {
 constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 
+// Sweeps may err, and then nothing would ever be mended if no trouble counted but near what they find. In one round all
+// of it counts; in several the samples would grow too many.
+constexpr std::int32_t kRoundOfAllTrouble = 3;
+
 class Repair {
  public:
   Repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
@@ -89,10 +93,10 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   kept_.keep(mesh_, round_->restricted().signs());
   for (std::int32_t round = 1; round <= max_rounds && !kept_.is_done() && !controls.poll(); ++round) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
-    raised_.raise(
-        cells_in_trouble({grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(),
-                          kept_.done(), places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round_->evidence(),
-                          round_->located(facts_.critical_places()), threads_}));
+    raised_.raise(cells_in_trouble(
+        {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
+         places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round != kRoundOfAllTrouble, round_->evidence(),
+         round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     release_free_memory();
@@ -162,11 +166,12 @@ bool Repair::take(RepairRound::Attempt& attempt) {
 void Repair::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
   TetSigns signs;
-  const std::size_t at_once = threads_ > 1 ? kSignRules.size() : 1;
+  const std::span<const SignRule> rules = round_->rules();
+  const std::size_t at_once = threads_ > 1 ? rules.size() : 1;
   bool is_over = false;
-  for (std::size_t first = 0; first < kSignRules.size() && !is_over; first += at_once) {
-    for (RepairRound::Attempt& attempt : round_->attempts(std::span(kSignRules).subspan(first, at_once),
-                                                          [&](const auto& m) { return kept_.would_be_done(m); })) {
+  for (std::size_t first = 0; first < rules.size() && !is_over; first += at_once) {
+    for (RepairRound::Attempt& attempt :
+         round_->attempts(rules.subspan(first, at_once), [&](const auto& m) { return kept_.would_be_done(m); })) {
       if (take(attempt)) return;
       is_over = controls.poll();
       if (!best || mesh_->match.error < best->match.error) {
@@ -186,8 +191,8 @@ void Repair::try_signs(Controls& controls) {
   const std::vector<Places> places = places_of_difference(kMostPlaces);
   std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < places.size(); ++c) {
-    if (kept_.done()[c] || places[c].empty()) continue;
-    if (!trials) trials.emplace(*round_, topology_, raised_, kSignRules);
+    if (kept_.done()[c] || places[c].all.empty()) continue;
+    if (!trials) trials.emplace(*round_, topology_, raised_, round_->rules());
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       kept_.keep(mesh_, round_->restricted().signs());

@@ -72,6 +72,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   if (rules_) {
     rules_->renew(exchanged);
     rules_->update();
+    keep_signs(exchanged);
   }
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
@@ -79,6 +80,13 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   poles_.renew(exchanged);
   has_assembled_ = false;
   return true;
+}
+
+void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
+  as_before_ = restricted_->signs();
+  rules_->take_signs(SignRule::kCentroidWithRing, at_circumcenters_);
+  const TetSigns by_rule = restricted_->signs();
+  for (const TetId t : exchanged.renewed) as_before_[t.index()] = by_rule[t.index()];
 }
 
 void RepairRound::take_plain_signs() {
@@ -90,7 +98,7 @@ void RepairRound::take_signs(SignRule rule) {
   TetSigns& known = signs_by_rule_[static_cast<std::size_t>(rule)];
   if (!known.empty()) return restricted_->set_signs(known);
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
-  rules_->take_signs(rule, at_circumcenters_);
+  rules_->take_signs(rule, rule == SignRule::kAsBefore ? as_before_ : at_circumcenters_);
   unfounded_.overturn(*restricted_);
   known = restricted_->signs();
 }

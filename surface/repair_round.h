@@ -71,6 +71,10 @@ class RepairRound {
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
+  // The rules that are worth trying now, in order: of those at the end kAsBefore knows already.
+  [[nodiscard]] std::span<const SignRule> rules() const {
+    return as_before_.empty() ? std::span(kSignRules).subspan(1) : std::span(kSignRules).first(kRulesAfterTheFirst);
+  }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
@@ -81,7 +85,10 @@ class RepairRound {
   }
 
  private:
+  static constexpr std::size_t kRulesAfterTheFirst = 3;
+
   void find_components(std::size_t first);
+  void keep_signs(const ExchangedPoints& exchanged);
   std::optional<PairedTriangles> take_triangles();
   std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
@@ -94,6 +101,7 @@ class RepairRound {
   int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
+  TetSigns as_before_;  // of the round before at last, new tetrahedra by the rule that is tried first; or none
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRules> rules_;
   std::array<TetSigns, kSignRules.size()> signs_by_rule_;  // in this round; empty for a rule that has not been tried

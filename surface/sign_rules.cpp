@@ -136,9 +136,9 @@ void SignRules::update_candidates() {
   candidates_.insert(candidates_.end(), found.begin(), found.end());
 }
 
-void SignRules::take_signs(SignRule rule, const TetSigns& at_circumcenters) {
-  restricted_.set_signs(at_circumcenters);
-  if (rule != SignRule::kCircumcenter) {
+void SignRules::take_signs(SignRule rule, const TetSigns& start) {
+  restricted_.set_signs(start);
+  if (rule != SignRule::kCircumcenter && rule != SignRule::kAsBefore) {
     update_candidates();
     for (const Candidate& candidate : candidates_) {
       if (candidate.in_ring && rule != SignRule::kCentroidWithRing) continue;

@@ -17,14 +17,16 @@
 namespace deliso {
 
 enum class SignRule {
+  kAsBefore,              // as the round before had it in the end: what was mended there stays mended
   kCentroidWithRing,      // the centroid, for small tetrahedra in raised cells and the ring around them
   kCentroid,              // the same without the ring
   kCentroidWhereOpposed,  // the same, only where the gradients at two of the vertices oppose each other
   kCircumcenter,
 };
-// All of them, in the order in which repair tries them.
-inline constexpr std::array<SignRule, 4> kSignRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
-                                                       SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
+// All of them, in the order in which repair tries them (RepairRound::rules).
+inline constexpr std::array<SignRule, 5> kSignRules = {SignRule::kAsBefore, SignRule::kCentroidWithRing,
+                                                       SignRule::kCentroid, SignRule::kCentroidWhereOpposed,
+                                                       SignRule::kCircumcenter};
 
 // The rules for one triangulation and the raised cells. What the rules have in common is found once, and again only
 // where points have been exchanged or cells raised.
@@ -39,9 +41,9 @@ class SignRules {
   void update();
 
   // Gives every tetrahedron its sign by a rule; then each small one that segments of known side cross takes their side:
-  // evidence that no rule may overrule. `at_circumcenters`: the signs that every rule starts from
-  // (SignedDelaunay::signs).
-  void take_signs(SignRule rule, const TetSigns& at_circumcenters);
+  // evidence that no rule may overrule. `start`: the signs that the rule changes (SignedDelaunay::signs), those of the
+  // circumcenters or, for kAsBefore, those before.
+  void take_signs(SignRule rule, const TetSigns& start);
 
   // What is known of the sides in each tetrahedron (evidence.h).
   [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }

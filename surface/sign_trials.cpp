@@ -75,7 +75,7 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
 std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
-  const DistanceFromPlaces distance_from_places(places, cells_.dims());
+  const DistanceFromPlaces distance_from_places(places.likely, cells_.dims(), kReach);
   const auto distance = [&](TetId t) {
     const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
@@ -94,7 +94,7 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
 std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
-  const DistanceFromPlaces distance_from_places(places, cells_.dims());
+  const DistanceFromPlaces distance_from_places(places.likely, cells_.dims(), kReachOfSingles);
   const auto append_if_near = [&](std::size_t i, std::vector<DisputedCluster>& singles) {
     const TetId t(i);
     const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;

@@ -28,7 +28,7 @@ class SignTrials {
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
-  // Tries near the places at which the main piece of a component parts from it: disputed clusters, then single
+  // Tries near the likely places at which the main piece of a component parts from it: disputed clusters, then single
   // tetrahedra of whose side nothing is known. `mesh` is the mesh of the round's signs; afterwards the signs are those
   // of the best mesh.
   void mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -12,6 +13,14 @@
 #include "volume/scalar_grid.h"
 
 namespace deliso {
+
+// Calls visit(component, layers, twice): twice what changes in the Euler characteristic of what an exact component has
+// below three planes when all of them have come to these layers. Of the marching-cubes mesh (polygonized_components.h),
+// cell by cell, without making it. Calls may be left out where the layers are those of no cell of which is_wanted
+// holds.
+using VisitChange = std::function<void(std::uint32_t, const std::array<std::int32_t, 3>&, std::int32_t)>;
+void for_each_exact_change(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+                           const std::function<bool(const CellIndex&)>& is_wanted, const VisitChange& visit);
 
 // The swept characteristics of each exact component, as swept_characteristics gives them for its marching-cubes mesh
 // (polygonized_components.h). They are found cell by cell, without making the mesh, and kept for the layers only that a
@@ -28,7 +37,7 @@ class SurfaceSweeps {
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
-  class Counter;
+  void find_layers(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology);
 
   Dims dims_;
   std::vector<std::array<Layers, 3>> layers_;  // that each component may reach, along each axis

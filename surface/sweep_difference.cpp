@@ -57,7 +57,6 @@ std::array<std::int32_t, 3> layers_at(const Vec3& p, const Vec3& step, const std
   return layers;
 }
 
-// V - E + F of the simplices whose vertices all lie below.
 std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
                                                         const std::vector<std::uint32_t>& part_of_vertex,
                                                         std::size_t parts, const Vec3& step,
@@ -65,34 +64,12 @@ std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
   SweptCharacteristics none;
   for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
   std::vector<SweptCharacteristics> changes(parts, none);
-  // A vertex counts when a triangle has it; its layers are found then.
-  constexpr std::int32_t kUnseen = -1;
-  std::vector<std::array<std::int32_t, 3>> layers(mesh.points.size(), {kUnseen, 0, 0});
-  const auto see = [&](std::uint32_t v, SweptCharacteristics& change) {
-    if (layers[v][0] != kUnseen) return;
-    layers[v] = layers_at(mesh.points[v], step, dims);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      ++change[axis][static_cast<std::size_t>(layers[v][axis])];
-    }
-  };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t];
-    if (part_of_vertex[v[0]] == kNoPart) continue;
-    SweptCharacteristics& change = changes[part_of_vertex[v[0]]];
-    std::array<bool, 3> counts_edge{};  // an edge counts from the larger of its two sides
-    for (unsigned i = 0; i < 3; ++i) {
-      see(v[i], change);
-      const TriangleSide across = mesh.neighbours[t][i];
-      counts_edge[i] = across == kNoSide || across < 4 * t + i;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::array<std::int32_t, 3> at = {layers[v[0]][axis], layers[v[1]][axis], layers[v[2]][axis]};
-      for (unsigned i = 0; i < 3; ++i) {
-        if (counts_edge[i]) --change[axis][static_cast<std::size_t>(std::max(at[(i + 1) % 3], at[(i + 2) % 3]))];
-      }
-      ++change[axis][static_cast<std::size_t>(std::max({at[0], at[1], at[2]}))];
-    }
-  }
+  for_each_mesh_change(mesh, part_of_vertex, step, dims,
+                       [&](std::uint32_t part, const std::array<std::int32_t, 3>& at, std::int32_t change) {
+                         for (std::size_t axis = 0; axis < 3; ++axis) {
+                           changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
+                         }
+                       });
   for (SweptCharacteristics& change : changes) {
     for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
   }

@@ -11,36 +11,10 @@ namespace deliso {
 
 namespace {
 
-std::int32_t distance_along_axis(const std::vector<std::int32_t>& layers, std::int32_t from) {
-  std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
-  for (const std::int32_t layer : layers) nearest = std::min(nearest, std::abs(from - layer));
-  return nearest;
-}
-
-}  // namespace
-
-std::int32_t Places::distance(const CellIndex& cell) const {
-  std::int32_t farthest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    farthest = std::max(farthest, distance_along_axis(layers[axis], cell[axis]));
-  }
-  return farthest;
-}
-
-DistanceFromPlaces::DistanceFromPlaces(const Places& places, const std::array<std::int32_t, 3>& dims) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::int32_t layer = 0; layer < dims[axis]; ++layer) {
-      layers_[axis].push_back(distance_along_axis(places.layers[axis], layer));
-    }
-  }
-}
-
-namespace {
-
 // How many layers from a place trouble is looked for, and how many all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::size_t kFewPlaces = 8;  // at most so many, for some are where jumps along the axes cross by chance
+constexpr std::size_t kFewPlaces = 64;  // where all active cells are taken, at most
 
 class TroubleFinder {
  public:
@@ -56,7 +30,12 @@ class TroubleFinder {
         evidence_(context.evidence),
         critical_(context.critical),
         threads_(context.threads),
-        has_sign_(context.done.size(), false) {}
+        near_places_(context.places.size()),
+        has_sign_(context.done.size(), false) {
+    for (std::size_t c = 0; context.is_near_places && c < places_.size(); ++c) {
+      if (!places_[c].all.empty()) near_places_[c].emplace(places_[c].all, grid_.dims(), kNear);
+    }
+  }
 
   std::vector<CellName> find() {
     flag_places();
@@ -85,7 +64,7 @@ class TroubleFinder {
     const Agreement agreement = mesh_.match.agreement[component];
     if (agreement == Agreement::kMixed && tells != Tells::kMixing) return false;
     if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return false;
-    return places_[component].empty() || places_[component].near(cells_.cell_of(p), kNear);
+    return !near_places_[component] || near_places_[component]->reaches(cells_.cell_of(p));
   }
   void flag(const Vec3& p, std::uint32_t component, Tells tells) {
     if (!matters(p, component, tells)) return;
@@ -104,16 +83,22 @@ class TroubleFinder {
   std::span<const std::uint8_t> evidence_;
   LocatedPlaces& critical_;
   int threads_;
-  std::vector<bool> has_sign_;  // of each exact component
+  std::vector<std::optional<DistanceFromPlaces>> near_places_;  // of each exact component
+  std::vector<bool> has_sign_;                                  // of each exact component
   std::vector<CellName> found_;
 };
 
 void TroubleFinder::flag_places() {
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
-    if (done_[c] || places_[c].empty() || places_[c].count() > kFewPlaces) continue;
-    topology_.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-      if (places_[c].near(cell, kVeryNear)) found_.push_back(cells_.name(cell));
-    });
+    const std::vector<Place>& likely = places_[c].likely;
+    if (done_[c] || likely.empty() || likely.size() > kFewPlaces) continue;
+    for (const Place& place : likely) {
+      const std::int32_t first = std::max(place[2].first - kVeryNear, 0);
+      const std::int32_t last = std::min(place[2].last + kVeryNear + 1, topology_.index.cell_layers());
+      topology_.index.for_each_active_cell(first, last, [&](const CellIndex& cell, unsigned) {
+        if (distance_from(place, cell) <= kVeryNear) found_.push_back(cells_.name(cell));
+      });
+    }
   }
 }
 

@@ -28,18 +28,30 @@ class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
     mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
-  // What one component's main piece and its part of the surface alone give.
-  [[nodiscard]] std::array<std::vector<std::int32_t>, 3> layers_of(std::uint32_t c) const {
-    const auto swept = [&](const SurfaceMesh& mesh, const auto& is_of_c) {
-      std::vector<std::uint32_t> part(mesh.points.size(), kNoPart);
-      for (std::uint32_t v = 0; v < part.size(); ++v) part[v] = is_of_c(v) ? 0 : kNoPart;
-      return swept_characteristics(mesh, part, 1, scene_->isosurface->step(), scene_->grid.dims()).front();
-    };
-    const ComponentMatch& match = mesh_->match;
+  // What one component's main piece and its part of the surface alone give, both as whole meshes.
+  [[nodiscard]] Places places_of(std::uint32_t c) const {
     const PolygonizedSurface& exact = facts_.polygonized();
-    return jumps_between(
-        swept(mesh_->built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == match.main_piece[c]; }),
-        swept(exact.mesh, [&](std::uint32_t v) { return exact.component[v] == c; }));
+    const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);
+    const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
+    const Vec3& step = scene_->isosurface->step();
+    const Dims& dims = scene_->grid.dims();
+    auto boxes =
+        PlaceBoxes::around(jumps_between(swept_characteristics(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
+                                         swept_characteristics(exact.mesh, on_surface, 1, step, dims).front()),
+                           dims);
+    if (!boxes) return {};
+    const auto adds = [&](std::int32_t sign) {
+      return
+          [&boxes, sign](std::uint32_t, const auto& layers, std::int32_t change) { boxes->add(layers, sign * change); };
+    };
+    for_each_mesh_change(mesh_->built.mesh, in_mesh, step, dims, adds(1));
+    for_each_mesh_change(exact.mesh, on_surface, step, dims, adds(-1));
+    return boxes->places();
+  }
+  static std::vector<std::uint32_t> part_where(const std::vector<std::uint32_t>& names, std::uint32_t wanted) {
+    std::vector<std::uint32_t> part;
+    for (const std::uint32_t name : names) part.push_back(name == wanted ? 0 : kNoPart);
+    return part;
   }
 
   std::unique_ptr<testing::Scene> scene_;
@@ -54,7 +66,7 @@ TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
   int wrong = 0;
   for (std::uint32_t c = 0; c < components(); ++c) {
     const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
-    EXPECT_EQ(places[c].layers, is_wrong ? layers_of(c) : Places().layers) << c;
+    EXPECT_EQ(places[c], is_wrong ? places_of(c) : Places()) << c;
     wrong += is_wrong ? 1 : 0;
   }
   EXPECT_GT(wrong, 0);
@@ -65,17 +77,17 @@ TEST_P(MeshDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
   const std::vector<bool> none_done(components(), false);
   const std::vector<Places> all = differences.find(mesh_, none_done, kMany);
   std::size_t most = 0;
-  for (const Places& places : all) most = std::max(most, places.count());
+  for (const Places& places : all) most = std::max(most, places.all.size());
   ASSERT_GT(most, 0u);
   const std::vector<Places> fewer = differences.find(mesh_, none_done, most - 1);
   for (std::size_t c = 0; c < components(); ++c) {
-    EXPECT_EQ(fewer[c].layers, all[c].count() < most ? all[c].layers : Places().layers);
+    EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : Places());
   }
   const std::vector<Places> again = differences.find(mesh_, none_done, kMany);
-  for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c].layers, all[c].layers);
+  for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
   MeshDifferences others(facts_, *scene_->isosurface);
   for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
-    EXPECT_TRUE(places.empty());
+    EXPECT_TRUE(places.all.empty());
   }
 }
 

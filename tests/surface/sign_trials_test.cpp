@@ -130,7 +130,9 @@ Places places_at(const RaisedCells& cells, const Tetrahedralization& delaunay, T
   for (const VertexId v : delaunay.vertices(t)) centre += 0.25 * delaunay.point(v);
   const CellIndex cell = cells.cell_of(centre);
   Places places;
-  for (std::size_t axis = 0; axis < 3; ++axis) places.layers[axis] = {cell[axis] + 1};
+  places.all.emplace_back();
+  for (std::size_t axis = 0; axis < 3; ++axis) places.all[0][axis] = {cell[axis] + 1, cell[axis] + 1};
+  places.likely = places.all;
   return places;
 }
 

@@ -1,0 +1,48 @@
+// Places in a volume near which repair has something to mend.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "volume/exact_topology_crossings.h"
+
+namespace deliso {
+
+// Sample layers, from the first to the last.
+struct LayerRange {
+  std::int32_t first = 0;
+  std::int32_t last = 0;
+
+  friend bool operator==(const LayerRange&, const LayerRange&) = default;
+};
+
+// A range along each axis.
+using Place = std::array<LayerRange, 3>;
+
+// Where sweeps see a component and its main piece part.
+struct Places {
+  std::vector<Place> all;     // empty when there is no telling
+  std::vector<Place> likely;  // some of them, or all
+
+  friend bool operator==(const Places&, const Places&) = default;
+};
+
+// How many layers a cell is away, along the axis along which it is farthest.
+std::int32_t distance_from(const Place& place, const CellIndex& cell);
+
+// The same of the nearest of some places, for many cells of a volume with so many samples.
+class DistanceFromPlaces {
+ public:
+  DistanceFromPlaces(std::vector<Place> places, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
+  // Exact as far as the reach, which is all that is asked of what is farther away.
+  [[nodiscard]] std::int32_t operator()(const CellIndex& cell) const;
+  [[nodiscard]] bool reaches(const CellIndex& cell) const { return (*this)(cell) <= reach_; }
+
+ private:
+  std::vector<Place> places_;
+  std::int32_t reach_;
+  std::array<std::vector<std::int32_t>, 3> at_least_;  // along each axis, of each layer: what that axis alone tells
+};
+
+}  // namespace deliso
