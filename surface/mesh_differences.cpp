@@ -1,6 +1,7 @@
 #include "surface/mesh_differences.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace deliso {
 
@@ -66,12 +67,18 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
   std::vector<std::optional<PlaceBoxes>> boxes(components.size());
   std::vector<std::uint32_t> part_of_component(places_.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) {
-    boxes[i] = PlaceBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
-    if (boxes[i] && boxes[i]->count() > 1) part_of_component[components[i]] = i;
+    auto around = PlaceBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
+    if (!around || around->count() > most_) continue;
+    if (around->count() == 1) {
+      places_[components[i]] = around->places();
+      continue;
+    }
+    boxes[i] = std::move(around);
+    part_of_component[components[i]] = i;
   }
   count_in_boxes(mesh, part_of_vertex, part_of_component, boxes);
   for (std::size_t i = 0; i < components.size(); ++i) {
-    if (boxes[i] && boxes[i]->count() <= most_) places_[components[i]] = boxes[i]->places();
+    if (boxes[i]) places_[components[i]] = boxes[i]->places();
   }
 }
 
@@ -79,19 +86,17 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
 void MeshDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
                                      const std::vector<std::uint32_t>& part_of_component,
                                      std::vector<std::optional<PlaceBoxes>>& boxes) const {
-  const auto is_wanted = [](std::uint32_t part) { return part != kNoPart; };
-  if (std::none_of(part_of_component.begin(), part_of_component.end(), is_wanted)) return;
+  if (std::none_of(boxes.begin(), boxes.end(), [](const auto& box) { return box.has_value(); })) return;
   const Dims& dims = facts_.grid().dims();
   const ReachedCells reached(boxes, dims);
-  using Layers = std::array<std::int32_t, 3>;
   for_each_mesh_change(mesh.built.mesh, part_of_vertex, isosurface_.step(), dims,
-                       [&](std::uint32_t part, const Layers& layers, std::int32_t change) {
+                       [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
                          if (boxes[part]) boxes[part]->add(layers, 2 * change);
                        });
   for_each_exact_change(facts_.grid(), isosurface_, facts_.topology(), reached,
-                        [&](std::uint32_t component, const Layers& layers, std::int32_t twice) {
+                        [&](std::uint32_t component, const SampleLayers& layers, std::int32_t twice) {
                           const std::uint32_t part = part_of_component[component];
-                          if (is_wanted(part)) boxes[part]->add(layers, -twice);
+                          if (part != kNoPart) boxes[part]->add(layers, -twice);
                         });
 }
 

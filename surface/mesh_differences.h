@@ -26,6 +26,7 @@ class MeshDifferences {
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
+  // `boxes`: of the parts with several places.
   void count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
                       const std::vector<std::uint32_t>& part_of_component,
                       std::vector<std::optional<PlaceBoxes>>& boxes) const;

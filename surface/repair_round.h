@@ -71,9 +71,10 @@ class RepairRound {
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
-  // The rules that are worth trying now, in order: of those at the end kAsBefore knows already.
+  // The rules that are worth trying now, in order. After an exchange the last ones hardly ever help: where they did,
+  // that is in the signs before.
   [[nodiscard]] std::span<const SignRule> rules() const {
-    return as_before_.empty() ? std::span(kSignRules).subspan(1) : std::span(kSignRules).first(kRulesAfterTheFirst);
+    return as_before_.empty() ? std::span(kSignRules).subspan(1) : std::span(kSignRules).first(kRulesAfterExchange);
   }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
@@ -85,7 +86,7 @@ class RepairRound {
   }
 
  private:
-  static constexpr std::size_t kRulesAfterTheFirst = 3;
+  static constexpr std::size_t kRulesAfterExchange = 3;
 
   void find_components(std::size_t first);
   void keep_signs(const ExchangedPoints& exchanged);

@@ -12,7 +12,10 @@ namespace deliso {
 
 namespace {
 
-using LayersOfPoint = std::array<std::int32_t, 3>;
+// Of a crossing as of the vertex of the mesh.
+SampleLayers layers_of(const EdgeCrossing& crossing, const ScalarGrid& grid, const Vec3& step) {
+  return layers_at(scaled(crossing_position(grid, crossing), step), step, grid.dims());
+}
 
 // Twice the Euler characteristic is the sum of 2 for every vertex and of 2 - 3 for every triangle, each with half of
 // its three edges, less 1 for every edge on the box, which has no other half. All of them count from the highest layer
@@ -24,7 +27,7 @@ class ExactChanges {
                const std::function<bool(const CellIndex&)>& is_wanted, Visit visit)
       : grid_(grid), step_(isosurface.step()), dims_(grid.dims()), topology_(topology), visit_(std::move(visit)) {
     for (const EdgeCrossing& crossing : topology.crossings) {
-      visit_(crossing.component, layers_of_crossing(crossing_position(grid_, crossing)), 2);
+      visit_(crossing.component, layers_of(crossing, grid, step_), 2);
     }
     for_each_marching_cubes_patch(
         grid, isosurface.isovalue(), topology.index, topology.crossings,
@@ -35,14 +38,11 @@ class ExactChanges {
   void visit_patch(const MarchingCubesPatch& patch);
 
   // Of a point in index space, just as that of the mesh.
-  [[nodiscard]] LayersOfPoint layers_of_crossing(const Vec3& p) const {
+  [[nodiscard]] SampleLayers layers_of_crossing(const Vec3& p) const {
     return layers_at(scaled(p, step_), step_, dims_);
   }
-  [[nodiscard]] LayersOfPoint layers_of_inner_point(const Vec3& p) const {
+  [[nodiscard]] SampleLayers layers_of_inner_point(const Vec3& p) const {
     return layers_at(from_world(grid_.origin() + scaled(p, grid_.spacing()), grid_, step_), step_, dims_);
-  }
-  static LayersOfPoint highest(const LayersOfPoint& a, const LayersOfPoint& b) {
-    return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
   }
   [[nodiscard]] bool are_on_one_face_of_box(const Vec3& a, const Vec3& b) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,8 +56,8 @@ class ExactChanges {
   Dims dims_;
   const IsosurfaceTopology& topology_;
   Visit visit_;
-  std::vector<LayersOfPoint> at_;  // of the vertices of the patch at hand
-  std::vector<bool> is_counted_;   // of the same
+  std::vector<SampleLayers> at_;  // of the vertices of the patch at hand
+  std::vector<bool> is_counted_;  // of the same
 };
 
 // Its triangles with half their edges, and its inner points.
@@ -97,7 +97,7 @@ SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, const Isosurface& isosurfac
     : dims_(grid.dims()) {
   find_layers(grid, isosurface, topology);
   const ExactChanges changes(
-      grid, isosurface, topology, {}, [this](std::uint32_t component, const LayersOfPoint& at, std::int32_t twice) {
+      grid, isosurface, topology, {}, [this](std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const Layers& layers = layers_[component][axis];
           twice_changes_[layers.begin + static_cast<std::size_t>(at[axis] - layers.first)] += twice;
@@ -112,8 +112,7 @@ void SurfaceSweeps::find_layers(const ScalarGrid& grid, const Isosurface& isosur
   std::vector<std::array<Reach, 3>> reach(topology.components.size());
   for (auto& along : reach) along.fill({std::numeric_limits<std::int32_t>::max(), 0});
   for (const EdgeCrossing& crossing : topology.crossings) {
-    const Vec3& step = isosurface.step();
-    const LayersOfPoint at = layers_at(scaled(crossing_position(grid, crossing), step), step, dims_);
+    const SampleLayers at = layers_of(crossing, grid, isosurface.step());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto& [first, last] = reach[crossing.component][axis];
       first = std::min(first, at[axis]);

@@ -18,7 +18,7 @@ namespace deliso {
 // below three planes when all of them have come to these layers. Of the marching-cubes mesh (polygonized_components.h),
 // cell by cell, without making it. Calls may be left out where the layers are those of no cell of which is_wanted
 // holds.
-using VisitChange = std::function<void(std::uint32_t, const std::array<std::int32_t, 3>&, std::int32_t)>;
+using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
 void for_each_exact_change(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
                            const std::function<bool(const CellIndex&)>& is_wanted, const VisitChange& visit);
 

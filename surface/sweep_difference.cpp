@@ -49,8 +49,8 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
 
 }  // namespace
 
-std::array<std::int32_t, 3> layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
-  std::array<std::int32_t, 3> layers{};
+SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
+  SampleLayers layers{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     layers[axis] = static_cast<std::int32_t>(std::clamp(std::ceil(p[axis] / step[axis]), 0.0, dims[axis] - 1.0));
   }
@@ -65,7 +65,7 @@ std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
   for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
   std::vector<SweptCharacteristics> changes(parts, none);
   for_each_mesh_change(mesh, part_of_vertex, step, dims,
-                       [&](std::uint32_t part, const std::array<std::int32_t, 3>& at, std::int32_t change) {
+                       [&](std::uint32_t part, const SampleLayers& at, std::int32_t change) {
                          for (std::size_t axis = 0; axis < 3; ++axis) {
                            changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
                          }

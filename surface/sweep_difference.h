@@ -18,8 +18,13 @@ namespace deliso {
 // Along each axis, for each sample layer, the Euler characteristic of what lies below it.
 using SweptCharacteristics = std::array<std::vector<std::int64_t>, 3>;
 
+// A sample layer along each axis.
+using SampleLayers = std::array<std::int32_t, 3>;
+inline SampleLayers highest(const SampleLayers& a, const SampleLayers& b) {
+  return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
+}
 // The first sample layer along each axis that a point in mesh space does not lie above.
-std::array<std::int32_t, 3> layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims);
+SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims);
 
 // Where a part of a mesh changes in Euler characteristic as three planes come to these layers, in one go over its
 // triangles: calls visit(part, layers, change). `part_of_vertex`: the same for all vertices of a piece; kNoPart where
@@ -44,13 +49,9 @@ std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristic
 template <class Visit>
 void for_each_mesh_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex, const Vec3& step,
                           const std::array<std::int32_t, 3>& dims, Visit&& visit) {
-  using Layers = std::array<std::int32_t, 3>;
   // A vertex counts when a triangle has it; its layers are found then.
   constexpr std::int32_t kUnseen = -1;
-  std::vector<Layers> layers(mesh.points.size(), {kUnseen, 0, 0});
-  const auto highest = [](const Layers& a, const Layers& b) {
-    return Layers{std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
-  };
+  std::vector<SampleLayers> layers(mesh.points.size(), {kUnseen, 0, 0});
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     const std::uint32_t part = part_of_vertex[v[0]];

@@ -1,8 +1,6 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
 #include <optional>
 
 #include "surface/evidence.h"

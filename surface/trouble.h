@@ -1,7 +1,6 @@
 // Where a mesh differs from the isosurface, as far as signs of it can be seen.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,9 +31,8 @@ struct TroubleContext {
   const RaisedCells& cells;
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
-  // Of each exact component, and whether trouble of components with places is looked for near these alone: sweeps err.
-  const std::vector<Places>& places;
-  bool is_near_places = true;
+  const std::vector<Places>& places;                      // of each exact component
+  bool is_near_places = true;              // of components with places, trouble counts near these alone: sweeps err
   std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (evidence.h); may be empty
   LocatedPlaces& critical;                 // of the volume, in the triangulation
   int threads = 1;                         // nothing but the time depends on it
