@@ -93,7 +93,7 @@ void MeshDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<
                        [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
                          if (boxes[part]) boxes[part]->add(layers, 2 * change);
                        });
-  for_each_exact_change(facts_.grid(), isosurface_, facts_.topology(), reached,
+  for_each_exact_change(facts_.grid(), isosurface_.isovalue(), facts_.topology(), reached,
                         [&](std::uint32_t component, const SampleLayers& layers, std::int32_t twice) {
                           const std::uint32_t part = part_of_component[component];
                           if (part != kNoPart) boxes[part]->add(layers, -twice);

@@ -11,8 +11,9 @@ SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface,
       critical_(std::async(
           std::launch::deferred,
           [&grid, &isosurface, &topology] { return deliso::critical_places(grid, isosurface, topology.index); })),
-      sweeps_(std::async(std::launch::deferred,
-                         [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface, topology); })),
+      sweeps_(
+          std::async(std::launch::deferred,
+                     [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface.isovalue(), topology); })),
       polygonized_(std::async(std::launch::deferred, [&grid, &isosurface, &topology] {
         return polygonized_surface(grid, isosurface, topology);
       })) {

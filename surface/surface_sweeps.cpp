@@ -1,103 +1,116 @@
 #include "surface/surface_sweeps.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "surface/surface_mesh.h"
-#include "volume/marching_cubes.h"
+#include "volume/exact_topology_cell.h"
 
 namespace deliso {
 
 namespace {
 
-// Of a crossing as of the vertex of the mesh.
-SampleLayers layers_of(const EdgeCrossing& crossing, const ScalarGrid& grid, const Vec3& step) {
-  return layers_at(scaled(crossing_position(grid, crossing), step), step, grid.dims());
+SampleLayers layers_of(const EdgeCrossing& crossing, const Dims& dims) {
+  const auto nx = static_cast<std::uint64_t>(dims[0]), ny = static_cast<std::uint64_t>(dims[1]);
+  const std::uint64_t row = crossing.sample / nx;
+  SampleLayers layers = {static_cast<std::int32_t>(crossing.sample % nx), static_cast<std::int32_t>(row % ny),
+                         static_cast<std::int32_t>(row / ny)};
+  ++layers[crossing.axis];
+  return layers;
 }
 
-// Twice the Euler characteristic is the sum of 2 for every vertex and of 2 - 3 for every triangle, each with half of
-// its three edges, less 1 for every edge on the box, which has no other half. All of them count from the highest layer
-// of their corners on.
+// Whether the corners of a cell's face lie on both sides.
+bool meets_face(std::uint8_t pattern, int face) {
+  constexpr std::array<unsigned, kCellFaces> kCorners = {0x55, 0xAA, 0x33, 0xCC, 0x0F, 0xF0};
+  const unsigned corners = kCorners[static_cast<std::size_t>(face)];
+  return (pattern & corners) != 0 && (pattern & corners) != corners;
+}
+
+// The surface is made of crossings, of arcs in which it meets grid faces and of pieces in cells, each with an Euler
+// characteristic of its own: 1, -1, and 1 or 0. An arc belongs to two cells, which have half of it each; or to one,
+// when it lies on the box.
 template <class Visit>
 class ExactChanges {
  public:
-  ExactChanges(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+  ExactChanges(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                const std::function<bool(const CellIndex&)>& is_wanted, Visit visit)
-      : grid_(grid), step_(isosurface.step()), dims_(grid.dims()), topology_(topology), visit_(std::move(visit)) {
+      : grid_(grid), isovalue_(isovalue), topology_(topology), visit_(std::move(visit)) {
     for (const EdgeCrossing& crossing : topology.crossings) {
-      visit_(crossing.component, layers_of(crossing, grid, step_), 2);
+      visit_(crossing.component, layers_of(crossing, grid.dims()), 2);
     }
-    for_each_marching_cubes_patch(
-        grid, isosurface.isovalue(), topology.index, topology.crossings,
-        [&](const MarchingCubesPatch& patch) { visit_patch(patch); }, nullptr, is_wanted);
+    topology.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+      if (is_wanted && !is_wanted(cell)) return;
+      is_simple(pattern) ? visit_simple(cell, pattern) : visit_any(cell, pattern);
+    });
   }
 
  private:
-  void visit_patch(const MarchingCubesPatch& patch);
-
-  // Of a point in index space, just as that of the mesh.
-  [[nodiscard]] SampleLayers layers_of_crossing(const Vec3& p) const {
-    return layers_at(scaled(p, step_), step_, dims_);
-  }
-  [[nodiscard]] SampleLayers layers_of_inner_point(const Vec3& p) const {
-    return layers_at(from_world(grid_.origin() + scaled(p, grid_.spacing()), grid_, step_), step_, dims_);
-  }
-  [[nodiscard]] bool are_on_one_face_of_box(const Vec3& a, const Vec3& b) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (a[axis] == b[axis] && (a[axis] == 0 || a[axis] == dims_[axis] - 1)) return true;
+  // One disk.
+  void visit_simple(const CellIndex& cell, std::uint8_t pattern) {
+    const std::uint32_t component = component_on(cell, std::countr_zero(crossed_edges(pattern)));
+    visit_(component, top_of(cell), 2);
+    for (int face = 0; face < kCellFaces; ++face) {
+      if (meets_face(pattern, face)) visit_arc(component, cell, face);
     }
-    return false;
+  }
+
+  void visit_any(const CellIndex& cell, std::uint8_t pattern) {
+    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+    const CellSweep sweep(corners, isovalue_);
+    std::array<bool, kMaxCellPieces> is_seen{};
+    for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
+      const int edge = std::countr_zero(edges);
+      const int piece = sweep.piece_of_edge(edge);
+      if (std::exchange(is_seen[static_cast<std::size_t>(piece)], true)) continue;
+      visit_(component_on(cell, edge), top_of(cell), 2 * sweep.euler_characteristic(piece));
+    }
+    for (int face = 0; face < kCellFaces; ++face) {
+      const bool joined = is_ambiguous_face(pattern, face) && above_joined_on_face(corners, isovalue_, face);
+      const CellFaceArcs arcs = arcs_on_cell_face(pattern, face, joined);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {
+        visit_arc(component_on(cell, arcs.from[i]), cell, face);
+      }
+    }
+  }
+
+  void visit_arc(std::uint32_t component, const CellIndex& cell, int face) {
+    const auto axis = static_cast<std::size_t>(face / 2);
+    SampleLayers at = top_of(cell);
+    at[axis] = cell[axis] + face % 2;
+    const bool is_on_box = at[axis] == 0 || at[axis] == grid_.dims()[axis] - 1;
+    visit_(component, at, is_on_box ? -2 : -1);
+  }
+
+  static SampleLayers top_of(const CellIndex& cell) { return {cell[0] + 1, cell[1] + 1, cell[2] + 1}; }
+
+  [[nodiscard]] std::uint32_t component_on(const CellIndex& cell, int edge) const {
+    const CellEdge e = cell_edge(edge);
+    const std::uint32_t crossing = topology_.index.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1),
+                                                          cell[2] + (e.corner >> 2), e.axis);
+    return topology_.crossings[crossing].component;
   }
 
   const ScalarGrid& grid_;
-  const Vec3& step_;
-  Dims dims_;
+  double isovalue_;
   const IsosurfaceTopology& topology_;
   Visit visit_;
-  std::vector<SampleLayers> at_;  // of the vertices of the patch at hand
-  std::vector<bool> is_counted_;  // of the same
 };
-
-// Its triangles with half their edges, and its inner points.
-template <class Visit>
-void ExactChanges<Visit>::visit_patch(const MarchingCubesPatch& patch) {
-  at_.clear();
-  for (std::size_t v = 0; v < patch.points.size(); ++v) {
-    const Vec3& p = patch.points[v];
-    at_.push_back(v < patch.crossing_count ? layers_of_crossing(p) : layers_of_inner_point(p));
-  }
-  is_counted_.assign(patch.points.size(), false);
-  for (const auto& v : patch.triangles) {
-    // Every triangle has a crossing for a corner.
-    const std::uint32_t component = topology_.crossings[patch.vertices[std::min({v[0], v[1], v[2]})]].component;
-    visit_(component, highest(highest(at_[v[0]], at_[v[1]]), at_[v[2]]), 2);
-    for (unsigned i = 0; i < 3; ++i) {
-      const std::uint32_t a = v[i];
-      const std::uint32_t b = v[(i + 1) % 3];
-      const bool are_crossings = std::max(a, b) < patch.crossing_count;
-      const bool is_whole = are_crossings && are_on_one_face_of_box(patch.points[a], patch.points[b]);
-      visit_(component, highest(at_[a], at_[b]), is_whole ? -2 : -1);
-      if (a < patch.crossing_count || is_counted_[a]) continue;
-      is_counted_[a] = true;
-      visit_(component, at_[a], 2);
-    }
-  }
-}
 
 }  // namespace
 
-void for_each_exact_change(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                            const std::function<bool(const CellIndex&)>& is_wanted, const VisitChange& visit) {
-  const ExactChanges changes(grid, isosurface, topology, is_wanted, std::cref(visit));
+  const ExactChanges changes(grid, isovalue, topology, is_wanted, std::cref(visit));
 }
 
-SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology)
+SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
     : dims_(grid.dims()) {
-  find_layers(grid, isosurface, topology);
+  find_layers(topology);
   const ExactChanges changes(
-      grid, isosurface, topology, {}, [this](std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
+      grid, isovalue, topology, {}, [this](std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const Layers& layers = layers_[component][axis];
           twice_changes_[layers.begin + static_cast<std::size_t>(at[axis] - layers.first)] += twice;
@@ -105,14 +118,13 @@ SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, const Isosurface& isosurfac
       });
 }
 
-// The layers that the crossings of each component are in; a rounded inner point may be in one beside them.
-void SurfaceSweeps::find_layers(const ScalarGrid& grid, const Isosurface& isosurface,
-                                const IsosurfaceTopology& topology) {
+// Those that the crossings of each component are in: arcs and pieces are in no other.
+void SurfaceSweeps::find_layers(const IsosurfaceTopology& topology) {
   using Reach = std::pair<std::int32_t, std::int32_t>;
   std::vector<std::array<Reach, 3>> reach(topology.components.size());
   for (auto& along : reach) along.fill({std::numeric_limits<std::int32_t>::max(), 0});
   for (const EdgeCrossing& crossing : topology.crossings) {
-    const SampleLayers at = layers_of(crossing, grid, isosurface.step());
+    const SampleLayers at = layers_of(crossing, dims_);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto& [first, last] = reach[crossing.component][axis];
       first = std::min(first, at[axis]);
@@ -123,11 +135,9 @@ void SurfaceSweeps::find_layers(const ScalarGrid& grid, const Isosurface& isosur
   layers_.resize(reach.size());
   for (std::size_t c = 0; c < reach.size(); ++c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Layers& layers = layers_[c][axis];
-      layers.begin = total;
-      layers.first = std::max(reach[c][axis].first - 1, 0);
-      layers.count = std::min(reach[c][axis].second + 1, dims_[axis] - 1) + 1 - layers.first;
-      total += static_cast<std::size_t>(layers.count);
+      const auto& [first, last] = reach[c][axis];
+      layers_[c][axis] = {total, first, last + 1 - first};
+      total += static_cast<std::size_t>(last + 1 - first);
     }
   }
   twice_changes_.assign(total, 0);

@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "raycast/isosurface.h"
 #include "surface/sweep_difference.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
@@ -15,19 +14,17 @@
 namespace deliso {
 
 // Calls visit(component, layers, twice): twice what changes in the Euler characteristic of what an exact component has
-// below three planes when all of them have come to these layers. Of the marching-cubes mesh (polygonized_components.h),
-// cell by cell, without making it. Calls may be left out where the layers are those of no cell of which is_wanted
-// holds.
+// below three planes when all of them have come to these layers. Of the surface itself, cell by cell. Calls may be left
+// out where the layers are those of no cell of which is_wanted holds.
 using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
-void for_each_exact_change(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                            const std::function<bool(const CellIndex&)>& is_wanted, const VisitChange& visit);
 
-// The swept characteristics of each exact component, as swept_characteristics gives them for its marching-cubes mesh
-// (polygonized_components.h). They are found cell by cell, without making the mesh, and kept for the layers only that a
-// component reaches.
+// The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
+// such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.
 class SurfaceSweeps {
  public:
-  SurfaceSweeps(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology);
+  SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
 
   [[nodiscard]] SweptCharacteristics of(std::uint32_t component) const;
 
@@ -37,7 +34,7 @@ class SurfaceSweeps {
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
-  void find_layers(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology);
+  void find_layers(const IsosurfaceTopology& topology);
 
   Dims dims_;
   std::vector<std::array<Layers, 3>> layers_;  // that each component may reach, along each axis

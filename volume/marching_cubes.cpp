@@ -35,12 +35,11 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
 
 void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                    std::span<const EdgeCrossing> crossings,
-                                   const std::function<void(const MarchingCubesPatch&)>& visit, const ExactTests* tests,
-                                   const std::function<bool(const CellIndex&)>& is_wanted) {
+                                   const std::function<void(const MarchingCubesPatch&)>& visit,
+                                   const ExactTests* tests) {
   CellTriangulation cells(grid, isovalue, index, crossings, tests);
-  index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
-    if (!is_wanted || is_wanted(cell)) visit(cells.triangulate(cell, pattern));
-  });
+  index.for_each_active_cell(
+      [&](const CellIndex& cell, std::uint8_t pattern) { visit(cells.triangulate(cell, pattern)); });
 }
 
 }  // namespace deliso

@@ -35,8 +35,7 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                  std::span<const EdgeCrossing> crossings, const ExactTests* tests = nullptr);
 
-// The same mesh cell by cell, for callers that need not keep it: calls visit(patch) for every active cell, x fastest,
-// or only for those of which is_wanted(cell) holds, if it is given.
+// The same mesh cell by cell, for callers that need not keep it: calls visit(patch) for every active cell, x fastest.
 struct MarchingCubesPatch {
   CellIndex cell{};
   // The vertices of the patch: what the whole mesh calls them, and where they are, in index space. First the cell's
@@ -49,7 +48,6 @@ struct MarchingCubesPatch {
 void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                    std::span<const EdgeCrossing> crossings,
                                    const std::function<void(const MarchingCubesPatch&)>& visit,
-                                   const ExactTests* tests = nullptr,
-                                   const std::function<bool(const CellIndex&)>& is_wanted = {});
+                                   const ExactTests* tests = nullptr);
 
 }  // namespace deliso
