@@ -14,48 +14,53 @@ namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
+// The angle between two vectors, by sine and cosine times their lengths: accurate for small and flat angles alike, and
+// compared without an arctangent.
+struct Angle {
+  double across = 0;
+  double along = 1;
+
+  [[nodiscard]] double degrees() const { return std::atan2(across, along) * kDegreesPerRadian; }
+};
+Angle angle_between(const Vec3& u, const Vec3& v) { return {norm(cross(u, v)), dot(u, v)}; }
+bool is_larger(const Angle& a, const Angle& b) { return b.along * a.across > a.along * b.across; }
+
 struct TriangleShape {
-  double min_angle = 0;  // degrees
-  double max_angle = 0;
+  double min_angle = 0;      // degrees
+  Angle max_angle = {1, 0};  // a right one
   double radius_edge = kDegenerateRadiusEdge;
   bool is_degenerate = true;
 };
 
-// The angle between two vectors in degrees; accurate for small and flat angles alike.
-double angle_between(const Vec3& u, const Vec3& v) {
-  return std::atan2(norm(cross(u, v)), dot(u, v)) * kDegreesPerRadian;
-}
-
 TriangleShape shape_of(Vec3 a, Vec3 b, Vec3 c) {
-  // Bring the triangle to unit size at the origin, so that nothing overflows or underflows.
+  // Bring the triangle to about unit size at the origin, so that nothing overflows or underflows.
   const Vec3 anchor = a;
   b = 0.5 * b - 0.5 * anchor;
   c = 0.5 * c - 0.5 * anchor;
   const double size =
       std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z), std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-  if (size == 0) return {0, 90, kDegenerateRadiusEdge, true};
-  const int exponent = std::ilogb(size);
-  const auto to_unit = [exponent](double x) { return std::ldexp(x, -exponent); };
-  b = {to_unit(b.x), to_unit(b.y), to_unit(b.z)};
-  c = {to_unit(c.x), to_unit(c.y), to_unit(c.z)};
+  if (size == 0) return {};
+  constexpr int kLargest = 1000;  // a power of two that still has an inverse
+  const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(size), -kLargest, kLargest));
+  b = scale * b;
+  c = scale * c;
 
-  // Every angle from its own two edges.
-  const double at_a = angle_between(b, c), at_b = angle_between(c - b, -b), at_c = angle_between(-c, b - c);
+  // Each angle from its own two edges; the smallest lies across from the shortest edge, the largest from the longest.
+  const double lab = norm(b), lac = norm(c), lbc = norm(c - b);
+  const auto angle_across = [&](double length) {
+    return length == lbc ? angle_between(b, c) : length == lac ? angle_between(c - b, -b) : angle_between(-c, b - c);
+  };
+  const double shortest = std::min({lab, lac, lbc});
+  if (shortest == 0) return {};
   TriangleShape shape;
-  shape.min_angle = std::min({at_a, at_b, at_c});
-  shape.max_angle = std::max({at_a, at_b, at_c});
+  shape.min_angle = angle_across(shortest).degrees();
+  shape.max_angle = angle_across(std::max({lab, lac, lbc}));
 
   // R / l = l1 l2 / (2 |cross|) with the two longer edges l1, l2: R = l l1 l2 / (4 area).
-  const double lab = norm(b), lac = norm(c), lbc = norm(c - b);
-  const double shortest = std::min({lab, lac, lbc});
   const double doubled_area = norm(cross(b, c));
   const double longer = shortest == lab ? lac * lbc : shortest == lac ? lab * lbc : lab * lac;
   // An area within rounding of zero (of products of unit numbers) says nothing.
-  shape.is_degenerate = shortest == 0 || doubled_area <= 4e-16 * longer;
-  if (shortest == 0) {
-    shape.min_angle = 0;
-    shape.max_angle = 90;
-  }
+  shape.is_degenerate = doubled_area <= 4e-16 * longer;
   if (!shape.is_degenerate) shape.radius_edge = std::min(longer / (2 * doubled_area), kDegenerateRadiusEdge);
   return shape;
 }
@@ -63,7 +68,7 @@ TriangleShape shape_of(Vec3 a, Vec3 b, Vec3 c) {
 // Figures of some triangles.
 struct Figures {
   double min_angle = 180;
-  double max_angle = 0;
+  Angle max_angle = {1, 1};  // less than that of any triangle
   double sum_of_min_angles = 0;
   std::int64_t below_30 = 0;
   std::int64_t degenerate = 0;
@@ -71,7 +76,7 @@ struct Figures {
 
   void add(const TriangleShape& shape) {
     min_angle = std::min(min_angle, shape.min_angle);
-    max_angle = std::max(max_angle, shape.max_angle);
+    if (is_larger(shape.max_angle, max_angle)) max_angle = shape.max_angle;
     sum_of_min_angles += shape.min_angle;
     below_30 += shape.min_angle < 30 ? 1 : 0;
     degenerate += shape.is_degenerate ? 1 : 0;
@@ -79,7 +84,7 @@ struct Figures {
   }
   void add(const Figures& other) {
     min_angle = std::min(min_angle, other.min_angle);
-    max_angle = std::max(max_angle, other.max_angle);
+    if (is_larger(other.max_angle, max_angle)) max_angle = other.max_angle;
     sum_of_min_angles += other.sum_of_min_angles;
     below_30 += other.below_30;
     degenerate += other.degenerate;
@@ -107,7 +112,7 @@ MeshQuality measure_quality(const TriangleMesh& mesh, int threads) {
 
   MeshQuality quality;
   quality.min_angle_degrees = sum.min_angle;
-  quality.max_angle_degrees = sum.max_angle;
+  quality.max_angle_degrees = sum.max_angle.degrees();
   quality.degenerate_triangles = sum.degenerate;
   quality.min_angle_histogram = sum.histogram;
   const auto count = static_cast<double>(mesh.triangles.size());
