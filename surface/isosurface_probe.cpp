@@ -117,8 +117,15 @@ unsigned IsosurfaceProbe::faces_beside(const Vec3& p) const {
   return faces;
 }
 
-// From the nearest point of a grid face along lines within it.
-void IsosurfaceProbe::look_in_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const {
+// The cells of a grid face agree on the gradient but for its part across the face: straight across it from p, and from
+// the nearest point of the face along lines within it.
+void IsosurfaceProbe::look_around_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const {
+  for (const double side : {1.0, -1.0}) {
+    Vec3 across;
+    across[axis] = side;
+    const auto found = along_line(p, value(p), across, kBeside * kFirstStep, std::min(kReach, best.distance));
+    if (found && found->distance < best.distance) best = *found;
+  }
   Vec3 q = p;
   q[axis] = step_[axis] * std::round(p[axis] / step_[axis]);
   const double f = value(q);
@@ -141,7 +148,7 @@ void IsosurfaceProbe::look_in_grid_face(const Vec3& p, unsigned axis, FootPoint&
 void IsosurfaceProbe::look_beside_creases(const Vec3& p, FootPoint& best) {
   const unsigned faces = faces_beside(p);
   for (unsigned axis = 0; axis < 3; ++axis) {
-    if ((faces >> axis & 1u) != 0) look_in_grid_face(p, axis, best);
+    if ((faces >> axis & 1u) != 0) look_around_grid_face(p, axis, best);
   }
   if (std::popcount(faces) >= 2) look_among_crossings(p, best);
 }

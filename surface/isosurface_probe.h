@@ -56,7 +56,7 @@ class IsosurfaceProbe {
   [[nodiscard]] std::optional<FootPoint> along_line(const Vec3& p, double value_at_p, const Vec3& direction,
                                                     double first_step, double reach) const;
   [[nodiscard]] unsigned faces_beside(const Vec3& p) const;
-  void look_in_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const;
+  void look_around_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const;
   void look_beside_creases(const Vec3& p, FootPoint& best);
   void look_among_crossings(const Vec3& p, FootPoint& best);
 

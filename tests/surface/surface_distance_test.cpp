@@ -161,6 +161,16 @@ TEST(IsosurfaceProbe, LeadsBackToTheSaddleOfAFace) {
   }
 }
 
+// Beyond a grid face the values fall steeply, before it gently: the surface close behind the face is nearer than that
+// where the gradient before it leads.
+TEST(IsosurfaceProbe, LooksAcrossAFaceWhereTheGradientTurns) {
+  const ScalarGrid grid({2, 2, 3},
+                        std::vector<double>{-0.22, -0.22, -0.22, -0.22, 1e-4, 3e-4, 3e-4, 5e-4, -8, -8, -8, -8});
+  const IsosurfaceTopology topology = exact_topology(grid, 0);
+  IsosurfaceProbe probe(grid, 0, topology.crossings);
+  EXPECT_LT(probe.foot_point({0.5, 0.5, 1 - 2e-5}).distance, 6e-5);
+}
+
 TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
   // Great-circle edges of an octahedron inscribed in a ball: the face centres are farthest in.
   const double radius = 6.03;
