@@ -24,9 +24,12 @@ void Refinement::run(Controls& controls, int threads) {
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto queued = queue_.pop();
     if (!queued && !retry_crossed()) break;
-    if (const auto next = queue_.next()) __builtin_prefetch(&mesh_.triangles[*next]);
+    // What pops cost is waiting for the triangle they name; its neighbours are known once it has come.
+    const auto next = queue_.next();
+    if (next) __builtin_prefetch(&mesh_.triangles[*next]);
     if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
     if (treat(queued->element)) wake_neighbours();
+    if (next) mesh_.prefetch_around(*next);
   }
   guard_.reset();
 }

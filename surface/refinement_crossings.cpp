@@ -13,6 +13,7 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kTrianglesPerTask = 16384;
+constexpr std::size_t kAhead = 16;  // triangles: their first corner is the newest, far from those of the others
 
 std::vector<Vec3> points_of(const RefinementMesh& mesh) {
   std::vector<Vec3> points;
@@ -120,6 +121,7 @@ SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threa
   run_tasks((count + kTrianglesPerTask - 1) / kTrianglesPerTask, threads, [&](std::size_t task) {
     const std::size_t end = std::min<std::size_t>((task + 1) * kTrianglesPerTask, count);
     for (std::size_t t = task * kTrianglesPerTask; t < end; ++t) {
+      if (t + kAhead < end) __builtin_prefetch(&mesh.vertices[mesh.triangles[t + kAhead].corners[0]]);
       is_near[t] = marks.reached_by(mesh.box_of(static_cast<std::uint32_t>(t))) ? 1 : 0;
     }
   });

@@ -55,6 +55,7 @@ class RefinementDisk {
   void take(std::uint32_t triangle) {
     is_blocked_ |= triangle < frozen_;
     mesh_.triangles[triangle].attempt = attempt_;
+    mesh_.prefetch_around(triangle);
     triangles_.push_back(triangle);
   }
   [[nodiscard]] bool holds(std::uint32_t triangle) const { return mesh_.triangles[triangle].attempt == attempt_; }
