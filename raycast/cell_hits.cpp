@@ -11,11 +11,13 @@ namespace {
 // face differs, and that is exactly 0 or 1.
 Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValues& end, const Cell& cell,
                       const Cell& base, const Dims& dims) {
+  AxisValues inside = end;
+  if (at.axis >= 0) {
+    for (std::size_t a = 0; a < 3; ++a) inside[a] = line.base[a] + at.s * line.direction[a];
+    inside[static_cast<std::size_t>(at.axis)] = at.plane;
+  }
   const auto coordinate = [&](std::size_t a) {
-    const double inside = at.axis < 0                               ? end[a]
-                          : at.axis == static_cast<std::int32_t>(a) ? at.plane
-                                                                    : line.base[a] + at.s * line.direction[a];
-    const double u = std::min(std::max(inside - base[a], 0.0), 1.0);
+    const double u = std::min(std::max(inside[a] - base[a], 0.0), 1.0);
     // Outer cells: the coordinate stays that of the box's face.
     return cell[a] == 0 ? 0.0 : cell[a] == dims[a] ? 1.0 : u;
   };

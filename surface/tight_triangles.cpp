@@ -47,8 +47,12 @@ TightTriangles::FloatBox TightTriangles::rounded_outward(const Box3& box) {
 }
 
 bool TightTriangles::meet(const FloatBox& a, const FloatBox& b) {
-  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
-         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+  // All at once: which of the six fails cannot be foretold.
+  unsigned all = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all &= static_cast<unsigned>(a.low[axis] <= b.high[axis]) & static_cast<unsigned>(b.low[axis] <= a.high[axis]);
+  }
+  return all != 0;
 }
 
 // The cells of a level that a box meets; when they are very many, those that have been used instead.

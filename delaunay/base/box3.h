@@ -27,8 +27,10 @@ struct Box3 {
   }
   // Whether the boxes have a point in common, faces included.
   [[nodiscard]] bool meets(const Box3& b) const {
-    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
-           b.low.z <= high.z;
+    // All at once: which of the six fails cannot be foretold.
+    const auto within = [](double a, double c) { return static_cast<unsigned>(a <= c); };
+    return (within(low.x, b.high.x) & within(b.low.x, high.x) & within(low.y, b.high.y) & within(b.low.y, high.y) &
+            within(low.z, b.high.z) & within(b.low.z, high.z)) != 0;
   }
   // The point of the box nearest to p.
   [[nodiscard]] Vec3 clamp(const Vec3& p) const {
