@@ -14,13 +14,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "delaunay/base/vec3.h"
+#include "raycast/line.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
 
 using Cell = std::array<std::int32_t, 3>;
-using AxisValues = std::array<double, 3>;
 
 // Stands for an infinite line parameter; a product with zero is still zero.
 inline constexpr double kNever = 1e300;
@@ -37,17 +36,6 @@ inline Cell grid_cell(const Cell& extended, const Dims& dims) {
   return {std::clamp(extended[0] - 1, 0, dims[0] - 2), std::clamp(extended[1] - 1, 0, dims[1] - 2),
           std::clamp(extended[2] - 1, 0, dims[2] - 2)};
 }
-
-// A line in index space: position(s) = base + s * direction, where the caller's parameter is t = t_origin + s.
-struct IndexLine {
-  AxisValues base{};
-  AxisValues direction{};
-  AxisValues inverse{};  // 1 / direction, 0 where direction is 0
-  double t_origin = 0;
-
-  // The line parameter at which coordinate `axis` is `plane`. Precondition: direction[axis] is not zero.
-  [[nodiscard]] double crossing(std::size_t axis, double plane) const { return (plane - base[axis]) * inverse[axis]; }
-};
 
 // A place on the line: its parameter and, for a face crossing, the face's axis and plane.
 struct Crossing {

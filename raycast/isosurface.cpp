@@ -9,67 +9,11 @@
 #include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
 #include "raycast/empty_bricks.h"
+#include "raycast/line.h"
 #include "raycast/min_max_kdtree.h"
 #include "raycast/voxel_intersection.h"
 
 namespace deliso {
-
-namespace {
-
-AxisValues axis_values(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-// The line in index space. A line from far away is re-parametrised near the box, so that s keeps its digits there.
-IndexLine index_line(const Line& line, const Vec3& inverse_step, const Dims& dims) {
-  constexpr double kFar = 64;                // in sizes of the box
-  constexpr double kLargestInverse = 1e280;  // keeps crossings finite
-  IndexLine result;
-  result.base = axis_values(scaled(line.origin, inverse_step));
-  result.direction = axis_values(scaled(line.direction, inverse_step));
-  bool is_far = false;
-  for (std::size_t a = 0; a < 3; ++a) {
-    is_far |= std::abs(result.base[a]) > kFar * dims[a];
-    if (result.direction[a] != 0)
-      result.inverse[a] = std::clamp(1 / result.direction[a], -kLargestInverse, kLargestInverse);
-  }
-  if (!is_far) return result;
-  // The point nearest to the middle of the box; the direction is first brought to unit size.
-  double largest = 0;
-  for (const double d : result.direction) largest = std::max(largest, std::abs(d));
-  if (largest == 0) return result;
-  double along = 0;
-  double squared = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double d = result.direction[a] / largest;
-    along += (0.5 * dims[a] - result.base[a]) * d;
-    squared += d * d;
-  }
-  const double t = along / squared / largest;
-  if (!std::isfinite(t) || !is_finite(line.at(t))) return result;
-  result.t_origin = t;
-  result.base = axis_values(scaled(line.at(t), inverse_step));
-  return result;
-}
-
-// The candidate nearest to t = 0; of two at the same distance the one at positive t.
-struct Nearest {
-  double t = std::numeric_limits<double>::infinity();
-
-  void offer(double candidate) {
-    const double now = std::abs(t);
-    const double then = std::abs(candidate);
-    if (then < now || (then == now && candidate > t)) t = candidate;
-  }
-  void offer_falling(const CellHits& hits, const IndexLine& line) {
-    for (int i = 0; i < hits.changes.count; ++i)
-      if (hits.falling(i)) offer(hits.t(line, i));
-  }
-  [[nodiscard]] std::optional<double> within(double reach) const {
-    if (std::isinf(t) || !(std::abs(t) <= reach)) return std::nullopt;
-    return t;
-  }
-};
-
-}  // namespace
 
 // A segment of a line, from cell to cell.
 struct Isosurface::Segment {
@@ -216,79 +160,6 @@ void Isosurface::all_hits(const Line& line, double t0, double t1, std::vector<Hi
   if (hits.empty()) return;
   ++counters.searches_hit;
   counters.solves_hit += solves;
-}
-
-std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Segment segment(*this, line, -kInfinity, kInfinity);
-  Nearest nearest;
-  search_cells(segment, [&](const CellVisit& visit) {
-    ++solves;
-    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, segment.line, visit, segment.low, segment.high),
-                          segment.line);
-  });
-  return nearest.within(reach);
-}
-
-std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double reach, std::uint64_t& solves) const {
-  const Dims& dims = grid_.dims();
-  const IndexLine line = index_line(mesh_line, inverse_step_, dims);
-  // Two walks leave the cell of t = 0, one each way.
-  const AxisValues origin = axis_values(scaled(mesh_line.origin, inverse_step_));
-  Cell start;
-  Cell ahead_end;
-  Cell behind_end;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double d = line.direction[a];
-    start[a] = extended_cell(origin[a], dims[a]);
-    ahead_end[a] = d > 0 ? dims[a] : d < 0 ? 0 : start[a];
-    behind_end[a] = d > 0 ? 0 : d < 0 ? dims[a] : start[a];
-  }
-  CellWalk<false> ahead(line, start, ahead_end, -line.t_origin, kNever);
-  CellWalk<true> behind(line, start, behind_end, -line.t_origin, -kNever);
-  Nearest nearest;
-  const auto solve = [&](const CellVisit& visit) {
-    if (active_ != nullptr ? !active_->is_active(visit.cell)
-                           : options_.min_max_pruning && !cell_holds(grid_, visit.cell, isovalue_))
-      return;
-    ++solves;
-    nearest.offer_falling(solve_cell(grid_, isovalue_, options_.solver, line, visit, line.base, line.base), line);
-  };
-  Crossing ahead_exit = ahead.exit();
-  Crossing behind_exit = behind.exit();
-  solve({start, behind_exit, ahead_exit});
-  // The segment between the walks grows by one cell at a time, at the end nearer to t = 0, until nothing beyond its
-  // ends can be nearer than the best hit.
-  for (;;) {
-    const double reached_ahead = ahead_exit.s + line.t_origin;
-    const double reached_behind = -(behind_exit.s + line.t_origin);
-    if (std::min(reached_ahead, reached_behind) > std::min(std::abs(nearest.t), reach)) break;
-    if (reached_ahead <= reached_behind) {
-      if (!ahead.step()) break;  // this side is never nearer than kNever: both are done
-      const Crossing entry = ahead_exit;
-      ahead_exit = ahead.exit();
-      solve({ahead.cell(), entry, ahead_exit});
-    } else {
-      if (!behind.step()) break;
-      const Crossing entry = behind_exit;
-      behind_exit = behind.exit();
-      solve({behind.cell(), behind_exit, entry});
-    }
-  }
-  return nearest.within(reach);
-}
-
-std::optional<double> Isosurface::nearest_falling_hit(const Line& line, double reach, SearchCounters& counters) const {
-  std::uint64_t solves = 0;
-  const std::optional<double> hit =
-      options_.incremental ? nearest_outward(line, reach, solves) : nearest_on_line(line, reach, solves);
-  ++counters.searches;
-  counters.solves += solves;
-  if (hit) {
-    ++counters.searches_hit;
-    counters.solves_hit += solves;
-  }
-  return hit;
 }
 
 }  // namespace deliso

@@ -16,6 +16,7 @@
 #include "delaunay/base/counters.h"
 #include "delaunay/base/vec3.h"
 #include "raycast/cell_walk.h"
+#include "raycast/line.h"
 #include "raycast/search_options.h"
 #include "volume/scalar_grid.h"
 
@@ -25,12 +26,6 @@ namespace deliso {
 struct Hit {
   double t = 0;
   bool falling = false;  // the field falls from above to below the isovalue as t grows
-};
-
-struct Line {
-  Vec3 origin;
-  Vec3 direction;
-  [[nodiscard]] Vec3 at(double t) const { return origin + t * direction; }
 };
 
 class ActiveCells;
@@ -96,6 +91,7 @@ class Isosurface {
   [[nodiscard]] CellCorners relative_corners(const Vec3& index_point, Vec3& uvw) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
+  [[nodiscard]] std::optional<double> hit_in_start_cell(const Line& line, double reach) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
 
