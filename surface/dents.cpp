@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "delaunay/base/box3.h"
@@ -25,9 +24,6 @@ constexpr double kLeastDistance = 0.5;
 constexpr double kFarthestCover = 0.2;
 // A vertex so near to a face between cells, in steps of the grid, lies on it.
 constexpr double kOnFace = 1e-3;
-// Links of more vertices are left as they are.
-constexpr std::size_t kLongestLink = 32;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -52,7 +48,6 @@ class Dents {
   void append_apexes(const std::vector<std::uint32_t>& link);
   [[nodiscard]] Box3 box_around(std::uint32_t v, const VertexFan& fan) const;
   [[nodiscard]] bool can_be_filled(std::uint32_t v, const VertexFan& fan) const;
-  [[nodiscard]] LeastTriangulation triangulate(const VertexFan& fan) const;
   [[nodiscard]] double far_area(const Triangles& triangles);
   [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
   [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
@@ -173,7 +168,7 @@ void Dents::look_around(Apex& apex, const Box3& box) {
 bool Dents::remove(Apex& apex) {
   VertexFan fan;
   if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
-  const LeastTriangulation least = triangulate(fan);
+  const LeastTriangulation least = fans_.least_filling(fan);
   if (!least.exists()) return false;
   Triangles now, filling;
   for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
@@ -195,29 +190,12 @@ void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
   }
 }
 
-// The link is a cycle that passes no vertex twice and, if it is a triangle, not one of the mesh; and what went around
-// the vertex has not made it one that faces the right way.
+// Also, what went around the vertex has not made it one that faces the right way.
 bool Dents::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
-  if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
-  std::vector<std::uint32_t> sorted = fan.link;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
-  const TriangleSide beyond = fan.outer.front();
-  if (fan.link.size() == 3 && beyond != kNoSide && mesh_.triangles[beyond >> 2][beyond & 3u] == fan.link[2])
-    return false;
+  if (!fans_.can_be_filled(fan)) return false;
   Vec3 sum;
   for (const std::uint32_t t : fan.triangles) sum += normal(mesh_.triangles[t]);
   return is_against(v, sum);
-}
-
-// By triangles that have an area and edges that the mesh does not have elsewhere.
-LeastTriangulation Dents::triangulate(const VertexFan& fan) const {
-  const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
-    const std::array<std::uint32_t, 3> t = {fan.link[i], fan.link[k], fan.link[j]};
-    return has_area_at(t) ? 0.5 * norm(normal(t)) : kInfinity;
-  };
-  return {fan.link.size(), area,
-          [&](std::size_t i, std::size_t j) { return !fans_.are_joined(fan.link[i], fan.link[j]); }};
 }
 
 // The area of those of some triangles that have no surface which faces the same way near their middles.

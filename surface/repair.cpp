@@ -11,6 +11,7 @@
 #include "delaunay/base/parallel.h"
 #include "surface/crossing_pieces.h"
 #include "surface/dents.h"
+#include "surface/intruders.h"
 #include "surface/kept_meshes.h"
 #include "surface/mesh_differences.h"
 #include "surface/poles.h"
@@ -18,6 +19,7 @@
 #include "surface/repair_round.h"
 #include "surface/repair_samples.h"
 #include "surface/sample_lattice.h"
+#include "surface/self_intersection.h"
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
 #include "surface/sign_trials.h"
@@ -65,6 +67,7 @@ class Repair {
     return differences_.find(mesh_, kept_.done(), most);
   }
   SurfaceMesh assemble_kept();
+  void take_intruders_out(SurfaceMesh& kept);
 
   const SurfaceFacts& facts_;
   const ScalarGrid& grid_;
@@ -109,6 +112,7 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   mesh_.reset();
   round_.reset();
   SurfaceMesh kept = assemble_kept();
+  if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out(kept);
   if (!controls.poll()) stats_.dents_removed = remove_dents(kept, isosurface_);
   polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_, controls);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
@@ -211,6 +215,18 @@ SurfaceMesh Repair::assemble_kept() {
   if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return kept;
   append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, is_polygonized_, kept);
   return kept;
+}
+
+// What components taken with vertices of others have of them; unless that is what makes triangles cross.
+void Repair::take_intruders_out(SurfaceMesh& kept) {
+  const auto crosses = [&](const SurfaceMesh& mesh) {
+    return self_intersections(mesh.points, mesh.triangles, 0, threads_).crossing_pairs > 0;
+  };
+  SurfaceMesh without = kept;
+  const std::int64_t removed = remove_intruders(without, grid_, isosurface_, topology_);
+  if (removed == 0 || (crosses(without) && !crosses(kept))) return;
+  stats_.intruders_removed = removed;
+  kept = std::move(without);
 }
 
 }  // namespace

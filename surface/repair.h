@@ -6,9 +6,9 @@
 // the exact components; where a few handles are wrong, find the places (place_boxes.h) and turn over single disputed
 // signs (sign_trials.h). A component is done when its main piece has its topology, holds no vertex of another component
 // and lies near all of it. At the end each component is taken from the latest mesh that has it at its best; one that no
-// mesh has right is meshed by marching cubes, whose topology is exact, and reported. Dents (dents.h) are removed from
-// what that makes; components whose triangles cross others are meshed by marching cubes, too, until none do
-// (crossing_pieces.h).
+// mesh has right is meshed by marching cubes, whose topology is exact, and reported. Vertices of other components
+// (intruders.h) and dents (dents.h) are removed from what that makes; components whose triangles cross others are
+// meshed by marching cubes, too, until none do (crossing_pieces.h).
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ struct RepairStats : StageStats {
   std::int64_t components_mixed = 0;        // taken with vertices of another component at last
   std::int64_t components_stray = 0;        // done after stray pieces were dropped
   std::int64_t components_polygonized = 0;  // taken from marching cubes at last
+  std::int64_t intruders_removed = 0;       // vertices taken out of such components (intruders.h)
   std::int64_t dents_removed = 0;           // vertices taken out of the mesh at last (dents.h)
   std::int64_t vertices_before = 0;         // of the mesh of stage 1
   std::int64_t vertices_after = 0;

@@ -1,6 +1,9 @@
 #include "surface/vertex_fans.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "delaunay/triangle_contact.h"
 
 namespace deliso {
 
@@ -35,6 +38,23 @@ bool VertexFans::are_joined(std::uint32_t v, std::uint32_t w) const {
         return visits++ == 0 || corner != corner_of_[v];
       });
   return found;
+}
+
+bool VertexFans::can_be_filled(const VertexFan& fan) const {
+  if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
+  std::vector<std::uint32_t> sorted = fan.link;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
+  const TriangleSide beyond = fan.outer.front();
+  return fan.link.size() > 3 || beyond == kNoSide || mesh_.triangles[beyond >> 2][beyond & 3u] != fan.link[2];
+}
+
+LeastTriangulation VertexFans::least_filling(const VertexFan& fan) const {
+  const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
+    const Vec3 &a = mesh_.points[fan.link[i]], &b = mesh_.points[fan.link[k]], &c = mesh_.points[fan.link[j]];
+    return has_area(a, b, c) ? 0.5 * norm(cross(b - a, c - a)) : std::numeric_limits<double>::infinity();
+  };
+  return {fan.link.size(), area, [&](std::size_t i, std::size_t j) { return !are_joined(fan.link[i], fan.link[j]); }};
 }
 
 void VertexFans::replace(std::uint32_t vertex, const VertexFan& fan, const LeastTriangulation& filling) {

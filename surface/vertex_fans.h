@@ -1,6 +1,7 @@
 // The triangles around the vertices of a mesh from which vertices are taken.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,7 +30,13 @@ class VertexFans {
   // Whether an edge joins two vertices.
   [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
 
-  // Takes an inner vertex away and fills its link, which passes no vertex twice. Two slots of triangles are free then,
+  // Whether the link of an inner vertex can be filled: it is not too long, passes no vertex twice and, if it is a
+  // triangle, is not one of the mesh.
+  [[nodiscard]] bool can_be_filled(const VertexFan& fan) const;
+  // Its filling of the least area, if there is one: by triangles that have an area and edges that the mesh does not
+  // have elsewhere.
+  [[nodiscard]] LeastTriangulation least_filling(const VertexFan& fan) const;
+  // Takes an inner vertex away and fills its link, which can be filled. Two slots of triangles are free then,
   // the others hold the filling.
   void replace(std::uint32_t vertex, const VertexFan& fan, const LeastTriangulation& filling);
   // All triangles that came so, gone or not.
@@ -39,6 +46,8 @@ class VertexFans {
 
  private:
   static constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
+  // Links of more vertices are left as they are.
+  static constexpr std::size_t kLongestLink = 32;
 
   TriangleSide build(const VertexFan& fan, const LeastTriangulation& filling, std::size_t i, std::size_t j,
                      std::size_t& next);
