@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "raycast/active_cells.h"
 #include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
-#include "raycast/empty_bricks.h"
 #include "raycast/isosurface.h"
 #include "raycast/line.h"
-#include "raycast/min_max_kdtree.h"
 #include "raycast/start_cell.h"
 #include "raycast/voxel_intersection.h"
 
