@@ -21,8 +21,8 @@ struct Swallowing {
   PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
 
   std::int64_t remove() { return remove_intruders(surface.mesh, scene->grid, *scene->isosurface, scene->topology); }
-  // A triangle gets a new corner in its middle, at the place of a vertex of another component. Returns the new corner.
-  std::uint32_t swallow(std::uint32_t triangle, std::uint32_t vertex) {
+  // A triangle is split at a new corner, at the place of a vertex of another component.
+  void swallow(std::uint32_t triangle, std::uint32_t vertex) {
     SurfaceMesh& mesh = surface.mesh;
     const auto corner = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.push_back(Vec3{mesh.points[vertex]});
@@ -32,7 +32,6 @@ struct Swallowing {
     mesh.triangles.push_back({b, c, corner});
     mesh.triangles.push_back({c, a, corner});
     link_sides(mesh);
-    return corner;
   }
   // With their smallest corner first, in order.
   [[nodiscard]] std::vector<Triangle> triangles() const {
@@ -41,7 +40,7 @@ struct Swallowing {
     std::sort(all.begin(), all.end());
     return all;
   }
-  // The first triangle of the largest component, and a vertex of another one.
+  // The first triangle of the largest component. Before anything is swallowed.
   [[nodiscard]] std::uint32_t host() const {
     const std::vector<std::uint32_t>& component = surface.component;
     std::vector<std::size_t> sizes(scene->topology.components.size(), 0);
@@ -51,12 +50,14 @@ struct Swallowing {
     while (component[surface.mesh.triangles[t][0]] != largest) ++t;
     return t;
   }
-  [[nodiscard]] std::uint32_t guest(std::uint32_t number) const {
-    const std::uint32_t host_component = surface.component[surface.mesh.triangles[host()][0]];
-    for (std::uint32_t v = 0; v < scene->topology.crossings.size(); ++v) {
-      if (surface.component[v] != host_component && number-- == 0) return v;
+  // Vertices of other components than a triangle's. Before anything is swallowed.
+  [[nodiscard]] std::vector<std::uint32_t> guests(std::uint32_t triangle, std::size_t count) const {
+    const std::uint32_t own = surface.component[surface.mesh.triangles[triangle][0]];
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t v = 0; v < scene->topology.crossings.size() && found.size() < count; ++v) {
+      if (surface.component[v] != own) found.push_back(v);
     }
-    return 0;
+    return found;
   }
 };
 
@@ -71,7 +72,8 @@ TEST(Intruders, AMeshWithoutAnyStaysAsItIs) {
 TEST(Intruders, OneVertexGoesAndItsTriangleComesBack) {
   Swallowing mesh;
   const std::vector<Triangle> before = mesh.triangles();
-  mesh.swallow(mesh.host(), mesh.guest(0));
+  const std::uint32_t host = mesh.host();
+  for (const std::uint32_t guest : mesh.guests(host, 1)) mesh.swallow(host, guest);
   ASSERT_NE(mesh.triangles(), before);
   EXPECT_EQ(mesh.remove(), 1);
   EXPECT_EQ(mesh.triangles(), before);
@@ -81,7 +83,7 @@ TEST(Intruders, SeveralThatHangTogetherGo) {
   Swallowing mesh;
   const std::vector<Triangle> before = mesh.triangles();
   const std::uint32_t host = mesh.host();
-  for (std::uint32_t i = 0; i < 4; ++i) mesh.swallow(host, mesh.guest(i));
+  for (const std::uint32_t guest : mesh.guests(host, 4)) mesh.swallow(host, guest);
   EXPECT_EQ(mesh.remove(), 4);
   EXPECT_EQ(mesh.triangles(), before);
 }
