@@ -88,7 +88,7 @@ class Isosurface {
   struct Segment;
   [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b,
                               int halvings) const;
-  [[nodiscard]] CellCorners relative_corners(const Vec3& index_point, Vec3& uvw) const;
+  [[nodiscard]] CellCorners relative_corners(const Vec3& p, Vec3& uvw) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
   [[nodiscard]] std::optional<double> hit_in_start_cell(const Line& line, double reach) const;

@@ -4,28 +4,20 @@
 #include <cstdlib>
 #include <utility>
 
+#include "surface/mesh_pieces.h"
+
 namespace deliso {
 
 namespace {
 
-// Labels the pieces by flooding over neighbours; returns how many.
+// Numbers the pieces; returns how many.
 std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t>& piece_of_triangle) {
   piece_of_triangle.assign(mesh.triangles.size(), kNoPiece);
-  std::vector<std::uint32_t> stack;
+  std::vector<bool> is_labelled(mesh.triangles.size(), false);
   std::uint32_t pieces = 0;
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (piece_of_triangle[seed] != kNoPiece) continue;
-    piece_of_triangle[seed] = pieces;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const std::uint32_t t = stack.back();
-      stack.pop_back();
-      for (const TriangleSide side : mesh.neighbours[t]) {
-        if (side == kNoSide || piece_of_triangle[side >> 2] != kNoPiece) continue;
-        piece_of_triangle[side >> 2] = pieces;
-        stack.push_back(side >> 2);
-      }
-    }
+    if (is_labelled[seed]) continue;
+    for (const std::uint32_t t : flood(mesh, seed, is_labelled)) piece_of_triangle[t] = pieces;
     ++pieces;
   }
   return pieces;

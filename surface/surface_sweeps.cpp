@@ -14,19 +14,9 @@ namespace deliso {
 namespace {
 
 SampleLayers layers_of(const EdgeCrossing& crossing, const Dims& dims) {
-  const auto nx = static_cast<std::uint64_t>(dims[0]), ny = static_cast<std::uint64_t>(dims[1]);
-  const std::uint64_t row = crossing.sample / nx;
-  SampleLayers layers = {static_cast<std::int32_t>(crossing.sample % nx), static_cast<std::int32_t>(row % ny),
-                         static_cast<std::int32_t>(row / ny)};
+  SampleLayers layers = sample_of(crossing, dims);
   ++layers[crossing.axis];
   return layers;
-}
-
-// Whether the corners of a cell's face lie on both sides.
-bool meets_face(std::uint8_t pattern, int face) {
-  constexpr std::array<unsigned, kCellFaces> kCorners = {0x55, 0xAA, 0x33, 0xCC, 0x0F, 0xF0};
-  const unsigned corners = kCorners[static_cast<std::size_t>(face)];
-  return (pattern & corners) != 0 && (pattern & corners) != corners;
 }
 
 // The surface is made of crossings, of arcs in which it meets grid faces and of pieces in cells, each with an Euler
@@ -53,7 +43,7 @@ class ExactChanges {
     const std::uint32_t component = component_on(cell, std::countr_zero(crossed_edges(pattern)));
     visit_(component, top_of(cell), 2);
     for (int face = 0; face < kCellFaces; ++face) {
-      if (meets_face(pattern, face)) visit_arc(component, cell, face);
+      if (is_crossed_face(pattern, face)) visit_arc(component, cell, face);
     }
   }
 
@@ -87,10 +77,7 @@ class ExactChanges {
   static SampleLayers top_of(const CellIndex& cell) { return {cell[0] + 1, cell[1] + 1, cell[2] + 1}; }
 
   [[nodiscard]] std::uint32_t component_on(const CellIndex& cell, int edge) const {
-    const CellEdge e = cell_edge(edge);
-    const std::uint32_t crossing = topology_.index.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1),
-                                                          cell[2] + (e.corner >> 2), e.axis);
-    return topology_.crossings[crossing].component;
+    return topology_.crossings[topology_.index.number(cell, edge)].component;
   }
 
   const ScalarGrid& grid_;

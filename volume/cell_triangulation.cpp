@@ -30,17 +30,12 @@ const MarchingCubesPatch& CellTriangulation::triangulate(const CellIndex& cell, 
 }
 
 void CellTriangulation::add_crossings(std::uint8_t pattern) {
-  const CellIndex& cell = patch_.cell;
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
     const int edge = std::countr_zero(edges);
-    const CellEdge e = cell_edge(edge);
-    const CellIndex sample{cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2)};
-    const std::uint32_t crossing = index_.number(sample[0], sample[1], sample[2], e.axis);
-    Vec3 at{static_cast<double>(sample[0]), static_cast<double>(sample[1]), static_cast<double>(sample[2])};
-    at[static_cast<std::size_t>(e.axis)] += crossings_[crossing].t;
+    const std::uint32_t crossing = index_.number(patch_.cell, edge);
     places_[static_cast<std::size_t>(edge)] = static_cast<std::uint32_t>(patch_.vertices.size());
     patch_.vertices.push_back(crossing);
-    patch_.points.push_back(at);
+    patch_.points.push_back(crossing_position(grid_, crossings_[crossing]));
   }
   patch_.crossing_count = patch_.vertices.size();
 }

@@ -24,10 +24,20 @@
 #include "delaunay/base/box3.h"
 #include "volume/cell_loops.h"
 #include "volume/exact_tests.h"
+#include "volume/exact_topology_crossings.h"
 #include "volume/loop_band.h"
-#include "volume/marching_cubes.h"
 
 namespace deliso {
+
+struct MarchingCubesPatch {
+  CellIndex cell{};
+  // The vertices of the patch: what the whole mesh calls them, and where they are, in index space. First the cell's
+  // grid-edge crossings, then its inner points.
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> points;
+  std::size_t crossing_count = 0;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of places in `vertices`
+};
 
 // Triangulates one cell after the other.
 class CellTriangulation {

@@ -71,7 +71,6 @@ class TopologyBuilder {
 
   void join_cells();
   void join_layers(std::int32_t first, std::int32_t last, Found& found);
-  [[nodiscard]] std::uint32_t crossing_on(const CellIndex& cell, int edge) const;
   void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
   void join_cell(const CellIndex& cell, std::uint8_t pattern, Found& found);
   [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
@@ -118,19 +117,13 @@ void TopologyBuilder::join_layers(std::int32_t first, std::int32_t last, Found& 
   });
 }
 
-std::uint32_t TopologyBuilder::crossing_on(const CellIndex& cell, int edge) const {
-  const CellEdge e = cell_edge(edge);
-  return result_.index.number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2),
-                              e.axis);
-}
-
 // One disk through all crossings of the cell.
 void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t pattern) {
   unsigned edges = crossed_edges(pattern);
-  const std::uint32_t first = crossing_on(cell, std::countr_zero(edges));
+  const std::uint32_t first = result_.index.number(cell, std::countr_zero(edges));
   twice_euler_of_crossing_[first] += 2 - std::popcount(edges);
   for (edges &= edges - 1; edges != 0; edges &= edges - 1) {
-    sets_.unite(first, crossing_on(cell, std::countr_zero(edges)));
+    sets_.unite(first, result_.index.number(cell, std::countr_zero(edges)));
   }
 }
 
@@ -146,7 +139,7 @@ void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern, Fou
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
     const int edge = std::countr_zero(edges);
     const int piece = sweep.piece_of_edge(edge);
-    const std::uint32_t crossing = crossing_on(cell, edge);
+    const std::uint32_t crossing = result_.index.number(cell, edge);
     std::uint32_t& start = first[static_cast<std::size_t>(piece)];
     if (start == CrossingIndex::kNone) {
       start = crossing;

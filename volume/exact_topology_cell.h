@@ -48,6 +48,12 @@ std::uint8_t sign_pattern(const CellCorners& corners, double isovalue);
 bool is_simple(std::uint8_t pattern);
 // One bit per edge of the cell that has a crossing.
 std::uint16_t crossed_edges(std::uint8_t pattern);
+// True when the face's corners do not all lie on one side.
+inline bool is_crossed_face(std::uint8_t pattern, int face) {
+  constexpr std::array<unsigned, kCellFaces> kCorners = {0x55, 0xAA, 0x33, 0xCC, 0x0F, 0xF0};
+  const unsigned corners = kCorners[static_cast<std::size_t>(face)];
+  return (pattern & corners) != 0 && (pattern & corners) != corners;
+}
 // True when the face's corner signs alternate.
 bool is_ambiguous_face(std::uint8_t pattern, int face);
 // True when the corners above the isovalue are joined across an ambiguous face. A saddle exactly at the isovalue is

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "delaunay/base/check.h"
+#include "volume/exact_topology_cell.h"
 #include "volume/sample_sides.h"
 
 namespace deliso {
@@ -115,6 +116,11 @@ std::uint32_t CrossingIndex::number(std::int32_t i, std::int32_t j, std::int32_t
   return first_in_word_[word_index(w, j, k)] + count_bits(bits);
 }
 
+std::uint32_t CrossingIndex::number(const CellIndex& cell, int edge) const {
+  const CellEdge e = cell_edge(edge);
+  return number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2), e.axis);
+}
+
 std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                          int threads) {
   std::vector<EdgeCrossing> crossings(index.crossing_count());
@@ -147,12 +153,16 @@ std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue
   return crossings;
 }
 
-Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
-  const auto nx = static_cast<std::uint64_t>(grid.dims()[0]);
-  const auto ny = static_cast<std::uint64_t>(grid.dims()[1]);
+CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims) {
+  const auto nx = static_cast<std::uint64_t>(dims[0]), ny = static_cast<std::uint64_t>(dims[1]);
   const std::uint64_t row = crossing.sample / nx;
-  const std::uint64_t slice = row / ny;
-  Vec3 position{static_cast<double>(crossing.sample % nx), static_cast<double>(row % ny), static_cast<double>(slice)};
+  return {static_cast<std::int32_t>(crossing.sample % nx), static_cast<std::int32_t>(row % ny),
+          static_cast<std::int32_t>(row / ny)};
+}
+
+Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
+  const auto [i, j, k] = sample_of(crossing, grid.dims());
+  Vec3 position{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
   position[crossing.axis] += crossing.t;
   return position;
 }

@@ -29,8 +29,10 @@ struct EdgeCrossing {
 // crossings are equal bit by bit.
 double edge_parameter(double low, double high, double isovalue);
 
-// A voxel cell, by its lowest corner.
+// A voxel cell, by its lowest corner; or a sample.
 using CellIndex = std::array<std::int32_t, 3>;
+// The sample that a crossing's edge starts from.
+CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims);
 
 // Layers across z that a thread takes at a time. The same for any number of threads, and what slabs give is joined in
 // order; so results do not depend on it.
@@ -69,6 +71,8 @@ class CrossingIndex {
   [[nodiscard]] std::uint32_t find(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const;
   // The same for an edge that is known to have a crossing.
   [[nodiscard]] std::uint32_t number(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const;
+  // The same for an edge of a cell (exact_topology_cell.h).
+  [[nodiscard]] std::uint32_t number(const CellIndex& cell, int edge) const;
 
   // Calls visit(number) for the crossings on the edges of a cell, those along x first, then those along y.
   template <class Visit>

@@ -21,25 +21,17 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
   for (const EdgeCrossing& crossing : crossings) mesh.points.push_back(crossing_position(grid, crossing));
   mesh.crossing_count = mesh.points.size();
   mesh.triangles.reserve(2 * mesh.crossing_count);
-  const auto append = [&mesh](const MarchingCubesPatch& patch) {
+  CellTriangulation cells(grid, isovalue, index, crossings, tests);
+  index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+    const MarchingCubesPatch& patch = cells.triangulate(cell, pattern);
     mesh.points.insert(mesh.points.end(), patch.points.begin() + static_cast<std::ptrdiff_t>(patch.crossing_count),
                        patch.points.end());
     for (const auto& [a, b, c] : patch.triangles) {
       mesh.triangles.push_back({patch.vertices[a], patch.vertices[b], patch.vertices[c]});
     }
-  };
-  for_each_marching_cubes_patch(grid, isovalue, index, crossings, append, tests);
+  });
   for (Vec3& point : mesh.points) point = grid.origin() + scaled(point, grid.spacing());
   return mesh;
-}
-
-void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                   std::span<const EdgeCrossing> crossings,
-                                   const std::function<void(const MarchingCubesPatch&)>& visit,
-                                   const ExactTests* tests) {
-  CellTriangulation cells(grid, isovalue, index, crossings, tests);
-  index.for_each_active_cell(
-      [&](const CellIndex& cell, std::uint8_t pattern) { visit(cells.triangulate(cell, pattern)); });
 }
 
 }  // namespace deliso

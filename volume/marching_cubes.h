@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,20 +33,5 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
 // The same for callers that have the index of the crossings and their list (list_crossings).
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                  std::span<const EdgeCrossing> crossings, const ExactTests* tests = nullptr);
-
-// The same mesh cell by cell, for callers that need not keep it: calls visit(patch) for every active cell, x fastest.
-struct MarchingCubesPatch {
-  CellIndex cell{};
-  // The vertices of the patch: what the whole mesh calls them, and where they are, in index space. First the cell's
-  // grid-edge crossings, then its inner points.
-  std::vector<std::uint32_t> vertices;
-  std::vector<Vec3> points;
-  std::size_t crossing_count = 0;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // of places in `vertices`
-};
-void for_each_marching_cubes_patch(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                   std::span<const EdgeCrossing> crossings,
-                                   const std::function<void(const MarchingCubesPatch&)>& visit,
-                                   const ExactTests* tests = nullptr);
 
 }  // namespace deliso
