@@ -1,8 +1,11 @@
 #include "surface/intruders.h"
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "surface/coverage.h"
 #include "surface/least_triangulation.h"
 #include "surface/mesh_pieces.h"
 #include "surface/vertex_fans.h"
@@ -11,13 +14,38 @@ namespace deliso {
 
 namespace {
 
-// The vertices of a piece that do not lie on the component of most, as far as a component is known.
-void append_intruders(const std::vector<std::uint32_t>& vertices, const std::vector<std::uint32_t>& components,
-                      std::vector<std::uint32_t>& intruders) {
-  const std::optional<std::uint32_t> own = most_frequent(components);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (components[i] != kNoComponent && components[i] != own) intruders.push_back(vertices[i]);
+// The vertices of pieces that do not lie on the component of most; and the triangles of the pieces on each component
+// that has some.
+struct Found {
+  std::vector<std::uint32_t> vertices;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_on;
+};
+
+Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
+  Found found;
+  std::vector<std::uint32_t> own_of(mesh.triangles.size(), kNoComponent);  // the component of each triangle's piece
+  std::vector<bool> is_seen(mesh.triangles.size(), false);
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (is_seen[seed]) continue;
+    const std::vector<std::uint32_t> triangles = flood(mesh, seed, is_seen);
+    const std::vector<std::uint32_t> vertices = vertices_of(mesh, triangles);
+    std::vector<std::uint32_t> components;
+    components.reserve(vertices.size());
+    for (const std::uint32_t v : vertices) components.push_back(component_of[v]);
+    const std::optional<std::uint32_t> own = most_frequent(components);
+    for (const std::uint32_t t : triangles) own_of[t] = own.value_or(kNoComponent);
+    for (const std::uint32_t v : vertices) {
+      if (component_of[v] == own) continue;
+      found.vertices.push_back(v);
+      found.triangles_on[component_of[v]];
+    }
   }
+  if (found.vertices.empty()) return found;
+  for (std::uint32_t t = 0; t < own_of.size(); ++t) {
+    const auto at = found.triangles_on.find(own_of[t]);
+    if (at != found.triangles_on.end()) at->second.push_back(t);
+  }
+  return found;
 }
 
 bool remove(std::uint32_t v, VertexFans& fans) {
@@ -31,25 +59,25 @@ bool remove(std::uint32_t v, VertexFans& fans) {
 
 }  // namespace
 
-std::int64_t remove_intruders(SurfaceMesh& mesh, const ScalarGrid& grid, const Isosurface& isosurface,
-                              const IsosurfaceTopology& topology) {
-  std::vector<std::uint32_t> intruders;
-  std::vector<bool> is_seen(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> vertices = vertices_of(mesh, flood(mesh, seed, is_seen));
-    append_intruders(vertices, components_at(mesh, vertices, grid, isosurface, topology), intruders);
-  }
-  if (intruders.empty()) return 0;
+Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
+  const Found found = find_intruders(mesh, component_of);
+  Intruders counted{0, static_cast<std::int64_t>(found.vertices.size())};
+  std::vector<std::uint32_t> intruders = found.vertices;
+  std::erase_if(intruders, [&](std::uint32_t v) {
+    const std::vector<std::uint32_t>& own = found.triangles_on.at(component_of[v]);
+    return std::none_of(own.begin(), own.end(),
+                        [&](std::uint32_t t) { return is_covered_by(mesh.points[v], mesh, t); });
+  });
+  if (intruders.empty()) return counted;
   VertexFans fans(mesh);
-  std::int64_t removed = 0;
   // What was in the way of one may be gone the next time.
-  for (std::int64_t before = -1; before != removed;) {
-    before = removed;
-    for (const std::uint32_t v : intruders) removed += fans.has(v) && remove(v, fans) ? 1 : 0;
+  for (std::int64_t before = -1; before != counted.removed;) {
+    before = counted.removed;
+    for (const std::uint32_t v : intruders) counted.removed += fans.has(v) && remove(v, fans) ? 1 : 0;
   }
-  if (removed > 0) fans.drop_free_slots();
-  return removed;
+  counted.left -= counted.removed;
+  if (counted.removed > 0) fans.drop_free_slots();
+  return counted;
 }
 
 }  // namespace deliso

@@ -159,6 +159,7 @@ void KeptMeshes::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const 
 // Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
 // from them.
 void KeptMeshes::give_poles(RepairRound& round) {
+  const TetSigns signs = round.restricted().signs();
   for (KeptMesh& kept : kept_) {
     if (kept.signs.empty()) continue;
     round.set_signs(kept.signs);
@@ -174,30 +175,33 @@ void KeptMeshes::give_poles(RepairRound& round) {
     const std::vector<double>& heights = round.pole_heights(wanted);
     for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   }
+  round.set_signs(signs);
 }
 
-void KeptMeshes::append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads,
-                           RepairStats& stats) {
+AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const {
+  left.assign(done_.size(), true);
+  stats.components_mixed = stats.components_stray = 0;
   std::vector<std::vector<bool>> wanted(kept_.size());  // pieces of each mesh
   std::vector<std::size_t> giver(done_.size(), kept_.size());
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const ComponentMatch& match = kept_[i].mesh->match;
     wanted[i].assign(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (!left[c] || giver[c] < kept_.size() || !may_give(*kept_[i].mesh, c)) continue;
+      if (giver[c] < kept_.size() || !may_give(*kept_[i].mesh, c)) continue;
       giver[c] = i;
       wanted[i][match.main_piece[c]] = true;
     }
   }
+  std::vector<SurfaceMesh> separated(kept_.size());
   run_tasks(kept_.size(), threads, [&](std::size_t i) {
-    auto& [built, component, match] = *kept_[i].mesh;
+    const auto& [built, component, match] = *kept_[i].mesh;
     if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
-    const TrueHomes homes(built);
-    separate_copies(built.mesh, built.groups, built.vertex_of, box, [&, &match = match](std::uint32_t v) {
+    separated[i] = built.mesh;
+    separate_copies(separated[i], built.groups, built.vertex_of, box, [&, &match = match](std::uint32_t v) {
       return match.piece_of[v] != kNoPiece && wanted[i][match.piece_of[v]];
     });
     // A piece with a vertex off the surface is no good.
-    for (const std::uint32_t v : homes.left_by(built.mesh.points)) wanted[i][match.piece_of[v]] = false;
+    for (const std::uint32_t v : TrueHomes(built).left_by(separated[i].points)) wanted[i][match.piece_of[v]] = false;
   });
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (giver[c] == kept_.size()) continue;
@@ -207,9 +211,15 @@ void KeptMeshes::append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box
     stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
     stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
   }
+  AssembledMesh all;
   for (std::size_t i = kept_.size(); i-- > 0;) {
-    append_pieces(kept_[i].mesh->built.mesh, kept_[i].mesh->match.piece_of, wanted[i], mesh);
+    const std::vector<std::uint32_t>& piece_of = kept_[i].mesh->match.piece_of;
+    append_pieces(std::exchange(separated[i], {}), piece_of, wanted[i], all.mesh);
+    for (std::size_t v = 0; v < piece_of.size(); ++v) {
+      if (piece_of[v] != kNoPiece && wanted[i][piece_of[v]]) all.component.push_back(kept_[i].mesh->component[v]);
+    }
   }
+  return all;
 }
 
 }  // namespace deliso

@@ -13,6 +13,12 @@
 
 namespace deliso {
 
+// A mesh, and the exact component of each vertex.
+struct AssembledMesh {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> component;
+};
+
 class KeptMeshes {
  public:
   explicit KeptMeshes(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
@@ -22,16 +28,20 @@ class KeptMeshes {
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
+  // Whether that is all, but that some have the right topology with vertices mixed.
+  [[nodiscard]] bool is_done_but_for_mixing() const {
+    return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
+  }
   // Whether nothing would be left to do with this mesh.
   [[nodiscard]] bool would_be_done(const MatchedMesh& mesh) const;
   // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be
   // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
-  // Finds pole heights for the meshes of a round, before its triangulation goes. The round's signs are others then.
+  // Finds pole heights for the meshes of a round, before its triangulation goes.
   void give_poles(RepairRound& round);
-  // Appends every component as the latest mesh that agrees with it at its best has it, unless none has all of it or
-  // its copies find no place on the surface; and notes what is `left`. Meshes are of no more use then.
-  void append_to(SurfaceMesh& mesh, std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats);
+  // Every component as the latest mesh that agrees with it at its best has it, unless none has all of it or its copies
+  // find no place on the surface: that is `left`. Precondition: the meshes have pole heights.
+  AssembledMesh assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const;
 
  private:
   struct KeptMesh {

@@ -1,6 +1,7 @@
 #include "surface/repair.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -57,6 +58,7 @@ class Repair {
   SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
 
  private:
+  void mend(std::int32_t max_rounds, Controls& controls);
   SurfaceMesh as_it_is();
   void resample();
   bool try_rule(SignRule rule);
@@ -66,8 +68,9 @@ class Repair {
   const std::vector<Places>& places_of_difference(std::size_t most) {
     return differences_.find(mesh_, kept_.done(), most);
   }
-  SurfaceMesh assemble_kept();
-  void take_intruders_out(SurfaceMesh& kept);
+  bool ends_without_intruders();
+  void assemble_kept();
+  bool take_intruders_out();
 
   const SurfaceFacts& facts_;
   const ScalarGrid& grid_;
@@ -82,7 +85,8 @@ class Repair {
   RepairSamples samples_;              // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   KeptMeshes kept_;
-  std::vector<bool> is_polygonized_;  // of each component, at last
+  AssembledMesh result_;              // at last
+  std::vector<bool> is_polygonized_;  // of each component in it
   MeshDifferences differences_;
 };
 
@@ -94,7 +98,19 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
                                            [](Agreement a) { return a != Agreement::kExact; });
   if (controls.stopped()) return as_it_is();
   kept_.keep(mesh_, round_->restricted().signs());
+  mend(max_rounds, controls);
+  SurfaceMesh& mesh = result_.mesh;
+  if (!controls.poll()) stats_.dents_removed = remove_dents(mesh, isosurface_);
+  polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
+  stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
+  stats_.vertices_after = static_cast<std::int64_t>(mesh.points.size());
+  return std::move(mesh);
+}
+
+// Rounds until every component is done, or nothing is left but what taking vertices out mends.
+void Repair::mend(std::int32_t max_rounds, Controls& controls) {
   for (std::int32_t round = 1; round <= max_rounds && !kept_.is_done() && !controls.poll(); ++round) {
+    if (ends_without_intruders()) return;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(cells_in_trouble(
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
@@ -111,13 +127,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   kept_.give_poles(*round_);
   mesh_.reset();
   round_.reset();
-  SurfaceMesh kept = assemble_kept();
-  if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out(kept);
-  if (!controls.poll()) stats_.dents_removed = remove_dents(kept, isosurface_);
-  polygonize_crossing_pieces(kept, facts_, isosurface_, is_polygonized_, threads_, controls);
-  stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
-  stats_.vertices_after = static_cast<std::int64_t>(kept.points.size());
-  return kept;
+  assemble_kept();
+  if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
 }
 
 // The first mesh, right or not, of a run that had to end before.
@@ -206,27 +217,42 @@ void Repair::try_signs(Controls& controls) {
   }
 }
 
-// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
-// dropped.
-SurfaceMesh Repair::assemble_kept() {
-  SurfaceMesh kept;
-  is_polygonized_.assign(topology_.components.size(), true);
-  kept_.append_to(kept, is_polygonized_, isosurface_.box(), threads_, stats_);
-  if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return kept;
-  append_pieces(facts_.polygonized().mesh, facts_.polygonized().component, is_polygonized_, kept);
-  return kept;
+// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out.
+bool Repair::ends_without_intruders() {
+  if (!kept_.is_done_but_for_mixing()) return false;
+  kept_.give_poles(*round_);
+  assemble_kept();
+  const bool is_whole = std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
+  if (is_whole && take_intruders_out()) return true;
+  result_ = {};
+  stats_.intruders_removed = 0;
+  return false;
 }
 
-// What components taken with vertices of others have of them; unless that is what makes triangles cross.
-void Repair::take_intruders_out(SurfaceMesh& kept) {
+// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
+// dropped.
+void Repair::assemble_kept() {
+  result_ = kept_.assemble(is_polygonized_, isosurface_.box(), threads_, stats_);
+  if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
+  const auto& [polygonized, component] = facts_.polygonized();
+  append_pieces(polygonized, component, is_polygonized_, result_.mesh);
+  std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),
+               [&](std::uint32_t c) { return is_polygonized_[c]; });
+}
+
+// What components taken with vertices of others have of them; unless that is what makes triangles cross. Whether none
+// is left and nothing crosses.
+bool Repair::take_intruders_out() {
   const auto crosses = [&](const SurfaceMesh& mesh) {
     return self_intersections(mesh.points, mesh.triangles, 0, threads_).crossing_pairs > 0;
   };
-  SurfaceMesh without = kept;
-  const std::int64_t removed = remove_intruders(without, grid_, isosurface_, topology_);
-  if (removed == 0 || (crosses(without) && !crosses(kept))) return;
+  SurfaceMesh without = result_.mesh;
+  const auto [removed, left] = remove_intruders(without, result_.component);
+  const bool is_crossing = crosses(without);
+  if (removed == 0 || (is_crossing && !crosses(result_.mesh))) return false;
   stats_.intruders_removed = removed;
-  kept = std::move(without);
+  result_.mesh = std::move(without);
+  return left == 0 && !is_crossing;
 }
 
 }  // namespace

@@ -20,13 +20,14 @@ struct Swallowing {
   std::unique_ptr<testing::Scene> scene = testing::field_scene("bubbles", 26);
   PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
 
-  std::int64_t remove() { return remove_intruders(surface.mesh, scene->grid, *scene->isosurface, scene->topology); }
+  Intruders remove() { return remove_intruders(surface.mesh, surface.component); }
   // A triangle is split at a new corner, at the place of a vertex of another component.
   void swallow(std::uint32_t triangle, std::uint32_t vertex) {
     SurfaceMesh& mesh = surface.mesh;
     const auto corner = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.push_back(Vec3{mesh.points[vertex]});
     mesh.pole_heights.push_back(1);
+    surface.component.push_back(std::uint32_t{surface.component[vertex]});
     const auto [a, b, c] = Triangle{mesh.triangles[triangle]};
     mesh.triangles[triangle] = {a, b, corner};
     mesh.triangles.push_back({b, c, corner});
@@ -65,7 +66,9 @@ TEST(Intruders, AMeshWithoutAnyStaysAsItIs) {
   Swallowing mesh;
   ASSERT_GT(mesh.scene->topology.components.size(), 1u);
   const std::vector<Triangle> before = mesh.triangles();
-  EXPECT_EQ(mesh.remove(), 0);
+  const auto [removed, left] = mesh.remove();
+  EXPECT_EQ(removed, 0);
+  EXPECT_EQ(left, 0);
   EXPECT_EQ(mesh.triangles(), before);
 }
 
@@ -77,9 +80,37 @@ TEST(Intruders, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
     const std::uint32_t host = mesh.host();
     for (const std::uint32_t guest : mesh.guests(host, count)) mesh.swallow(host, guest);
     ASSERT_EQ(mesh.triangles().size(), before.size() + 2 * count);
-    EXPECT_EQ(mesh.remove(), static_cast<std::int64_t>(count));
+    const auto [removed, left] = mesh.remove();
+    EXPECT_EQ(removed, static_cast<std::int64_t>(count));
+    EXPECT_EQ(left, 0);
     EXPECT_EQ(mesh.triangles(), before);
   }
+}
+
+TEST(Intruders, AVertexStaysWhenNothingElseIsNearOnItsComponent) {
+  Swallowing mesh;
+  const std::uint32_t host = mesh.host();
+  const std::uint32_t guest = mesh.guests(host, 1).front();
+  mesh.swallow(host, guest);
+  std::vector<bool> is_gone;
+  for (const Triangle& t : mesh.surface.mesh.triangles) {
+    is_gone.push_back(std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return mesh.surface.component[v] == mesh.surface.component[guest];
+    }));
+  }
+  const std::vector<Vec3> points = mesh.surface.mesh.points;
+  drop_triangles(mesh.surface.mesh, is_gone);
+  // Vertices without triangles are gone, too; the others stay in order.
+  std::vector<std::uint32_t> component;
+  for (std::size_t v = 0, next = 0; v < points.size() && next < mesh.surface.mesh.points.size(); ++v) {
+    if (points[v] != mesh.surface.mesh.points[next]) continue;
+    component.push_back(mesh.surface.component[v]);
+    ++next;
+  }
+  ASSERT_EQ(component.size(), mesh.surface.mesh.points.size());
+  const auto [removed, left] = remove_intruders(mesh.surface.mesh, component);
+  EXPECT_EQ(removed, 0);
+  EXPECT_EQ(left, 1);
 }
 
 }  // namespace

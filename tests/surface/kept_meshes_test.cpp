@@ -83,6 +83,20 @@ bool leaves_surface(const BuiltMesh& built, const std::vector<Vec3>& before,
   return false;
 }
 
+// All vertices that have not been moved must lie on the component that is told of them.
+void expect_true_components(const AssembledMesh& assembled, const Scene& scene) {
+  ASSERT_EQ(assembled.component.size(), assembled.mesh.points.size());
+  const std::vector<Vec3> samples = testing::crossing_points(scene);
+  std::size_t unmoved = 0;
+  for (std::size_t v = 0; v < assembled.component.size(); ++v) {
+    const Vec3& p = assembled.mesh.points[v];
+    if (std::find(samples.begin(), samples.end(), p) == samples.end()) continue;
+    ++unmoved;
+    EXPECT_EQ(assembled.component[v], component_of(scene.grid, scene.isosurface->isovalue(), scene.topology, p));
+  }
+  EXPECT_GT(2 * unmoved, assembled.component.size());
+}
+
 TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   std::size_t given_by_earlier = 0, off_surface = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -123,18 +137,23 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       append_pieces_placed(mesh.built.mesh, is_wanted, expected);
     }
 
+    const TetSigns signs = attempts.round.restricted().signs();
     kept.give_poles(attempts.round);
-    SurfaceMesh surface;
-    std::vector<bool> left(components, true);
-    RepairStats stats;
-    kept.append_to(surface, left, box, 1, stats);
-    std::vector<PlacedTriangle> found;
-    append_pieces_placed(
-        surface, [](std::uint32_t) { return true; }, found);
+    EXPECT_EQ(attempts.round.restricted().signs(), signs);
     std::sort(expected.begin(), expected.end());
-    std::sort(found.begin(), found.end());
-    EXPECT_FALSE(found.empty());
-    EXPECT_EQ(found, expected);
+    EXPECT_FALSE(expected.empty());
+    for (int time = 0; time < 2; ++time) {
+      SCOPED_TRACE(time);
+      std::vector<bool> left;
+      RepairStats stats;
+      const AssembledMesh assembled = kept.assemble(left, box, 1, stats);
+      std::vector<PlacedTriangle> found;
+      append_pieces_placed(
+          assembled.mesh, [](std::uint32_t) { return true; }, found);
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, expected);
+      expect_true_components(assembled, *scene);
+    }
   }
   EXPECT_GT(given_by_earlier, 10u);
   EXPECT_GT(off_surface, 0u);
