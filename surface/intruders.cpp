@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "surface/coverage.h"
-#include "surface/least_triangulation.h"
 #include "surface/mesh_pieces.h"
 #include "surface/vertex_fans.h"
 
@@ -48,15 +47,6 @@ Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> com
   return found;
 }
 
-bool remove(std::uint32_t v, VertexFans& fans) {
-  VertexFan fan;
-  if (!fans.find(v, fan) || !fans.can_be_filled(fan)) return false;
-  const LeastTriangulation filling = fans.least_filling(fan);
-  if (!filling.exists()) return false;
-  fans.replace(v, fan, filling);
-  return true;
-}
-
 }  // namespace
 
 Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
@@ -70,11 +60,8 @@ Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> com
   });
   if (intruders.empty()) return counted;
   VertexFans fans(mesh);
-  // What was in the way of one may be gone the next time.
-  for (std::int64_t before = -1; before != counted.removed;) {
-    before = counted.removed;
-    for (const std::uint32_t v : intruders) counted.removed += fans.has(v) && remove(v, fans) ? 1 : 0;
-  }
+  fans.take_out(intruders);
+  counted.removed = std::count_if(intruders.begin(), intruders.end(), [&](std::uint32_t v) { return !fans.has(v); });
   counted.left -= counted.removed;
   if (counted.removed > 0) fans.drop_free_slots();
   return counted;

@@ -6,6 +6,7 @@
 
 #include "delaunay/base/parallel.h"
 #include "surface/separate_copies.h"
+#include "surface/vertex_fans.h"
 
 namespace deliso {
 
@@ -95,6 +96,35 @@ class TrueHomes {
  private:
   std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
 };
+
+// A mesh that gives some of its pieces, with the component and the piece of each vertex.
+struct GivenMesh {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> component;
+  std::vector<std::uint32_t> piece_of;
+
+  // Pieces in which one of these has to stay are wanted no more.
+  void take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted);
+};
+
+void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted) {
+  if (vertices.empty()) return;
+  VertexFans fans(mesh);
+  fans.take_out(vertices);
+  for (const std::uint32_t v : vertices) {
+    if (fans.has(v)) wanted[piece_of[v]] = false;
+  }
+  // The others keep their order.
+  std::size_t vertex_count = 0;
+  for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
+    if (!fans.has(v)) continue;
+    component[vertex_count] = component[v];
+    piece_of[vertex_count++] = piece_of[v];
+  }
+  component.resize(vertex_count);
+  piece_of.resize(vertex_count);
+  fans.drop_free_slots();
+}
 
 }  // namespace
 
@@ -192,16 +222,18 @@ AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int
       wanted[i][match.main_piece[c]] = true;
     }
   }
-  std::vector<SurfaceMesh> separated(kept_.size());
+  std::vector<GivenMesh> given(kept_.size());
   run_tasks(kept_.size(), threads, [&](std::size_t i) {
     const auto& [built, component, match] = *kept_[i].mesh;
     if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
-    separated[i] = built.mesh;
-    separate_copies(separated[i], built.groups, built.vertex_of, box, [&, &match = match](std::uint32_t v) {
-      return match.piece_of[v] != kNoPiece && wanted[i][match.piece_of[v]];
-    });
-    // A piece with a vertex off the surface is no good.
-    for (const std::uint32_t v : TrueHomes(built).left_by(separated[i].points)) wanted[i][match.piece_of[v]] = false;
+    const auto is_wanted = [&wanted = wanted[i], &piece_of = match.piece_of](std::uint32_t v) {
+      return piece_of[v] != kNoPiece && wanted[piece_of[v]];
+    };
+    given[i] = {built.mesh, component, match.piece_of};
+    separate_copies(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
+    std::vector<std::uint32_t> homeless = TrueHomes(built).left_by(given[i].mesh.points);
+    std::erase_if(homeless, [&](std::uint32_t v) { return !is_wanted(v); });
+    given[i].take_out(homeless, wanted[i]);
   });
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (giver[c] == kept_.size()) continue;
@@ -213,10 +245,10 @@ AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int
   }
   AssembledMesh all;
   for (std::size_t i = kept_.size(); i-- > 0;) {
-    const std::vector<std::uint32_t>& piece_of = kept_[i].mesh->match.piece_of;
-    append_pieces(std::exchange(separated[i], {}), piece_of, wanted[i], all.mesh);
-    for (std::size_t v = 0; v < piece_of.size(); ++v) {
-      if (piece_of[v] != kNoPiece && wanted[i][piece_of[v]]) all.component.push_back(kept_[i].mesh->component[v]);
+    const GivenMesh from = std::exchange(given[i], {});
+    append_pieces(from.mesh, from.piece_of, wanted[i], all.mesh);
+    for (std::size_t v = 0; v < from.piece_of.size(); ++v) {
+      if (from.piece_of[v] != kNoPiece && wanted[i][from.piece_of[v]]) all.component.push_back(from.component[v]);
     }
   }
   return all;

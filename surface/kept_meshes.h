@@ -39,8 +39,9 @@ class KeptMeshes {
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes.
   void give_poles(RepairRound& round);
-  // Every component as the latest mesh that agrees with it at its best has it, unless none has all of it or its copies
-  // find no place on the surface: that is `left`. Precondition: the meshes have pole heights.
+  // Every component as the latest mesh that agrees with it at its best has it, less the copies of vertices that find no
+  // place on the surface; unless no mesh has all of it or such a copy cannot be taken out: then it is `left`.
+  // Precondition: the meshes have pole heights.
   AssembledMesh assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const;
 
  private:

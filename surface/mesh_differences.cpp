@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "surface/curvature_lattice.h"
+
 namespace deliso {
 
 namespace {
 
 // So many components are swept in one go.
 constexpr std::size_t kAtOnce = 256;
+// Curvature is looked at for no more components than this, and so many places of each are taken.
+constexpr std::size_t kFewComponents = 8;
+constexpr std::size_t kMostByCurvature = 16;
 
 // The cells whose corners' layers may count in some of several boxes, and few others.
 class ReachedCells {
@@ -35,10 +40,10 @@ class ReachedCells {
 }  // namespace
 
 const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
-                                                 const std::vector<bool>& done, std::size_t most) {
-  if (of_.lock() == mesh && most_ == most) return places_;
+                                                 const std::vector<bool>& done, const Effort& effort) {
+  if (of_.lock() == mesh && effort_ == effort) return places_;
   of_.reset();
-  most_ = most;
+  effort_ = effort;
   places_.assign(done.size(), {});
   std::vector<std::uint32_t> components;
   for (std::uint32_t c = 0; c < done.size(); ++c) {
@@ -49,8 +54,30 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
   for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
+  if (effort.takes_curvature && components.size() <= kFewComponents) {
+    for (const std::uint32_t c : components) add_by_curvature(*mesh, c);
+  }
   of_ = mesh;
   return places_;
+}
+
+// Places that have too much are of no use where something is missing in all, nor the other way.
+void MeshDifferences::add_by_curvature(const MatchedMesh& mesh, std::uint32_t component) {
+  const ComponentMatch& match = mesh.match;
+  const std::uint32_t main = match.main_piece[component];
+  const auto& [exact, component_of] = facts_.polygonized();
+  CurvatureLattice difference(facts_.grid().dims(), isosurface_.step());
+  difference.add(
+      mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
+  difference.add(
+      exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; }, -1);
+  const std::int64_t too_much =
+      match.pieces[main].topology.euler_characteristic - facts_.topology().components[component].euler_characteristic;
+  Places& places = places_[component];
+  const std::vector<Place> found = difference.places(too_much > 0, kMostByCurvature);
+  if (too_much == 0 || found.empty()) return;
+  places.likely = found;
+  places.all.insert(places.all.end(), found.begin(), found.end());
 }
 
 void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
@@ -68,7 +95,7 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
   std::vector<std::uint32_t> part_of_component(places_.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) {
     auto around = PlaceBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
-    if (!around || around->count() > most_) continue;
+    if (!around || around->count() > effort_.most_places) continue;
     if (around->count() == 1) {
       places_[components[i]] = around->places();
       continue;

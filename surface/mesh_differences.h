@@ -19,10 +19,17 @@ class MeshDifferences {
   // Keeps references.
   MeshDifferences(const SurfaceFacts& facts, const Isosurface& isosurface) : facts_(facts), isosurface_(isosurface) {}
 
-  // For each component that is not done and whose main piece has another topology: the places at which the two part, if
-  // they are no more than `most` in all. Known when asked for again.
+  // How hard places are to be looked for: by sweeps, if those tell of no more places than so many in all; and by
+  // curvature as well (curvature_lattice.h), which takes longer.
+  struct Effort {
+    std::size_t most_places = 0;
+    bool takes_curvature = false;
+    friend bool operator==(const Effort&, const Effort&) = default;
+  };
+  // For each component that is not done and whose main piece has another topology: the places at which the two part.
+  // Known when asked for again.
   const std::vector<Places>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
-                                  std::size_t most);
+                                  const Effort& effort);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
@@ -31,11 +38,13 @@ class MeshDifferences {
                       const std::vector<std::uint32_t>& part_of_component,
                       std::vector<std::optional<PlaceBoxes>>& boxes) const;
 
+  void add_by_curvature(const MatchedMesh& mesh, std::uint32_t component);
+
   const SurfaceFacts& facts_;
   const Isosurface& isosurface_;
   std::vector<Places> places_;     // as last found
   std::weak_ptr<MatchedMesh> of_;  // in this mesh,
-  std::size_t most_ = 0;           // of each component if they were no more
+  Effort effort_;                  // as hard as this
 };
 
 }  // namespace deliso

@@ -20,7 +20,7 @@ struct LayerRange {
 // A range along each axis.
 using Place = std::array<LayerRange, 3>;
 
-// Where sweeps see a component and its main piece part.
+// Where a component and its main piece part.
 struct Places {
   std::vector<Place> all;     // empty when there is no telling
   std::vector<Place> likely;  // some of them, or all

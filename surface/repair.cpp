@@ -66,7 +66,7 @@ class Repair {
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
   const std::vector<Places>& places_of_difference(std::size_t most) {
-    return differences_.find(mesh_, kept_.done(), most);
+    return differences_.find(mesh_, kept_.done(), {most, stats_.rounds + 1 >= kRoundOfAllTrouble});
   }
   bool ends_without_intruders();
   void assemble_kept();

@@ -3,12 +3,13 @@
 // Rounds of: flag the voxel cells near the trouble of the components that are not right yet (trouble.h); raise each
 // flagged cell one level of the sample lattice and exchange samples in the triangulation (its free samples go, lattice
 // samples come); take signs as they were before or by one rule after another and match the pieces of each mesh with
-// the exact components; where a few handles are wrong, find the places (place_boxes.h) and turn over single disputed
-// signs (sign_trials.h). A component is done when its main piece has its topology, holds no vertex of another component
-// and lies near all of it. At the end each component is taken from the latest mesh that has it at its best; one that no
-// mesh has right is meshed by marching cubes, whose topology is exact, and reported. Vertices of other components
-// (intruders.h) and dents (dents.h) are removed from what that makes; components whose triangles cross others are
-// meshed by marching cubes, too, until none do (crossing_pieces.h).
+// the exact components; where a few handles are wrong, find the places (place_boxes.h, and from the third round on
+// curvature_lattice.h) and turn over single disputed signs (sign_trials.h). A component is done when its main piece has
+// its topology, holds no vertex of another component and lies near all of it. At the end each component is taken from
+// the latest mesh that has it at its best; one that no mesh has right is meshed by marching cubes, whose topology is
+// exact, and reported. Vertices of other components (intruders.h) and dents (dents.h) are removed from what that makes;
+// when the former are all that is wrong, that is the end. Components whose triangles cross others are meshed by
+// marching cubes, too, until none do (crossing_pieces.h).
 #pragma once
 
 #include <cstdint>

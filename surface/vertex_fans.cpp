@@ -65,6 +65,23 @@ void VertexFans::replace(std::uint32_t vertex, const VertexFan& fan, const Least
   corner_of_[vertex] = kNoCorner;
 }
 
+void VertexFans::take_out(std::span<const std::uint32_t> vertices) {
+  // What was in the way of one may be gone the next time.
+  for (bool any = true; any;) {
+    any = false;
+    for (const std::uint32_t v : vertices) any |= has(v) && take_out(v);
+  }
+}
+
+bool VertexFans::take_out(std::uint32_t vertex) {
+  VertexFan fan;
+  if (!find(vertex, fan) || !can_be_filled(fan)) return false;
+  const LeastTriangulation filling = least_filling(fan);
+  if (!filling.exists()) return false;
+  replace(vertex, fan, filling);
+  return true;
+}
+
 // Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
 // rest is to be joined to.
 TriangleSide VertexFans::build(const VertexFan& fan, const LeastTriangulation& filling, std::size_t i, std::size_t j,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/least_triangulation.h"
@@ -39,12 +40,15 @@ class VertexFans {
   // Takes an inner vertex away and fills its link, which can be filled. Two slots of triangles are free then,
   // the others hold the filling.
   void replace(std::uint32_t vertex, const VertexFan& fan, const LeastTriangulation& filling);
+  // Does so with all of some vertices for which it can be done; those that the mesh still has() stay.
+  void take_out(std::span<const std::uint32_t> vertices);
   // All triangles that came so, gone or not.
   [[nodiscard]] const std::vector<std::uint32_t>& renewed() const { return renewed_; }
   // Closes the gaps in the mesh's arrays. Nothing can be asked afterwards.
   void drop_free_slots() { drop_triangles(mesh_, is_gone_); }
 
  private:
+  bool take_out(std::uint32_t vertex);
   static constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
   // Links of more vertices are left as they are.
   static constexpr std::size_t kLongestLink = 32;

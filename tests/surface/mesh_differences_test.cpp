@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "surface/curvature_lattice.h"
 #include "surface/repair_round.h"
 #include "tests/support/surface_fields.h"
 
@@ -61,7 +64,7 @@ class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
 
 TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
   MeshDifferences differences(facts_, *scene_->isosurface);
-  const std::vector<Places> places = differences.find(mesh_, std::vector<bool>(components(), false), kMany);
+  const std::vector<Places> places = differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
   ASSERT_EQ(places.size(), components());
   int wrong = 0;
   for (std::uint32_t c = 0; c < components(); ++c) {
@@ -75,20 +78,52 @@ TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
 TEST_P(MeshDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
   MeshDifferences differences(facts_, *scene_->isosurface);
   const std::vector<bool> none_done(components(), false);
-  const std::vector<Places> all = differences.find(mesh_, none_done, kMany);
+  const std::vector<Places> all = differences.find(mesh_, none_done, {kMany, false});
   std::size_t most = 0;
   for (const Places& places : all) most = std::max(most, places.all.size());
   ASSERT_GT(most, 0u);
-  const std::vector<Places> fewer = differences.find(mesh_, none_done, most - 1);
+  const std::vector<Places> fewer = differences.find(mesh_, none_done, {most - 1, false});
   for (std::size_t c = 0; c < components(); ++c) {
     EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : Places());
   }
-  const std::vector<Places> again = differences.find(mesh_, none_done, kMany);
+  const std::vector<Places> again = differences.find(mesh_, none_done, {kMany, false});
   for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
   MeshDifferences others(facts_, *scene_->isosurface);
-  for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
+  for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
     EXPECT_TRUE(places.all.empty());
   }
+}
+
+TEST_P(MeshDifferencesOfNoise, TakeTheLikelyPlacesByCurvatureWhenAsked) {
+  const Vec3& step = scene_->isosurface->step();
+  const auto& [exact, component_of] = facts_.polygonized();
+  int found = 0;
+  for (std::uint32_t c = 0; c < components(); ++c) {
+    const std::uint32_t main = mesh_->match.main_piece[c];
+    if (main == kNoPiece || mesh_->match.agreement[c] != Agreement::kNone) continue;
+    std::vector<bool> others_done(components(), true);
+    others_done[c] = false;
+    MeshDifferences differences(facts_, *scene_->isosurface);
+    const Places swept = differences.find(mesh_, others_done, {kMany, false})[c];
+    const Places both = differences.find(mesh_, others_done, {kMany, true})[c];
+    CurvatureLattice lattice(scene_->grid.dims(), step);
+    lattice.add(
+        mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; }, 1);
+    lattice.add(
+        exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; }, -1);
+    const std::int64_t too_much =
+        mesh_->match.pieces[main].topology.euler_characteristic - scene_->topology.components[c].euler_characteristic;
+    const std::vector<Place> places = lattice.places(too_much > 0, 16);
+    if (too_much == 0 || places.empty()) {
+      EXPECT_EQ(both, swept);
+      continue;
+    }
+    ++found;
+    EXPECT_EQ(both.likely, places);
+    for (const Place& place : swept.all) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+    for (const Place& place : places) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+  }
+  EXPECT_GT(found, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
