@@ -52,8 +52,18 @@ class CornersOfVertices {
 class LinkCycle {
  public:
   LinkCycle(const CornersOfVertices& corners, std::size_t v) {
+    corners.count(v) <= kMostTriangles / 2 ? follow<kMostTriangles / 2>(corners, v)
+                                           : follow<kMostTriangles>(corners, v);
+  }
+  [[nodiscard]] bool is_closed() const { return is_closed_; }
+  [[nodiscard]] std::span<const std::uint32_t> vertices() const { return std::span(vertices_).first(size_); }
+
+ private:
+  // Of a link with at most so many edges.
+  template <std::size_t kMost>
+  void follow(const CornersOfVertices& corners, std::size_t v) {
     const std::size_t count = corners.count(v);
-    std::array<std::uint32_t, kMostTriangles> from, to;
+    std::array<std::uint32_t, kMost> from, to;
     from.fill(0xFFFFFFFFU);
     for (std::size_t i = 0; i < count; ++i) {
       const LinkEdge edge = corners.edge(v, i);
@@ -65,17 +75,14 @@ class LinkCycle {
       vertices_[size_] = from[next];
       // Without branches, for the next edge cannot be foretold.
       std::uint32_t places = 0;
-      for (std::size_t i = 0; i < kMostTriangles; ++i) places |= from[i] == to[next] ? 1U << i : 0U;
+      for (std::size_t i = 0; i < kMost; ++i) places |= from[i] == to[next] ? 1U << i : 0U;
       if (places == 0 || (places & (places - 1)) != 0) return;
       next = static_cast<std::size_t>(std::countr_zero(places));
       seen |= places;
     }
     is_closed_ = seen == (1U << count) - 1;
   }
-  [[nodiscard]] bool is_closed() const { return is_closed_; }
-  [[nodiscard]] std::span<const std::uint32_t> vertices() const { return std::span(vertices_).first(size_); }
 
- private:
   std::array<std::uint32_t, kMostTriangles> vertices_{};
   std::size_t size_ = 0;
   bool is_closed_ = false;

@@ -13,14 +13,6 @@ namespace deliso {
 
 namespace {
 
-// Ends of the sweep, beside the four slice corners 0 to 3 at whose roots an interval may end.
-constexpr int kBottom = 4;
-constexpr int kTop = 5;
-constexpr unsigned kDiagonal = 0b1001;      // slice corners 00 and 11
-constexpr unsigned kAntidiagonal = 0b0110;  // 10 and 01
-
-bool is_ambiguous_slice(unsigned above) { return above == kDiagonal || above == kAntidiagonal; }
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // The corner values minus the isovalue, in either kind of number.
@@ -148,7 +140,7 @@ void CellSweep::start() {
     const std::array<int, 2> ends = side < 2 ? std::array{2 * side, 2 * side + 1} : std::array{side - 2, side};
     crossed[at(side)] = (slice_.above >> ends[0] & 1u) != (slice_.above >> ends[1] & 1u);
   }
-  if (is_ambiguous_slice(slice_.above)) {
+  if (slice_.is_ambiguous()) {
     // The bottom and the top side always belong to different arcs; D < 0 cuts off corners 00 and 11.
     const int bottom = new_piece();
     const int top = new_piece();
@@ -165,7 +157,7 @@ void CellSweep::start() {
 
 // From one flip (or the bottom) to the next (or the top): only saddles can happen, and only in an ambiguous slice.
 void CellSweep::cross_interval(int interval) {
-  if (is_ambiguous_slice(slice_.above)) {
+  if (slice_.is_ambiguous()) {
     const int start = interval == 0 ? kBottom : flips_[at(interval - 1)];
     const int end = interval == flip_count_ ? kTop : flips_[at(interval)];
     const int sign = det_sign(start);
@@ -233,7 +225,7 @@ void CellSweep::flip(int corner) {
 // The arcs on the top face are the last nodes of the graph.
 void CellSweep::finish() {
   record_edges(2);
-  if (is_ambiguous_slice(slice_.above)) {
+  if (slice_.is_ambiguous()) {
     ++euler_[at(slice_.piece_of_side[0])];
     ++euler_[at(slice_.piece_of_side[1])];
   } else if (slice_.above != 0 && slice_.above != 0xFu) {
@@ -292,53 +284,6 @@ void CellSweep::renumber() {
   for (int i = 0; i < saddle_count_; ++i) saddles_[at(i)].piece = number[at(saddles_[at(i)].piece)];
   euler_ = euler;
   pieces_ = count;
-}
-
-// --- Where things are: rounded --------------------------------------------------------------------------------------
-
-void CellSweep::scale_values() {
-  double largest = std::abs(isovalue_);
-  for (const double corner : corners_) largest = std::max(largest, std::abs(corner));
-  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
-  for (std::size_t c = 0; c < 8; ++c) {
-    values_[c] = std::ldexp(corners_[c], exponent) - std::ldexp(isovalue_, exponent);
-  }
-}
-
-double CellSweep::position(int end) const {
-  if (end == kBottom) return 0;
-  if (end == kTop) return 1;
-  return value(end) / (value(end) - value(end + 4));
-}
-
-std::array<double, 4> CellSweep::slice_values(double w) const {
-  std::array<double, 4> f;
-  for (int corner = 0; corner < 4; ++corner) f[at(corner)] = (1 - w) * value(corner) + w * value(corner + 4);
-  return f;
-}
-
-Vec3 CellSweep::slice_saddle(double w) const {
-  const std::array<double, 4> f = slice_values(w);
-  const double mixed = (f[0] - f[1]) + (f[3] - f[2]);
-  if (mixed == 0) return {0.5, 0.5, w};
-  return {std::clamp((f[0] - f[2]) / mixed, 0.0, 1.0), std::clamp((f[0] - f[1]) / mixed, 0.0, 1.0), w};
-}
-
-int CellSweep::piece_at(const Vec3& uvw) const {
-  // The interval of the sweep that holds w.
-  int interval = 0;
-  while (interval < flip_count_ && position(flips_[at(interval)]) <= uvw.z) ++interval;
-  const Slice& slice = history_[at(interval)];
-  if (slice.above == 0 || slice.above == 0xFu) return -1;
-  if (!is_ambiguous_slice(slice.above)) {
-    return *std::max_element(slice.piece_of_side.begin(), slice.piece_of_side.end());
-  }
-  // The bottom and the top side belong to different arcs, in opposite quadrants of the slice's saddle.
-  const Vec3 saddle = slice_saddle(uvw.z);
-  const double du = uvw.x - saddle.x;
-  const double dv = uvw.y - saddle.y;
-  const bool on_bottom_arc = slice.det_sign < 0 ? du + dv < 0 : dv - du < 0;
-  return slice.piece_of_side[on_bottom_arc ? 0 : 1];
 }
 
 }  // namespace deliso

@@ -112,7 +112,12 @@ class CellSweep {
     unsigned above = 0;
     std::array<int, 4> piece_of_side{-1, -1, -1, -1};
     int det_sign = 0;  // of D at the interval's start, when the slice is ambiguous
+    // Corners across from each other are on one side, the others on the other.
+    [[nodiscard]] bool is_ambiguous() const { return above == 0b1001 || above == 0b0110; }
   };
+  // Ends of the sweep, beside the four slice corners 0 to 3 at whose roots an interval may end.
+  static constexpr int kBottom = 4;
+  static constexpr int kTop = 5;
 
   [[nodiscard]] int determinant(int c00, int c10, int c01, int c11) const;
   [[nodiscard]] int discriminant() const;
