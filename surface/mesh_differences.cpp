@@ -11,6 +11,9 @@ namespace {
 
 // So many components are swept in one go.
 constexpr std::size_t kAtOnce = 256;
+// Where sweeps tell of no more places than this, none of more layers than this, they are believed.
+constexpr std::size_t kFewPlaces = 8;
+constexpr std::int32_t kWidest = 16;
 // Curvature is looked at for no more components than this, and so many places of each are taken.
 constexpr std::size_t kFewComponents = 8;
 constexpr std::size_t kMostByCurvature = 16;
@@ -37,6 +40,14 @@ class ReachedCells {
   std::array<std::vector<bool>, 3> layers_;  // of cells, along each axis
 };
 
+bool tell(const std::vector<Place>& swept) {
+  const auto is_narrow = [](const Place& place) {
+    return std::all_of(place.begin(), place.end(),
+                       [](const auto& range) { return range.last - range.first < kWidest; });
+  };
+  return !swept.empty() && swept.size() <= kFewPlaces && std::all_of(swept.begin(), swept.end(), is_narrow);
+}
+
 }  // namespace
 
 const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
@@ -55,7 +66,9 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
   if (effort.takes_curvature && components.size() <= kFewComponents) {
-    for (const std::uint32_t c : components) add_by_curvature(*mesh, c);
+    for (const std::uint32_t c : components) {
+      if (!tell(places_[c].all)) add_by_curvature(*mesh, c);
+    }
   }
   of_ = mesh;
   return places_;

@@ -19,8 +19,8 @@ class MeshDifferences {
   // Keeps references.
   MeshDifferences(const SurfaceFacts& facts, const Isosurface& isosurface) : facts_(facts), isosurface_(isosurface) {}
 
-  // How hard places are to be looked for: by sweeps, if those tell of no more places than so many in all; and by
-  // curvature as well (curvature_lattice.h), which takes longer.
+  // How hard places are to be looked for: by sweeps, if those tell of no more places than so many in all; and, where
+  // they tell of none, of many or of wide ones, by curvature as well (curvature_lattice.h), which takes longer.
   struct Effort {
     std::size_t most_places = 0;
     bool takes_curvature = false;

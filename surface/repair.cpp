@@ -65,8 +65,8 @@ class Repair {
   bool take(RepairRound::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
-  const std::vector<Places>& places_of_difference(std::size_t most) {
-    return differences_.find(mesh_, kept_.done(), {most, stats_.rounds + 1 >= kRoundOfAllTrouble});
+  const std::vector<Places>& places_of_difference(std::size_t most, bool takes_curvature) {
+    return differences_.find(mesh_, kept_.done(), {most, takes_curvature});
   }
   bool ends_without_intruders();
   void assemble_kept();
@@ -114,8 +114,8 @@ void Repair::mend(std::int32_t max_rounds, Controls& controls) {
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     raised_.raise(cells_in_trouble(
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
-         places_of_difference(round == 1 ? kFewPlaces : kMostPlaces), round != kRoundOfAllTrouble, round_->evidence(),
-         round_->located(facts_.critical_places()), threads_}));
+         places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
+         round != kRoundOfAllTrouble, round_->evidence(), round_->located(facts_.critical_places()), threads_}));
     if (round == 1 && try_rule(SignRule::kCircumcenter)) break;  // new signs may do without new samples
     resample();
     release_free_memory();
@@ -203,7 +203,7 @@ void Repair::try_rules(Controls& controls) {
 // Single signs near the places where a component is wrong.
 void Repair::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
-  const std::vector<Places> places = places_of_difference(kMostPlaces);
+  const std::vector<Places> places = places_of_difference(kMostPlaces, stats_.rounds + 1 >= kRoundOfAllTrouble);
   std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < places.size(); ++c) {
     if (kept_.done()[c] || places[c].all.empty()) continue;
