@@ -38,7 +38,7 @@ CurvatureLattice::CurvatureLattice(const std::array<std::int32_t, 3>& dims, cons
   for (std::size_t axis = 0; axis < 3; ++axis) {
     nodes_per_unit_[axis] = 1 / (kSpacing * step[axis]);
     // Two nodes below the first sample and two above the last one: sums of three need not look for the rim.
-    nodes_[axis] = static_cast<std::size_t>(dims[axis] / kSpacing) + 5;
+    nodes_[axis] = static_cast<std::size_t>((dims[axis] + kSpacing - 2) / kSpacing) + 5;
   }
   sums_.assign(nodes_[0] * nodes_[1] * nodes_[2], 0);
 }
@@ -70,7 +70,7 @@ void CurvatureLattice::spread(const Vec3& p, float amount) {
   std::array<std::array<float, 3>, 3> weight;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double last = static_cast<double>(nodes_[axis] - 3);
-    const double at = std::clamp(p[axis] * nodes_per_unit_[axis] + 2, 1.0, last);
+    const double at = std::clamp(p[axis] * nodes_per_unit_[axis] + 2, 2.0, last);
     const double middle = std::floor(at + 0.5);
     weight[axis] = weights(at - middle);
     first[axis] = static_cast<std::size_t>(middle) - 1;

@@ -34,7 +34,7 @@ Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> com
     const std::optional<std::uint32_t> own = most_frequent(components);
     for (const std::uint32_t t : triangles) own_of[t] = own.value_or(kNoComponent);
     for (const std::uint32_t v : vertices) {
-      if (component_of[v] == own) continue;
+      if (component_of[v] == own || component_of[v] == kNoComponent) continue;
       found.vertices.push_back(v);
       found.triangles_on[component_of[v]];
     }

@@ -13,7 +13,7 @@
 
 namespace deliso {
 
-// A mesh, and the exact component of each vertex.
+// A mesh, and the exact component that the sample of each vertex lies on.
 struct AssembledMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
@@ -28,7 +28,7 @@ class KeptMeshes {
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
-  // Whether that is all, but that some have the right topology with vertices mixed.
+  // Whether every component is done, or has the right topology with vertices of others mixed in.
   [[nodiscard]] bool is_done_but_for_mixing() const {
     return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
   }

@@ -65,10 +65,9 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
   for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
+  std::erase_if(components, [&](std::uint32_t c) { return tell(places_[c].all); });
   if (effort.takes_curvature && components.size() <= kFewComponents) {
-    for (const std::uint32_t c : components) {
-      if (!tell(places_[c].all)) add_by_curvature(*mesh, c);
-    }
+    for (const std::uint32_t c : components) add_by_curvature(*mesh, c);
   }
   of_ = mesh;
   return places_;
@@ -78,17 +77,18 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
 void MeshDifferences::add_by_curvature(const MatchedMesh& mesh, std::uint32_t component) {
   const ComponentMatch& match = mesh.match;
   const std::uint32_t main = match.main_piece[component];
+  const std::int64_t too_much =
+      match.pieces[main].topology.euler_characteristic - facts_.topology().components[component].euler_characteristic;
+  if (too_much == 0) return;
   const auto& [exact, component_of] = facts_.polygonized();
   CurvatureLattice difference(facts_.grid().dims(), isosurface_.step());
   difference.add(
       mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
   difference.add(
       exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; }, -1);
-  const std::int64_t too_much =
-      match.pieces[main].topology.euler_characteristic - facts_.topology().components[component].euler_characteristic;
-  Places& places = places_[component];
   const std::vector<Place> found = difference.places(too_much > 0, kMostByCurvature);
-  if (too_much == 0 || found.empty()) return;
+  if (found.empty()) return;
+  Places& places = places_[component];
   places.likely = found;
   places.all.insert(places.all.end(), found.begin(), found.end());
 }

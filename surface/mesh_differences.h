@@ -1,4 +1,4 @@
-// Where the meshes of repair differ from the surface in topology, as far as sweeps along the axes tell.
+// Where the meshes of repair differ from the surface in topology, as far as sweeps along the axes or curvature tell.
 #pragma once
 
 #include <cstddef>

@@ -36,7 +36,7 @@ constexpr std::size_t kFewPlaces = 30;
 constexpr std::size_t kMostPlaces = 512;
 
 // Sweeps may err, and then nothing would ever be mended if no trouble counted but near what they find. In one round all
-// of it counts; in several the samples would grow too many.
+// of it counts; in several the samples would grow too many. From then on curvature tells what sweeps do not.
 constexpr std::int32_t kRoundOfAllTrouble = 3;
 
 class Repair {
@@ -69,7 +69,8 @@ class Repair {
     return differences_.find(mesh_, kept_.done(), {most, takes_curvature});
   }
   bool ends_without_intruders();
-  void assemble_kept();
+  bool assemble_kept();
+  void polygonize_rest();
   bool take_intruders_out();
 
   const SurfaceFacts& facts_;
@@ -99,6 +100,8 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   if (controls.stopped()) return as_it_is();
   kept_.keep(mesh_, round_->restricted().signs());
   mend(max_rounds, controls);
+  mesh_.reset();
+  round_.reset();
   SurfaceMesh& mesh = result_.mesh;
   if (!controls.poll()) stats_.dents_removed = remove_dents(mesh, isosurface_);
   polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
@@ -127,7 +130,7 @@ void Repair::mend(std::int32_t max_rounds, Controls& controls) {
   kept_.give_poles(*round_);
   mesh_.reset();
   round_.reset();
-  assemble_kept();
+  if (!assemble_kept()) polygonize_rest();
   if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
 }
 
@@ -221,23 +224,24 @@ void Repair::try_signs(Controls& controls) {
 bool Repair::ends_without_intruders() {
   if (!kept_.is_done_but_for_mixing()) return false;
   kept_.give_poles(*round_);
-  assemble_kept();
-  const bool is_whole = std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
-  if (is_whole && take_intruders_out()) return true;
+  if (assemble_kept() && take_intruders_out()) return true;
   result_ = {};
   stats_.intruders_removed = 0;
   return false;
 }
 
 // Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
-// dropped.
-void Repair::assemble_kept() {
+// dropped. Whether that is all of them.
+bool Repair::assemble_kept() {
   result_ = kept_.assemble(is_polygonized_, isosurface_.box(), threads_, stats_);
-  if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
+  return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
+}
+
+void Repair::polygonize_rest() {
   const auto& [polygonized, component] = facts_.polygonized();
   append_pieces(polygonized, component, is_polygonized_, result_.mesh);
   std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),
-               [&](std::uint32_t c) { return is_polygonized_[c]; });
+               [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
 }
 
 // What components taken with vertices of others have of them; unless that is what makes triangles cross. Whether none
@@ -248,10 +252,11 @@ bool Repair::take_intruders_out() {
   };
   SurfaceMesh without = result_.mesh;
   const auto [removed, left] = remove_intruders(without, result_.component);
+  if (removed == 0) return left == 0 && !crosses(result_.mesh);
   const bool is_crossing = crosses(without);
-  if (removed == 0 || (is_crossing && !crosses(result_.mesh))) return false;
+  if (is_crossing && !crosses(result_.mesh)) return false;
   stats_.intruders_removed = removed;
-  result_.mesh = std::move(without);
+  result_ = {std::move(without), {}};
   return left == 0 && !is_crossing;
 }
 

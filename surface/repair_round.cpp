@@ -216,7 +216,7 @@ std::vector<std::uint32_t> RepairRound::crossings_at_strays(const MatchedMesh& m
     const std::uint32_t piece = match.piece_of[v];
     if (piece == kNoPiece) continue;
     const std::uint32_t component = match.pieces[piece].component;
-    if (match.main_piece[component] == piece || match.agreement[component] != Agreement::kWithStrays) continue;
+    if (match.main_piece[component] == piece || match.agreement[component] <= Agreement::kPartial) continue;
     topology_.index.for_each_crossing_of_cell(raised_.cell_of(mesh.built.mesh.points[v]), [&](std::uint32_t crossing) {
       if (topology_.crossings[crossing].component == component) found.push_back(crossing);
     });
