@@ -153,11 +153,11 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
     EXPECT_EQ(attempts.round.restricted().signs(), signs);
     std::sort(expected.begin(), expected.end());
     EXPECT_FALSE(expected.empty());
-    for (int time = 0; time < 2; ++time) {
-      SCOPED_TRACE(time);
+    for (const int threads : {1, 3}) {
+      SCOPED_TRACE(threads);
       std::vector<bool> left;
       RepairStats stats;
-      const AssembledMesh assembled = kept.assemble(left, box, 1, stats);
+      const AssembledMesh assembled = kept.assemble(left, box, threads, stats);
       std::vector<PlacedTriangle> found;
       append_pieces_placed(
           assembled.mesh, [](std::uint32_t) { return true; }, found);
