@@ -9,8 +9,8 @@ namespace deliso {
 
 namespace {
 
-// Insertions from reading a point of the input to needing it.
-constexpr std::size_t kAhead = 8;
+// Points of the input that are fetched together: they lie anywhere, and so their misses overlap.
+constexpr std::size_t kFetched = 256;
 
 // Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
@@ -50,43 +50,49 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
   }
 
   // Step 2: insert, the vertices numbered in that order for the sake of the caches, the perturbation ordered by input.
+  const std::vector<VertexId> in_order = insert_all(points, order);
   std::vector<VertexId> vertices(points.size());
-  insert_all(points, order, vertices);
+  for (std::size_t i = 0; i < order.size(); ++i) vertices[order[i]] = in_order[i];
   // Step 3: number the vertices as the input.
   number_as_input(points, vertices);
   if (vertex_of != nullptr) *vertex_of = std::move(vertices);
   return true;
 }
 
-void BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order,
-                              std::vector<VertexId>& vertex_of) {
+std::vector<VertexId> BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order) {
   points_.reserve(points.size());
   incident_.reserve(points.size());
   ranks_.reserve(points.size());
   tets_.reserve(8 * points.size());
-  const auto add_vertex = [&](std::uint32_t input) {
-    vertex_of[input] = VertexId(points_.size());
-    points_.push_back(points[input]);
+  std::vector<VertexId> vertices;
+  vertices.reserve(order.size());
+  const auto add_vertex = [&](std::uint32_t input, const Vec3& p) {
+    vertices.emplace_back(points_.size());
+    points_.push_back(p);
     incident_.emplace_back();
     ranks_.emplace_back(std::size_t{input});
-    return vertex_of[input];
+    return vertices.back();
   };
-  for (const std::uint32_t input : order.first(4)) add_vertex(input);
+  for (const std::uint32_t input : order.first(4)) add_vertex(input, points[input]);
   make_first_tet();
   TetId hint(std::size_t{0});
-  for (std::size_t i = 4; i < order.size(); ++i) {
-    const std::uint32_t input = order[i];
-    if (i + kAhead < order.size()) __builtin_prefetch(&points[order[i + kAhead]]);
-    // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
-    const Vec3& p = points[input];
-    if (const auto duplicate = find_conflicts_from_located(p, VertexId(input), locate(p, hint))) {
-      vertex_of[input] = *duplicate;
-      continue;
+  std::array<Vec3, kFetched> fetched;
+  for (std::size_t begin = 4; begin < order.size(); begin += kFetched) {
+    const auto inputs = order.subspan(begin, std::min(kFetched, order.size() - begin));
+    for (std::size_t i = 0; i < inputs.size(); ++i) fetched[i] = points[inputs[i]];
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
+      const Vec3& p = fetched[i];
+      if (const auto duplicate = find_conflicts_from_located(p, VertexId(inputs[i]), locate(p, hint))) {
+        vertices.push_back(*duplicate);
+        continue;
+      }
+      star_rim(add_vertex(inputs[i], p));
+      hint = created_.front();
     }
-    star_rim(add_vertex(input));
-    hint = created_.front();
   }
   created_.clear();
+  return vertices;
 }
 
 void BowyerWatson::make_first_tet() {
@@ -144,10 +150,13 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
   for (std::size_t t = 0; t < tets_.size(); ++t) {
     for (VertexId& v : tets_[t].vertices) {
       if (v.is_none()) continue;
+      incident_[v.index()] = TetId(t);  // by its old name: neighbours there are neighbours in space
       v = renamed[v.index()];
-      incident_[v.index()] = TetId(t);
     }
   }
+  LargeArray<TetId> incident(count);
+  for (std::size_t v = 0; v < count; ++v) incident[renamed[v].index()] = incident_[v];
+  incident_.swap(incident);
   ranks_.clear();
   ranks_.shrink_to_fit();
 }

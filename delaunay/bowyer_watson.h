@@ -78,6 +78,12 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<VertexId> close_gaps();
 
  private:
+  // A face of a tetrahedron whose neighbour has yet to be tested, and the same facet as the neighbour knows it.
+  struct Untested {
+    FacetId mirror;
+    unsigned face = 0;
+  };
+
   // Positions in rows_ of the vertices of a tetrahedron.
   using Corners = std::array<std::uint32_t, 4>;
 
@@ -93,13 +99,18 @@ class BowyerWatson : public Tetrahedralization {
     mirror.value = (mirror.value & kMirrorMask) | (mark << kMarkShift);
   }
 
+  // For one that is unknown, or known to be the same.
+  void add_mark(TetId t, Mark mark) {
+    tets_[t.index()].mirrors[0].value |= static_cast<std::uint32_t>(mark) << kMarkShift;
+  }
+
   [[nodiscard]] VertexId perturbation_rank(VertexId v) const { return ranks_.empty() ? v : ranks_[v.index()]; }
   [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_rank) const;
   std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located);
   void grow_region(const Vec3& p, VertexId p_rank, TetId first);
   void reserve_more();
   void test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank);
-  void test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p, VertexId p_rank);
+  void test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p, VertexId p_rank);
   void take_slots(std::span<const TetId> old, std::size_t count);
   void star_rim(VertexId apex);
   template <class EdgeTable>
@@ -109,7 +120,7 @@ class BowyerWatson : public Tetrahedralization {
   void find_fill();
   void glue_fill();
   void make_first_tet();
-  void insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order, std::vector<VertexId>& vertex_of);
+  std::vector<VertexId> insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order);
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
   void clear();
 

@@ -97,7 +97,8 @@ void BowyerWatson::reserve_more() {
 void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank) {
   const TetId t = region_[i];
   const auto& v = vertices(t);
-  const Corners corners = {rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]), rows_.find(v[3])};
+  const Corners corners = {rows_.find(v[0]), rows_.find(v[1]), rows_.find(v[2]),
+                           v[3] == kInfiniteVertex ? LiftedRows::kInfinite : rows_.find(v[3])};
   region_corners_[i] = corners;
   // Fetch what the next round will read.
   if (i + 1 < region_size_) {
@@ -108,16 +109,18 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
 
   // Tell the neighbours to be tested from those that are known.
   const std::array<FacetId, 4> mirrors = tets_[t.index()].mirrors;
-  std::array<unsigned, 4> untested{};
+  std::array<Untested, 4> untested{};
   unsigned untested_count = 0;
   std::uint32_t rim_size = rim_size_;
+  FacetId* const rim = rim_.data();
+  std::uint32_t* const rim_from = rim_from_.data();
   for (unsigned face = 0; face < 4; ++face) {
     const FacetId mirror(mirrors[face].value & kMirrorMask);
     const std::uint32_t known = mark(mirror.tet());
-    untested[untested_count] = face;
+    untested[untested_count] = {mirror, face};
     untested_count += static_cast<unsigned>(known == kUnknown);
-    rim_[rim_size] = mirror;
-    rim_from_[rim_size] = 4 * i + face;
+    rim[rim_size] = mirror;
+    rim_from[rim_size] = 4 * i + face;
     rim_size += static_cast<std::uint32_t>(known == kOutside);
   }
 
@@ -125,37 +128,34 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
   test_unknown_neighbours(i, std::span(untested).first(untested_count), p, p_rank);
 }
 
-void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const unsigned> faces, const Vec3& p,
+void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p,
                                            VertexId p_rank) {
-  const std::array<FacetId, 4> mirrors = tets_[region_[i].index()].mirrors;
   const Corners corners = region_corners_[i];
   std::uint32_t rim_size = rim_size_;
   std::uint32_t region_size = region_size_;
   // A neighbour has the same vertices but one, so half of its determinant is that of this tetrahedron: the
   // minors of two rows serve for the two faces opposite the other two.
-  const std::array<LiftedRow, 4> rows = {rows_.row(corners[0]), rows_.row(corners[1]), rows_.row(corners[2]),
-                                         rows_.row(corners[3])};
-  const std::array<RowMinors, 2> minors = {RowMinors(rows[2], rows[3]), RowMinors(rows[0], rows[1])};
-  const std::array<double, 2> products = {rows[2].w * rows[3].w, rows[0].w * rows[1].w};
-  const std::array<double, 2> greatest = {std::max(rows[2].w, rows[3].w), std::max(rows[0].w, rows[1].w)};
-  for (const unsigned face : faces) {
-    const FacetId mirror(mirrors[face].value & kMirrorMask);
+  const auto rows = [&](unsigned slot) -> const LiftedRow& { return rows_.row(corners[slot]); };
+  const std::array<RowMinors, 2> minors = {RowMinors(rows(2), rows(3)), RowMinors(rows(0), rows(1))};
+  const std::array<double, 2> products = {rows(2).w() * rows(3).w(), rows(0).w() * rows(1).w()};
+  const std::array<double, 2> greatest = {std::max(rows(2).w(), rows(3).w()), std::max(rows(0).w(), rows(1).w())};
+  for (const auto& [mirror, face] : untested) {
     const TetId outside = mirror.tet();
     const VertexId far = vertices(outside)[mirror.face()];
     const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
-    const LiftedRow& partner = rows[face ^ 1u];
+    const LiftedRow& partner = rows(face ^ 1u);
     // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
     // the row stands before its partner, which is a swap when the face is odd.
     const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
-    const bool certain = is_certain(det, products[face >> 1] * (row.w * partner.w),
-                                    std::max(greatest[face >> 1], std::max(row.w, partner.w)));
+    const bool certain = is_certain(det, products[face >> 1] * (row.w() * partner.w()),
+                                    std::max(greatest[face >> 1], std::max(row.w(), partner.w())));
     bool inside = (det > 0) != ((face & 1u) != 0);
     if (!certain) [[unlikely]] {
       inside = conflicts(outside, p, p_rank);
     }
     // Two faces may lead to the same neighbour: then it is known by now.
     const bool is_new = mark(outside) == kUnknown;
-    set_mark(outside, inside ? kInside : kOutside);
+    add_mark(outside, inside ? kInside : kOutside);
     region_[region_size] = outside;
     region_size += static_cast<std::uint32_t>(inside && is_new);
     rim_[rim_size] = mirror;

@@ -13,31 +13,36 @@
 
 namespace deliso {
 
-// (x, y, z, x^2 + y^2 + z^2) of a vertex relative to the inserted point; (0, 0, 0, 1) for the infinite vertex, which
-// turns the insphere determinant of a ghost into the orientation of its hull facet.
+// Two numbers that are worked on together (a vector type of GCC and Clang).
+using Pair = double __attribute__((vector_size(16)));
+inline Pair swapped(Pair a) { return Pair{a[1], a[0]}; }
+
+// (x, y, z, w = x^2 + y^2 + z^2) of a vertex relative to the inserted point; (0, 0, 0, 1) for the infinite vertex,
+// which turns the insphere determinant of a ghost into the orientation of its hull facet.
 struct alignas(32) LiftedRow {
-  double x;
-  double y;
-  double z;
-  double w;
+  Pair xy;
+  Pair zw;
+  [[nodiscard]] double w() const { return zw[1]; }
 };
 
-// The six 2 x 2 minors of two rows.
+// The six 2 x 2 minors of two rows, each beside the one of the other two columns: columns xy and zw, xz and yw, xw and
+// yz.
 struct RowMinors {
-  double xy, xz, xw, yz, yw, zw;
+  Pair xy_zw, xz_yw, xw_yz;
 
-  RowMinors(const LiftedRow& a, const LiftedRow& b)
-      : xy(a.x * b.y - a.y * b.x),
-        xz(a.x * b.z - a.z * b.x),
-        xw(a.x * b.w - a.w * b.x),
-        yz(a.y * b.z - a.z * b.y),
-        yw(a.y * b.w - a.w * b.y),
-        zw(a.z * b.w - a.w * b.z) {}
+  RowMinors(const LiftedRow& a, const LiftedRow& b) {
+    const Pair of_xy = a.xy * swapped(b.xy);
+    const Pair of_zw = a.zw * swapped(b.zw);
+    xy_zw = Pair{of_xy[0], of_zw[0]} - Pair{of_xy[1], of_zw[1]};
+    xz_yw = a.xy * b.zw - a.zw * b.xy;
+    xw_yz = a.xy * swapped(b.zw) - swapped(a.zw) * b.xy;
+  }
 };
 
 // The determinant of four rows, by Laplace expansion along the first two.
 inline double determinant(const RowMinors& ab, const RowMinors& cd) {
-  return ((ab.xy * cd.zw - ab.xz * cd.yw) + (ab.xw * cd.yz + ab.yz * cd.xw)) + (ab.zw * cd.xy - ab.yw * cd.xz);
+  const Pair sums = ab.xy_zw * swapped(cd.xy_zw) - ab.xz_yw * swapped(cd.xz_yw) + ab.xw_yz * swapped(cd.xw_yz);
+  return sums[0] + sums[1];
 }
 
 // Whether the sign of a determinant of four lifted rows is certain, from the product of their w's and the greatest w.
@@ -75,24 +80,24 @@ class LiftedRows {
   // unpredictable, so there is no branch on it: the row is written either way, beyond the end if it is not needed.
   std::uint32_t add(VertexId v, const Vec3& point) {
     std::uint32_t& position = position_[v.index()];
-    const std::uint32_t candidate = position < size_ ? position : kInfinite;
-    const bool is_new = ids_[candidate] != v;
-    const std::uint32_t result = is_new ? size_ : candidate;
-    const Vec3 d = point - origin_;
+    // Masks, for compilers like to make branches of choices.
+    const std::uint32_t candidate = position & (0u - ((position - size_) >> 31));  // 0 unless below size_
+    const auto is_new = static_cast<std::uint32_t>(ids_[candidate] != v);
+    const std::uint32_t result = candidate ^ ((candidate ^ size_) & (0u - is_new));
     ids_[size_] = v;
-    rows_[size_] = {d.x, d.y, d.z, d.x * d.x + d.y * d.y + d.z * d.z};
+    rows_[size_] = lifted(point - origin_);
     position = result;
-    size_ += static_cast<std::uint32_t>(is_new);
+    size_ += is_new;
     return result;
   }
 
-  // The position of a vertex that has been added, or of the infinite vertex.
-  [[nodiscard]] std::uint32_t find(VertexId v) const { return v == kInfiniteVertex ? kInfinite : position_[v.index()]; }
+  // The position of a vertex that has been added.
+  [[nodiscard]] std::uint32_t find(VertexId v) const { return position_[v.index()]; }
 
   // The least squared distance of a vertex from the inserted point; infinite when there is none.
   [[nodiscard]] double nearest_squared() const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 1; i < size_; ++i) nearest = std::min(nearest, rows_[i].w);
+    for (std::uint32_t i = 1; i < size_; ++i) nearest = std::min(nearest, rows_[i].w());
     return nearest;
   }
 
@@ -101,10 +106,11 @@ class LiftedRows {
   [[nodiscard]] const LiftedRow& row(std::uint32_t position) const { return rows_[position]; }
 
  private:
+  static LiftedRow lifted(const Vec3& d) { return {Pair{d.x, d.y}, Pair{d.z, d.x * d.x + d.y * d.y + d.z * d.z}}; }
   void grow() {
     const std::size_t capacity = std::max<std::size_t>(64, 2 * ids_.size());
     ids_.resize(capacity, kInfiniteVertex);
-    rows_.resize(capacity, LiftedRow{0, 0, 0, 1});
+    rows_.resize(capacity, LiftedRow{Pair{0, 0}, Pair{0, 1}});
   }
 
   Vec3 origin_;

@@ -21,31 +21,43 @@ struct KeyedPoint {
   std::uint32_t index;
 };
 
-// The index of a grid cell along the Hilbert curve (Skilling: Programming the Hilbert curve, 2004).
-std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
+// Grid cells that are taken together, coordinate by coordinate, so that the compiler finds registers full of them.
+constexpr std::size_t kTogether = 8;
+using Cells = std::array<std::array<std::uint32_t, kTogether>, 3>;
+
+// Puts two zeros between any two of the 16 bits of x.
+std::uint64_t spread_bits(std::uint64_t x) {
+  x = (x | x << 16) & 0xFF0000FFull;
+  x = (x | x << 8) & 0xF00F00F00Full;
+  x = (x | x << 4) & 0xC30C30C30C3ull;
+  return (x | x << 2) & 0x249249249249ull;
+}
+
+// The indices of grid cells along the Hilbert curve (Skilling: Programming the Hilbert curve, 2004).
+std::array<std::uint64_t, kTogether> hilbert_indices(Cells x) {
   // Undo the rotations and reflections, from the coarsest level down.
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
-    const std::uint32_t below = q - 1;
-    for (auto& coordinate : x) {
-      const std::uint32_t flip = (coordinate & q) != 0 ? below : 0;
-      const std::uint32_t swap = (coordinate & q) != 0 ? 0 : (x[0] ^ coordinate) & below;
-      x[0] ^= flip | swap;
-      coordinate ^= swap;
+  for (unsigned bit = kBits - 1; bit > 0; --bit) {
+    const std::uint32_t below = (1u << bit) - 1;
+    for (std::size_t i = 0; i < kTogether; ++i) x[0][i] ^= below & (0u - ((x[0][i] >> bit) & 1u));
+    for (const unsigned axis : {1u, 2u}) {
+      for (std::size_t i = 0; i < kTogether; ++i) {
+        const std::uint32_t flip = below & (0u - ((x[axis][i] >> bit) & 1u));
+        const std::uint32_t swap = (x[0][i] ^ x[axis][i]) & (below ^ flip);
+        x[0][i] ^= flip | swap;
+        x[axis][i] ^= swap;
+      }
     }
   }
-  // Gray encode.
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t parity = 0;
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
-    if ((x[2] & q) != 0) parity ^= q - 1;
+  // Gray encode, and interleave the bits.
+  std::array<std::uint64_t, kTogether> indices{};
+  for (std::size_t i = 0; i < kTogether; ++i) {
+    const std::uint32_t y = x[1][i] ^ x[0][i];
+    const std::uint32_t z = x[2][i] ^ y;
+    std::uint32_t parity = z >> 1;  // of the bits above each
+    for (const unsigned by : {1u, 2u, 4u, 8u}) parity ^= parity >> by;
+    indices[i] = (spread_bits(x[0][i] ^ parity) << 2) | (spread_bits(y ^ parity) << 1) | spread_bits(z ^ parity);
   }
-  // Interleave the bits.
-  std::uint64_t index = 0;
-  for (unsigned bit = kBits; bit-- > 0;) {
-    for (const std::uint32_t coordinate : x) index = (index << 1) | (((coordinate ^ parity) >> bit) & 1u);
-  }
-  return index;
+  return indices;
 }
 
 // 0 for the first round, kRounds - 1 for the last.
@@ -89,13 +101,18 @@ class Sorter {
     const double side = std::max({size.x, size.y, size.z});
     if (!(side > 0)) return;  // all equal
     const double scale = ((1u << kBits) - 1) / side;
-    for (KeyedPoint& item : items) {
-      const Vec3& p = points_[item.index];
-      const Vec3 cell = scale * (p - box.low);
-      const std::uint64_t round = by_round ? round_of(p) : 0;
-      item.key = (round << (3 * kBits)) |
-                 hilbert_index({static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
-                                static_cast<std::uint32_t>(cell.z)});
+    for (std::size_t begin = 0; begin < items.size(); begin += kTogether) {
+      const auto group = items.subspan(begin, std::min(kTogether, items.size() - begin));
+      Cells cells{};
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const Vec3 cell = scale * (points_[group[i].index] - box.low);
+        for (unsigned axis = 0; axis < 3; ++axis) cells[axis][i] = static_cast<std::uint32_t>(cell[axis]);
+      }
+      const auto indices = hilbert_indices(cells);
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const std::uint64_t round = by_round ? round_of(points_[group[i].index]) : 0;
+        group[i].key = (round << (3 * kBits)) | indices[i];
+      }
     }
     if (items.size() > 256) {
       radix_sort(items, buffer_);
