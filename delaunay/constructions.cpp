@@ -1,6 +1,7 @@
 #include "delaunay/constructions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -34,19 +35,14 @@ Vec3 circumcenter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 Circumcircle circumcircle(const Vec3& a, const Vec3& b, const Vec3& c) {
   // From the corner opposite the longest edge: best conditioned, and the same for every order of the corners.
-  Vec3 corner = a;
-  Vec3 left = b;
-  Vec3 right = c;
-  if (squared_distance(c, a) > squared_distance(left, right)) {
-    corner = b;
-    left = c;
-    right = a;
-  }
-  if (squared_distance(a, b) > squared_distance(left, right)) {
-    corner = c;
-    left = a;
-    right = b;
-  }
+  const double ca = squared_distance(c, a);
+  const double bc = squared_distance(b, c);
+  const std::size_t of_two = static_cast<std::size_t>(ca > bc);
+  const std::size_t opposite = squared_distance(a, b) > std::max(ca, bc) ? 2 : of_two;
+  const std::array<Vec3, 5> around = {a, b, c, a, b};
+  const Vec3& corner = around[opposite];
+  const Vec3& left = around[opposite + 1];
+  const Vec3& right = around[opposite + 2];
   const Vec3 u = left - corner;
   const Vec3 v = right - corner;
   const Vec3 normal = cross(u, v);

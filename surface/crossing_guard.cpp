@@ -277,7 +277,8 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   tight_in_star_.clear();
   Box3 box;
   for (const RimEdge& edge : rim) {
-    const float clearance = std::min({new_clearance_, trusted_clearance(edge.from), trusted_clearance(edge.to)});
+    const float clearance =
+        std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
     star_.push_back(star_triangle(p, edge));
     const StarTriangle& s = star_.back();
     if (!deliso::is_tight(s.points, clearance)) continue;

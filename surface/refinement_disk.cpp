@@ -6,22 +6,25 @@
 namespace deliso {
 
 void RefinementDisk::find_rim(const RefinementCandidate& candidate) {
-  rim_.clear();
+  // Which sides are on the rim cannot be foretold: all are written, and what is not on it is overwritten.
+  std::size_t size = 0;
+  if (rim_.size() < 3 * triangles_.size()) rim_.resize(3 * triangles_.size());
   for (const std::uint32_t t : triangles_) {
     const RefinementMesh::Triangle& triangle = mesh_.triangles[t];
     for (unsigned i = 0; i < 3; ++i) {
       const TriangleSide outer = triangle.neighbours[i];
-      if (outer != kNoSide && holds(outer >> 2)) continue;
-      if (4 * t + i == candidate.split) continue;
-      rim_.push_back({triangle.corners[(i + 1) % 3], triangle.corners[(i + 2) % 3], outer});
+      const bool is_inner = outer != kNoSide && holds(outer >> 2);
+      rim_[size] = {triangle.corners[(i + 1) % 3], triangle.corners[(i + 2) % 3], outer};
+      size += static_cast<std::size_t>(!is_inner) & static_cast<std::size_t>(4 * t + i != candidate.split);
     }
   }
+  rim_size_ = size;
 }
 
 RefinementDisk::Shape RefinementDisk::order_rim(const RefinementCandidate& candidate) {
   const bool closed = candidate.split == kNoSide;
-  if (rim_.size() != triangles_.size() + (closed ? 2 : 1)) return Shape::kNotADisk;
-  for (std::uint32_t i = 0; i < rim_.size(); ++i) {
+  if (rim_size_ != triangles_.size() + (closed ? 2 : 1)) return Shape::kNotADisk;
+  for (std::uint32_t i = 0; i < rim_size_; ++i) {
     RefinementMesh::Vertex& from = mesh_.vertices[rim_[i].from];
     if (from.attempt == attempt_) return Shape::kRepeatedVertex;
     from.attempt = attempt_;
@@ -30,12 +33,12 @@ RefinementDisk::Shape RefinementDisk::order_rim(const RefinementCandidate& candi
   std::uint32_t at = rim_.front().from;
   if (!closed) at = mesh_.triangles[candidate.split >> 2].corners[((candidate.split & 3u) + 2) % 3];
   ordered_.clear();
-  while (ordered_.size() < rim_.size() && mesh_.vertices[at].attempt == attempt_) {
+  while (ordered_.size() < rim_size_ && mesh_.vertices[at].attempt == attempt_) {
     ordered_.push_back(rim_[mesh_.vertices[at].rim_place]);
     at = ordered_.back().to;
     if (closed && at == rim_.front().from) break;
   }
-  if (ordered_.size() != rim_.size()) return Shape::kNotADisk;
+  if (ordered_.size() != rim_size_) return Shape::kNotADisk;
   if (!closed && mesh_.vertices[at].attempt == attempt_) return Shape::kRepeatedVertex;
   std::swap(rim_, ordered_);
   return Shape::kDisk;

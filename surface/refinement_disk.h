@@ -49,7 +49,7 @@ class RefinementDisk {
 
   [[nodiscard]] std::uint32_t attempt() const { return attempt_; }
   [[nodiscard]] std::span<const std::uint32_t> triangles() const { return triangles_; }
-  [[nodiscard]] std::span<const RimEdge> rim() const { return rim_; }
+  [[nodiscard]] std::span<const RimEdge> rim() const { return std::span(rim_).first(rim_size_); }
 
  private:
   void take(std::uint32_t triangle) {
@@ -66,7 +66,8 @@ class RefinementDisk {
   std::uint32_t attempt_ = 0;
   bool is_blocked_ = false;
   std::vector<std::uint32_t> triangles_;
-  std::vector<RimEdge> rim_;
+  std::vector<RimEdge> rim_;  // the first rim_size_ of them; what lies beyond is room
+  std::size_t rim_size_ = 0;
   std::vector<RimEdge> ordered_;
 };
 

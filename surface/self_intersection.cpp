@@ -65,13 +65,13 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
   return middle;
 }
 
-// The number that follows that of a vertex the triangles share; 0 when there is none. Without branches, for nothing
-// here can be foretold.
+// The number that follows that of a vertex the triangles share; 0 when there is none. Numbers are below 2^31. Nothing
+// here can be foretold, and compilers make branches of comparisons: so by the sign of what a subtraction leaves.
 std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
   std::uint32_t found = 0;
   for (const std::uint32_t v : s) {
-    const unsigned same = (v == t[0] ? 1U : 0U) | (v == t[1] ? 1U : 0U) | (v == t[2] ? 1U : 0U);
-    found = same != 0 ? v + 1 : found;
+    const std::uint32_t signs = ((v ^ t[0]) - 1) | ((v ^ t[1]) - 1) | ((v ^ t[2]) - 1);  // the top one: v is in t
+    found ^= (found ^ (v + 1)) & (0u - (signs >> 31));
   }
   return found;
 }

@@ -130,10 +130,10 @@ void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
   --kept_at_[static_cast<std::size_t>(level)];
   for_each_key(box, level, [&](std::uint64_t key) {
     auto& entries = cells_[place_of(key)].entries;
-    const auto here =
-        std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.triangle == triangle; });
-    if (here == entries.end()) return;
-    *here = entries.back();
+    std::size_t place = 0;
+    while (place < entries.size() && entries[place].triangle != triangle) ++place;
+    if (place == entries.size()) return;
+    entries[place] = entries.back();
     entries.pop_back();
   });
 }
@@ -144,11 +144,19 @@ void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& fo
   for (int level = 0; level < kLevels; ++level) {
     if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
     for_each_key(box, level, [&](std::uint64_t key) {
-      for (const Entry& entry : cells_[place_of(key)].entries) {
-        if (!meet(entry.box, rounded) || seen_[entry.triangle] == search_) continue;
-        seen_[entry.triangle] = search_;
-        found.push_back(entry.triangle);
+      const auto& entries = cells_[place_of(key)].entries;
+      // Which of them are found cannot be foretold: all are written, and what is not found is overwritten.
+      std::size_t count = found.size();
+      found.resize(count + entries.size());
+      for (const Entry& entry : entries) {
+        auto& seen = seen_[entry.triangle];
+        const auto meets = static_cast<std::uint32_t>(meet(entry.box, rounded));
+        const std::uint32_t change = (seen ^ search_) & (0u - meets);
+        seen ^= change;
+        found[count] = entry.triangle;
+        count += static_cast<std::size_t>(change != 0);
       }
+      found.resize(count);
     });
   }
 }

@@ -9,8 +9,14 @@ namespace {
 
 constexpr std::uint32_t kLargestWalk = 32;  // restricted facets
 
+// Sums, for which slot it is cannot be foretold, and a branch would be mispredicted.
 unsigned slot_of(const std::array<VertexId, 4>& tet, VertexId v) {
-  return tet[0] == v ? 0 : tet[1] == v ? 1 : tet[2] == v ? 2 : 3;
+  return static_cast<unsigned>(tet[1] == v) + 2 * static_cast<unsigned>(tet[2] == v) +
+         3 * static_cast<unsigned>(tet[3] == v);
+}
+// Which of a facet's three slots holds q.
+unsigned place_of(const std::array<VertexId, 4>& tet, const unsigned (&slots)[3], VertexId q) {
+  return static_cast<unsigned>(tet[slots[1]] == q) + 2 * static_cast<unsigned>(tet[slots[2]] == q);
 }
 
 }  // namespace
@@ -27,10 +33,12 @@ UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetI
     // The facet's link edge runs from one vertex to the next, counterclockwise seen from below the isovalue.
     const auto& slots = kFacetSlots[facet.face()];
     const auto& v = delaunay.vertices(facet.tet());
-    const unsigned at = v[slots[0]] == q ? 0 : v[slots[1]] == q ? 1 : 2;
+    const unsigned at = place_of(v, slots, q);
     const VertexId from = v[slots[(at + 1) % 3]];
     const VertexId to = v[slots[(at + 2) % 3]];
-    if (std::find(link.begin(), link.begin() + passed, from) != link.begin() + passed) return UmbrellaShape::kBroken;
+    bool is_repeated = false;
+    for (std::uint32_t i = 0; i < passed; ++i) is_repeated |= link[i] == from;
+    if (is_repeated) return UmbrellaShape::kBroken;
     link[passed++] = from;
     at_infinity |= restricted.is_virtual(from);
 
@@ -99,7 +107,7 @@ void UmbrellaInspector::collect(VertexId q) {
       if (restricted_.falls_through(FacetId(t, face))) {
         // The facet is counterclockwise seen from the neighbour, which lies below.
         const auto& slots = kFacetSlots[face];
-        const unsigned at = v[slots[0]] == q ? 0 : v[slots[1]] == q ? 1 : 2;
+        const unsigned at = place_of(v, slots, q);
         facets_.emplace_back(t, face);
         link_.push_back({v[slots[(at + 1) % 3]], v[slots[(at + 2) % 3]]});
       }

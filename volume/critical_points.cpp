@@ -110,6 +110,29 @@ constexpr std::uint64_t kCriticalSets =
     std::uint64_t{1} | std::uint64_t{1} << 0b11u | std::uint64_t{1} << 0b1100u | std::uint64_t{1} << 0b110000u;
 constexpr unsigned kAllNeighbours = 0b111111u;
 
+// The critical corners of a cell none of whose corners lies on the border of the grid: those that lie above both their
+// neighbours, or below both, along every axis. Without branches, for nothing here can be foretold.
+template <class Samples>
+unsigned critical_corners_within(const Samples& samples, std::size_t first, const std::array<std::size_t, 3>& strides) {
+  unsigned critical = 0xFFu;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t step = strides[axis];
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    unsigned alike = 0;  // corners above both neighbours along the axis, or below both
+    for (std::size_t line = 0; line < 4; ++line) {
+      const std::size_t at = first + (line & 1u) * strides[u] + (line >> 1) * strides[v];
+      const std::size_t near = ((line & 1u) << u) | ((line >> 1) << v);
+      const auto falls_before = static_cast<unsigned>(samples[at - step] > samples[at]);
+      const auto falls = static_cast<unsigned>(samples[at] > samples[at + step]);
+      const auto falls_behind = static_cast<unsigned>(samples[at + step] > samples[at + 2 * step]);
+      alike |= (falls_before ^ falls) << near | (falls ^ falls_behind) << (near + (std::size_t{1} << axis));
+    }
+    critical &= alike;
+  }
+  return critical;
+}
+
 }  // namespace
 
 void append_critical_points(const CellCorners& corners, std::vector<CriticalPoint>& points) {
@@ -141,6 +164,9 @@ unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t,
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const std::size_t first = grid.index(cell[0], cell[1], cell[2]);
     const std::array<std::size_t, 3> strides = {1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
+    bool is_within = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) is_within &= cell[axis] > 0 && cell[axis] + 2 < grid.dims()[axis];
+    if (is_within) return critical_corners_within(samples, first, strides);
     std::array<unsigned, 8> there;  // neighbours that there are
     there.fill(kAllNeighbours);
     std::array<unsigned, 8> above{};  // those of them that lie above the corner
