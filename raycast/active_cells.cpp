@@ -87,11 +87,12 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
 bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
   // Bits of a brick whose coordinates along an axis lie in [first, last] of the brick.
   const auto mask = [](std::size_t axis, std::int32_t first, std::int32_t last) {
-    constexpr std::array<Word, 3> kSpread = {0x1111111111111111u, 0x000F000F000F000Fu, 0xFFFFu};
-    Word bits = 0;
-    for (std::int32_t c = std::max(first, 0); c <= std::min(last, 3); ++c)
-      bits |= kSpread[axis] << (static_cast<unsigned>(c) << (2 * axis));
-    return bits;
+    constexpr std::array<Word, 3> kRun = {0xFu, 0xFFFFu, ~Word{0}};  // where the coordinate goes from 0 to 3 once
+    constexpr std::array<Word, 3> kRepeat = {0x1111111111111111u, 0x0001000100010001u, 1};
+    const auto bits = [axis](std::int32_t cells) { return static_cast<unsigned>(cells) << (2 * axis); };
+    const Word from_first = kRun[axis] << bits(std::max(first, 0));
+    const Word to_last = kRun[axis] >> bits(3 - std::min(last, 3));
+    return (from_first & to_last) * kRepeat[axis];
   };
   for (std::int32_t z = low[2] & ~3; z <= high[2]; z += 4) {
     const Word in_z = mask(2, low[2] - z, high[2] - z);

@@ -1,6 +1,7 @@
 #include "surface/restricted_delaunay.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "delaunay/base/stopwatch.h"
@@ -71,9 +72,14 @@ void RestrictedDelaunay::forget_region() {
     rim_faces_[from >> 2] = static_cast<std::uint8_t>(rim_faces_[from >> 2] | 1u << (from & 3u));
   }
   for (std::size_t i = 0; i < region.size(); ++i) {
+    // Every inner facet from one of its two sides.
+    unsigned faces = 0;
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(region[i], face);
-      if ((rim_faces_[i] >> face & 1u) != 0 || delaunay_.mirror(f) < f) continue;
+      faces |= static_cast<unsigned>(f < delaunay_.mirror(f)) << face;
+    }
+    for (faces &= ~static_cast<unsigned>(rim_faces_[i]); faces != 0; faces &= faces - 1) {
+      const FacetId f(region[i], static_cast<unsigned>(std::countr_zero(faces)));
       if (is_dual_to_surface(f)) remove_restricted(f);
       if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
     }

@@ -42,8 +42,8 @@ class ExactChanges {
   void visit_simple(const CellIndex& cell, std::uint8_t pattern) {
     const std::uint32_t component = component_on(cell, std::countr_zero(crossed_edges(pattern)));
     visit_(component, top_of(cell), 2);
-    for (int face = 0; face < kCellFaces; ++face) {
-      if (is_crossed_face(pattern, face)) visit_arc(component, cell, face);
+    for (unsigned faces = crossed_faces(pattern); faces != 0; faces &= faces - 1) {
+      visit_arc(component, cell, std::countr_zero(faces));
     }
   }
 

@@ -48,11 +48,15 @@ std::uint8_t sign_pattern(const CellCorners& corners, double isovalue);
 bool is_simple(std::uint8_t pattern);
 // One bit per edge of the cell that has a crossing.
 std::uint16_t crossed_edges(std::uint8_t pattern);
-// True when the face's corners do not all lie on one side.
-inline bool is_crossed_face(std::uint8_t pattern, int face) {
+// One bit per face of the cell whose corners do not all lie on one side.
+inline unsigned crossed_faces(std::uint8_t pattern) {
   constexpr std::array<unsigned, kCellFaces> kCorners = {0x55, 0xAA, 0x33, 0xCC, 0x0F, 0xF0};
-  const unsigned corners = kCorners[static_cast<std::size_t>(face)];
-  return (pattern & corners) != 0 && (pattern & corners) != corners;
+  unsigned faces = 0;
+  for (std::size_t face = 0; face < kCellFaces; ++face) {
+    const unsigned above = pattern & kCorners[face];
+    faces |= (static_cast<unsigned>(above != 0) & static_cast<unsigned>(above != kCorners[face])) << face;
+  }
+  return faces;
 }
 // True when the face's corner signs alternate.
 bool is_ambiguous_face(std::uint8_t pattern, int face);
