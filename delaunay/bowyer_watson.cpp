@@ -63,7 +63,7 @@ std::vector<VertexId> BowyerWatson::insert_all(std::span<const Vec3> points, std
   points_.reserve(points.size());
   incident_.reserve(points.size());
   ranks_.reserve(points.size());
-  tets_.reserve(8 * points.size());
+  tets_.reserve(10 * points.size());  // six or seven in space, eight on a surface; pages not used cost nothing
   std::vector<VertexId> vertices;
   vertices.reserve(order.size());
   const auto add_vertex = [&](std::uint32_t input, const Vec3& p) {
@@ -148,8 +148,9 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
   // Rename them everywhere.
   for (VertexId& v : vertex_of) v = renamed[v.index()];
   for (std::size_t t = 0; t < tets_.size(); ++t) {
+    if (!is_live(TetId(t))) continue;
     for (VertexId& v : tets_[t].vertices) {
-      if (v.is_none()) continue;
+      if (v == kInfiniteVertex) continue;
       incident_[v.index()] = TetId(t);  // by its old name: neighbours there are neighbours in space
       v = renamed[v.index()];
     }

@@ -44,6 +44,19 @@ TetSet built_anew(const BowyerWatson& tets, const Box3& box) {
 
 bool all_coplanar(const Points& points) { return !BowyerWatson(test::box_of(points)).build(points); }
 
+// Random points on a sphere, and its centre. Where that comes late it joins what is inside to itself, which takes fewer
+// tetrahedra, and slots stay free.
+Points sphere_and_centre(std::size_t count, Rng& rng) {
+  const Vec3 centre = {rng.uniform(), rng.uniform(), rng.uniform()};
+  Points points;
+  while (points.size() < count) {
+    const Vec3 p = {2 * rng.uniform() - 1, 2 * rng.uniform() - 1, 2 * rng.uniform() - 1};
+    if (norm(p) > 0.1 && norm(p) < 1) points.push_back(centre + p / norm(p));
+  }
+  points.push_back(centre);
+  return points;
+}
+
 // Removes random vertices until the rest is coplanar, which must be when it is refused.
 void remove_all(const std::string& name, const Points& points, Rng& rng, std::size_t compare_every) {
   const Box3 box = test::box_of(points);
@@ -212,6 +225,26 @@ TEST(PointLocation, OfMovedPointsDoesNotDependOnWhereTheWalkBegins) {
     }
   }
   EXPECT_GT(differing, 50u);
+}
+
+TEST(VertexRemoval, StartsFromATetrahedronThatIsThereWhereTheBuildLeftFreeSlots) {
+  Rng rng(83);
+  std::size_t with_free_slots = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    const Points points = sphere_and_centre(40 + i % 60, rng);
+    BowyerWatson tets(test::box_of(points));
+    ASSERT_TRUE(tets.build(points));
+    for (std::size_t t = 0; t < tets.tet_slots(); ++t) {
+      if (tets.is_live(TetId(t))) continue;
+      ++with_free_slots;
+      break;
+    }
+    ASSERT_EQ(find_combinatorial_violation(tets).value_or("none"), "none") << i;
+    const VertexId v(rng.below(tets.vertex_count()));
+    ASSERT_TRUE(tets.remove(v));
+    ASSERT_EQ(find_combinatorial_violation(tets).value_or("none"), "none") << i;
+  }
+  EXPECT_GT(with_free_slots, 10u);
 }
 
 }  // namespace
