@@ -47,9 +47,9 @@ inline double determinant(const RowMinors& ab, const RowMinors& cd) {
 
 // Whether the sign of a determinant of four lifted rows is certain, from the product of their w's and the greatest w.
 //
-// A monomial is off by at most 18 u (3 u and 5 u for the rows, 2 * 2 u for the minors, u for their product, 5 u for the
-// sum), and the permanent of three rows is at most 6 / sqrt(27) times the product of their lengths sqrt(w) (Carlen,
-// Lieb, Loss: An inequality of Hadamard type for permanents, 2006). So the determinant is off by at most
+// A monomial is off by at most 18 u (3 u and 5 u for the rows, 2 * 2 u for the minors, u for their product, at most 5 u
+// for the sum), and the permanent of three rows is at most 6 / sqrt(27) times the product of their lengths sqrt(w)
+// (Carlen, Lieb, Loss: An inequality of Hadamard type for permanents, 2006). So the determinant is off by at most
 // 20 u * 4 * 1.1548 times all four lengths times the greatest one: compare squares, guarded against underflow.
 inline bool is_certain(double determinant, double product, double greatest) {
   constexpr double kRelative = 20 * 0x1p-53 * 4 * 1.1548;
@@ -91,7 +91,7 @@ class LiftedRows {
     return result;
   }
 
-  // The position of a vertex that has been added.
+  // The position of a vertex that has been added, not of the infinite one.
   [[nodiscard]] std::uint32_t find(VertexId v) const { return position_[v.index()]; }
 
   // The least squared distance of a vertex from the inserted point; infinite when there is none.

@@ -25,7 +25,7 @@ struct KeyedPoint {
 constexpr std::size_t kTogether = 8;
 using Cells = std::array<std::array<std::uint32_t, kTogether>, 3>;
 
-// Puts two zeros between any two of the 16 bits of x.
+// Puts two zeros between neighbouring bits of x, which has 16.
 std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 16) & 0xFF0000FFull;
   x = (x | x << 8) & 0xF00F00F00Full;

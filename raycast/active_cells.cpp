@@ -85,7 +85,7 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
 }
 
 bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
-  // Bits of a brick whose coordinates along an axis lie in [first, last] of the brick.
+  // Bits of a brick whose coordinates along an axis lie in [first, last]; first is at most 3, last at least 0.
   const auto mask = [](std::size_t axis, std::int32_t first, std::int32_t last) {
     constexpr std::array<Word, 3> kRun = {0xFu, 0xFFFFu, ~Word{0}};  // where the coordinate goes from 0 to 3 once
     constexpr std::array<Word, 3> kRepeat = {0x1111111111111111u, 0x0001000100010001u, 1};

@@ -279,8 +279,7 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   for (const RimEdge& edge : rim) {
     const float clearance =
         std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
-    star_.push_back(star_triangle(p, edge));
-    const StarTriangle& s = star_.back();
+    const StarTriangle& s = star_.emplace_back(star_triangle(p, edge));
     if (!deliso::is_tight(s.points, clearance)) continue;
     if (!has_area(s.points)) return true;
     tight_in_star_.push_back(star_.size() - 1);

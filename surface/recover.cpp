@@ -233,8 +233,7 @@ void Recovery::inherit_pole_height() {
   if (pole_heights_ == nullptr) return;
   const VertexId q = restricted_.last_vertex();
   umbrella_.inspect(q);
-  double sum = 0;
-  double count = 0;
+  double sum = 0, count = 0;
   double nearest = std::numeric_limits<double>::infinity();
   double nearest_height = 0;
   for (const FacetId f : umbrella_.facets()) {

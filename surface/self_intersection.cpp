@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/base/check.h"
 #include "delaunay/base/parallel.h"
 #include "surface/box_pairs.h"
 #include "surface/halving_order.h"
@@ -127,6 +128,7 @@ class OrderedTriangles {
 
   void renumber(std::span<const Vec3> points, std::span<const Corners> triangles) {
     constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
+    DELISO_CHECK(points.size() < std::size_t{1} << 31, "numbers of vertices leave the top bit free");
     std::vector<std::uint32_t> renumbered(points.size(), kUnseen);
     points_.reserve(std::min(points.size(), 3 * size()));
     corners_.reserve(size());

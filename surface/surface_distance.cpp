@@ -34,7 +34,7 @@ class FigureBuilder {
 };
 
 double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  // In this order the greater of 0 and what is no number, for a segment without length, is 0.
+  // In this order the greater of 0 and 0 / 0, for a segment without length, is 0.
   const double t = std::min(std::max(0.0, dot(p - a, b - a) / squared_norm(b - a)), 1.0);
   return squared_distance(p, a + t * (b - a));
 }

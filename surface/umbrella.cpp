@@ -1,6 +1,5 @@
 #include "surface/umbrella.h"
 
-#include <algorithm>
 #include <array>
 
 namespace deliso {
@@ -9,12 +8,12 @@ namespace {
 
 constexpr std::uint32_t kLargestWalk = 32;  // restricted facets
 
-// Sums, for which slot it is cannot be foretold, and a branch would be mispredicted.
+// The slot of v, which is one of the four. By a sum: which one it is cannot be foretold, and branches would go wrong.
 unsigned slot_of(const std::array<VertexId, 4>& tet, VertexId v) {
   return static_cast<unsigned>(tet[1] == v) + 2 * static_cast<unsigned>(tet[2] == v) +
          3 * static_cast<unsigned>(tet[3] == v);
 }
-// Which of a facet's three slots holds q.
+// Which of a facet's three slots holds q; one does.
 unsigned place_of(const std::array<VertexId, 4>& tet, const unsigned (&slots)[3], VertexId q) {
   return static_cast<unsigned>(tet[slots[1]] == q) + 2 * static_cast<unsigned>(tet[slots[2]] == q);
 }
