@@ -120,6 +120,7 @@ class BowyerWatson : public Tetrahedralization {
   void find_fill();
   void glue_fill();
   void make_first_tet();
+  // Inserts the points of `order`, and tells the vertex of each, in that order.
   std::vector<VertexId> insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order);
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
   void clear();
