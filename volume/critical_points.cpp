@@ -167,6 +167,7 @@ unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t,
     bool is_within = true;
     for (std::size_t axis = 0; axis < 3; ++axis) is_within &= cell[axis] > 0 && cell[axis] + 2 < grid.dims()[axis];
     if (is_within) return critical_corners_within(samples, first, strides);
+    // At the border some neighbours are missing, and the sets themselves are needed.
     std::array<unsigned, 8> there;  // neighbours that there are
     there.fill(kAllNeighbours);
     std::array<unsigned, 8> above{};  // those of them that lie above the corner
