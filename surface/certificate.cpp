@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/mesh_connectivity.h"
+#include "surface/mesh_topology.h"
 
 namespace deliso {
 
@@ -77,7 +77,7 @@ void add_count_differences(const std::vector<TopologyCount>& mesh, const std::ve
 }  // namespace
 
 std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh) {
-  return sorted_components(mesh_topology(MeshConnectivity(mesh)));
+  return sorted_components(mesh_topology(mesh));
 }
 
 Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads) {
@@ -94,7 +94,7 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
     return certificate;
   }
 
-  const MeshTopology topology = mesh_topology(MeshConnectivity(mesh, threads), threads);
+  const MeshTopology topology = mesh_topology(mesh, threads);
   certificate.manifold = topology.is_manifold();
   certificate.oriented = topology.is_oriented();
   certificate.mesh = counted(sorted_components(topology));

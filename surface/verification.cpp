@@ -9,7 +9,7 @@
 #include "delaunay/base/stopwatch.h"
 #include "surface/delaunay_balls.h"
 #include "surface/isosurface_probe.h"
-#include "surface/mesh_connectivity.h"
+#include "surface/mesh_topology.h"
 #include "volume/exact_topology.h"
 
 namespace deliso {
@@ -85,12 +85,10 @@ unsigned faces_at(const Box3& box, const Vec3& p) {
   return faces;
 }
 
-BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshConnectivity& connectivity, const Box3& box) {
+BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshTopology& topology, const Box3& box) {
   BoundaryCheck check;
-  for (std::size_t e = 0; e < connectivity.edge_count(); ++e) {
-    if (!connectivity.is_boundary(e)) continue;
-    ++check.boundary_edges;
-    const MeshEdge& edge = connectivity.edge(e);
+  check.boundary_edges = static_cast<std::int64_t>(topology.boundary_edges.size());
+  for (const MeshEdge& edge : topology.boundary_edges) {
     const unsigned common = faces_at(box, voxels.points[edge.low]) & faces_at(box, voxels.points[edge.high]);
     check.off_box_edges += common == 0 ? 1 : 0;
   }
@@ -215,11 +213,10 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   v.self_intersection.found = self_intersections(mesh, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
   {
-    const MeshConnectivity connectivity(mesh);
-    const MeshTopology topology = mesh_topology(connectivity);
+    const MeshTopology topology = mesh_topology(mesh);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
     v.orientation = check_orientation(mesh, voxels, topology, probe);
-    v.boundary = check_boundary(voxels, connectivity, probe.box());
+    v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);
 

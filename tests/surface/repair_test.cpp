@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "surface/deliso.h"
-#include "surface/mesh_connectivity.h"
+#include "surface/mesh_topology.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -37,7 +37,7 @@ TEST(Repair, IsTheSameForAnyNumberOfThreads) {
 
 // Of a mesh in world coordinates, which are those of the index: the pieces with vertices on more than one component.
 std::size_t mixed_pieces(const TriangleMesh& mesh, const testing::Scene& scene) {
-  const MeshTopology topology = mesh_topology(MeshConnectivity(mesh));
+  const MeshTopology topology = mesh_topology(mesh);
   std::vector<std::set<std::uint32_t>> components(topology.components.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto component = component_of(scene.grid, scene.isovalue, scene.topology, mesh.points[v]);

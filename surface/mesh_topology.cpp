@@ -1,0 +1,251 @@
+#include "surface/mesh_topology.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "delaunay/base/check.h"
+#include "surface/blocks.h"
+
+namespace deliso {
+
+namespace {
+
+// Disjoint sets whose representative is always the smallest member, so that results do not depend on the order of
+// joins (Tarjan 1975; path halving).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { reset(count); }
+  void reset(std::size_t count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// The corners at each vertex, as lists: corner 3 t + i is that of triangle t at its vertex i.
+class CornerLists {
+ public:
+  static constexpr std::uint32_t kEnd = 0xFFFFFFFFu;
+
+  explicit CornerLists(const TriangleMesh& mesh) : first_(mesh.points.size(), kEnd), next_(3 * mesh.triangles.size()) {
+    for (std::uint32_t t = 0, corner = 0; t < mesh.triangles.size(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        next_[corner] = first_[v];
+        first_[v] = corner++;
+      }
+    }
+  }
+  // Of vertex v; then the one after a corner; kEnd behind the last.
+  [[nodiscard]] std::uint32_t first(std::size_t v) const { return first_[v]; }
+  [[nodiscard]] std::uint32_t after(std::uint32_t corner) const { return next_[corner]; }
+
+ private:
+  std::vector<std::uint32_t> first_, next_;
+};
+
+// Looks at vertices one by one: at the half-edges that leave and reach them, and at the umbrellas these make.
+class StarCensus {
+ public:
+  StarCensus(const TriangleMesh& mesh, const CornerLists& corners, const MeshTopology& components)
+      : mesh_(mesh), corners_(corners), components_(components), edges_(components.components.size(), 0) {}
+
+  void look_at(std::uint32_t v) {
+    gather(v);
+    if (at_.empty()) return;
+    if (is_closed_fan(v)) {
+      add_edges(v, std::count_if(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next > v; }));
+    } else {
+      look_closely_at(v);
+    }
+  }
+  // Edges belong to their lower vertex. To be called in the order of the vertices looked at.
+  void add_to(MeshTopology& sum) const;
+
+ private:
+  struct Corner {
+    std::uint32_t next = 0, previous = 0;  // vertices of its triangle
+  };
+  // A half-edge at the vertex looked at; of one from the vertex to itself, each end counts.
+  struct Spoke {
+    std::uint32_t other = 0;   // end
+    std::uint32_t corner = 0;  // in at_: of its triangle at the vertex
+    bool leaves = false;
+    [[nodiscard]] auto rank() const { return std::tuple(other, !leaves, corner); }
+  };
+  static constexpr std::size_t kMostOfShortFan = 16;
+
+  void gather(std::uint32_t v);
+  [[nodiscard]] bool is_closed_fan(std::uint32_t v) const;
+  void look_closely_at(std::uint32_t v);
+  void count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges);
+  void add_edges(std::uint32_t v, std::int64_t count) { edges_[components_.component_of_vertex[v]] += count; }
+
+  const TriangleMesh& mesh_;
+  const CornerLists& corners_;
+  const MeshTopology& components_;
+  std::vector<Corner> at_;  // the vertex looked at
+  std::vector<Spoke> spokes_;
+  DisjointSets fans_{0};  // of at_
+  MeshTopology counts_;
+  std::vector<std::int64_t> edges_;  // of each component
+};
+
+void StarCensus::gather(std::uint32_t v) {
+  at_.clear();
+  for (std::uint32_t c = corners_.first(v); c != CornerLists::kEnd; c = corners_.after(c)) {
+    const auto& triangle = mesh_.triangles[c / 3];
+    const std::uint32_t i = c % 3;
+    at_.push_back({triangle[i == 2 ? 0 : i + 1], triangle[i == 0 ? 2 : i - 1]});
+  }
+}
+
+// The rule: the triangles form one closed umbrella, all turned the same way. A walk around the vertex visits each of
+// them once, and each edge is found in one only: the search begins at the first corner every time. A long fan may be
+// denied.
+bool StarCensus::is_closed_fan(std::uint32_t v) const {
+  if (at_.size() > kMostOfShortFan) return false;
+  std::uint32_t visited = 1, next = at_[0].next;
+  for (std::size_t count = 1; count < at_.size(); ++count) {
+    std::size_t k = 0;
+    while (k < at_.size() && at_[k].previous != next) ++k;
+    if (k == at_.size() || (visited >> k & 1u) != 0) return false;
+    visited |= 1u << k;
+    next = at_[k].next;
+  }
+  return next == at_[0].previous &&
+         std::none_of(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next == v; });
+}
+
+// Half-edges to the same vertex form an edge, and their triangles belong to one umbrella.
+void StarCensus::look_closely_at(std::uint32_t v) {
+  spokes_.clear();
+  fans_.reset(at_.size());
+  for (std::uint32_t k = 0; k < at_.size(); ++k) {
+    spokes_.push_back({at_[k].next, k, true});
+    spokes_.push_back({at_[k].previous, k, false});
+  }
+  std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) { return a.rank() < b.rank(); });
+  for (auto first = spokes_.cbegin(); first != spokes_.cend();) {
+    const bool is_loop = first->other == v;
+    auto last = first;
+    for (; last != spokes_.cend() && last->other == first->other && (!is_loop || last->leaves == first->leaves);
+         ++last) {
+      fans_.join(first->corner, last->corner);
+    }
+    // The ends of loops that reach v have been counted with those that leave it.
+    if (first->other > v || (is_loop && first->leaves)) count_edge(v, first, last - first);
+    first = last;
+  }
+  std::int64_t umbrellas = 0;
+  for (std::uint32_t k = 0; k < at_.size(); ++k) umbrellas += fans_.find(k) == k ? 1 : 0;
+  counts_.non_manifold_vertices += umbrellas > 1 ? 1 : 0;
+}
+
+void StarCensus::count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges) {
+  add_edges(v, 1);
+  if (half_edges == 1) {
+    counts_.boundary_edges.push_back({v, first->other});
+  } else if (half_edges == 2) {
+    counts_.misoriented_edges += first->leaves == first[1].leaves ? 1 : 0;
+  } else {
+    ++counts_.non_manifold_edges;
+  }
+}
+
+void StarCensus::add_to(MeshTopology& sum) const {
+  sum.boundary_edges.insert(sum.boundary_edges.end(), counts_.boundary_edges.begin(), counts_.boundary_edges.end());
+  sum.non_manifold_edges += counts_.non_manifold_edges;
+  sum.non_manifold_vertices += counts_.non_manifold_vertices;
+  sum.misoriented_edges += counts_.misoriented_edges;
+  for (std::size_t c = 0; c < edges_.size(); ++c) sum.components[c].edges += edges_[c];
+}
+
+// Numbers the pieces and counts their vertices and triangles.
+void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
+  DisjointSets sets(mesh.points.size());
+  std::vector<bool> referenced(mesh.points.size(), false);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.join(a, b);
+    sets.join(b, c);
+    referenced[a] = referenced[b] = referenced[c] = true;
+  }
+  topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    if (!referenced[v]) {
+      ++topology.unreferenced_vertices;
+      continue;
+    }
+    // The representative is the lowest vertex, so it has been numbered before the others of its piece.
+    const std::uint32_t lowest = sets.find(v);
+    if (lowest == v) {
+      topology.component_of_vertex[v] = static_cast<std::uint32_t>(topology.components.size());
+      topology.components.emplace_back();
+    }
+    topology.component_of_vertex[v] = topology.component_of_vertex[lowest];
+    ++topology.components[topology.component_of_vertex[v]].vertices;
+  }
+  for (const auto& triangle : mesh.triangles) {
+    ++topology.components[topology.component_of_vertex[triangle[0]]].triangles;
+  }
+}
+
+void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
+  if (topology.boundary_edges.empty()) return;
+  DisjointSets loops(vertex_count);
+  std::vector<bool> on_boundary(vertex_count, false);
+  for (const MeshEdge& edge : topology.boundary_edges) {
+    loops.join(edge.low, edge.high);
+    on_boundary[edge.low] = on_boundary[edge.high] = true;
+  }
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    if (on_boundary[v] && loops.find(v) == v) ++topology.components[topology.component_of_vertex[v]].boundary_loops;
+  }
+}
+
+}  // namespace
+
+MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
+  DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
+  MeshTopology topology;
+  std::optional<CornerLists> corners;
+  run_tasks(2, threads, [&](std::size_t task) {
+    if (task == 0) return find_components(mesh, topology);
+    corners.emplace(mesh);
+  });
+  const Shares vertices(mesh.points.size(), threads);
+  std::vector<StarCensus> parts(vertices.count(), StarCensus(mesh, *corners, topology));
+  vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) parts[share].look_at(static_cast<std::uint32_t>(v));
+  });
+  for (const StarCensus& part : parts) part.add_to(topology);
+  count_boundary_loops(mesh.points.size(), topology);
+  topology.repeated_vertices = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [](const auto& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  return topology;
+}
+
+std::size_t first_bad_triangle(const TriangleMesh& mesh) {
+  const auto bad = [&](const auto& t) { return std::max({t[0], t[1], t[2]}) >= mesh.points.size(); };
+  return static_cast<std::size_t>(std::find_if(mesh.triangles.begin(), mesh.triangles.end(), bad) -
+                                  mesh.triangles.begin());
+}
+
+}  // namespace deliso
