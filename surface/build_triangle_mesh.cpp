@@ -41,6 +41,7 @@ class MeshBuilder {
   void name_vertices();
   [[nodiscard]] std::vector<SplitCorner> number_fans(std::vector<std::uint32_t>& fans_before) const;
   void subdivide_shared_edges();
+  void make_room(std::size_t edges);
 
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::vector<Vec3> places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const;
@@ -131,6 +132,7 @@ void MeshBuilder::subdivide_shared_edges() {
     uses.emplace_back(std::min(from, to), std::max(from, to), t);
   }
   std::sort(uses.begin(), uses.end());
+  make_room(uses.size());
   for (std::size_t first = 0; first < uses.size();) {
     const auto [from, to, ignored] = uses[first];
     std::size_t last = first;
@@ -143,6 +145,14 @@ void MeshBuilder::subdivide_shared_edges() {
     }
     first = last;
   }
+}
+
+// For the vertices and triangles of a few subdivided edges: arrays that grow by themselves would double.
+void MeshBuilder::make_room(std::size_t edges) {
+  mesh_.points.reserve(mesh_.points.size() + edges);
+  built_.vertex_of.reserve(built_.vertex_of.size() + edges);
+  mesh_.triangles.reserve(mesh_.triangles.size() + 2 * edges);
+  mesh_.neighbours.reserve(mesh_.neighbours.size() + 2 * edges);
 }
 
 // The side between two vertices of a triangle or of the parts it was split into.

@@ -47,14 +47,14 @@ class Controls {
   }
   [[nodiscard]] bool stopped() const { return stopped_; }
 
-  // For a part of the work, on any thread: the same limits, but `share` of the vertices left beyond `vertices`, of
-  // which the part begins with `begins`. Reports only from the thread this is called on.
-  [[nodiscard]] Controls for_part(double share, std::size_t vertices, std::size_t begins) const {
+  // For a part of the work, on any thread: the same limits, but `share` of the vertices left beyond `vertices`; the
+  // part tells how many it begins with. Reports only from the thread this is called on.
+  [[nodiscard]] Controls for_part(double share, std::size_t vertices) const {
     Controls part = *this;
     part.calls_ = 0;
     if (budget_.max_vertices) {
       const double left = std::max(static_cast<double>(*budget_.max_vertices) - static_cast<double>(vertices), 0.0);
-      part.budget_.max_vertices = static_cast<std::int64_t>(begins) + static_cast<std::int64_t>(share * left);
+      part.budget_.max_vertices = static_cast<std::int64_t>(share * left);
     }
     if (part.progress_) {
       part.progress_ = [report = progress_, thread = std::this_thread::get_id()](const Progress& progress) {
@@ -62,6 +62,9 @@ class Controls {
       };
     }
     return part;
+  }
+  void part_begins_with(std::size_t vertices) {
+    if (budget_.max_vertices) *budget_.max_vertices += static_cast<std::int64_t>(vertices);
   }
 
  private:

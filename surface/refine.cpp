@@ -86,18 +86,15 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
 
 // Refines slabs apart from each other.
 void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const float> work, const Task& task) {
-  RefinementSlabs cut(mesh, slabs, work, task.options.threads);
-  std::vector<RefinementPart>& parts = cut.parts();
-  std::vector<RefineStats> counted(parts.size());
-  std::vector<Controls> limits;
-  for (const RefinementPart& part : parts) {
-    const double share = 1.0 / static_cast<double>(parts.size());
-    limits.push_back(task.controls.for_part(share, mesh.vertices.size(), part.mesh.vertices.size()));
-  }
-  run_tasks(parts.size(), task.options.threads,
-            [&](std::size_t k) { refine_part(parts[k], Round::kFirst, task, limits[k], 1, counted[k]); });
+  std::vector<RefineStats> counted(slabs.size());
+  const double share = 1.0 / static_cast<double>(slabs.size());
+  std::vector<Controls> limits(slabs.size(), task.controls.for_part(share, mesh.vertices.size()));
+  const auto refine = [&](std::size_t k, RefinementPart& part) {
+    limits[k].part_begins_with(part.mesh.vertices.size());
+    refine_part(part, Round::kFirst, task, limits[k], 1, counted[k]);
+  };
+  RefinementSlabs(mesh, slabs, work).refine_each(refine, task.options.threads);
   release_free_memory();
-  cut.join(mesh, task.options.threads);
   task.controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
 }
@@ -121,6 +118,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   RefinementPart whole;
   RefinementMesh& refined = whole.mesh;
   refined = RefinementMesh(mesh);
+  mesh = {};  // not needed before all is refined, where the peak of a whole run may lie
   set_clearances(refined);
   const std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/box3.h"
@@ -15,28 +16,19 @@ namespace {
 constexpr std::size_t kTrianglesPerTask = 16384;
 constexpr std::size_t kAhead = 16;  // triangles: their first corner is the newest, far from those of the others
 
-std::vector<Vec3> points_of(const RefinementMesh& mesh) {
-  std::vector<Vec3> points;
-  points.reserve(mesh.vertices.size());
-  for (const RefinementMesh::Vertex& v : mesh.vertices) points.push_back(v.point);
-  return points;
-}
-
-// The points of some triangles, which become corners of these points.
-std::vector<Vec3> take_points(const RefinementMesh& mesh, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+// Gives triangles whose corners are vertices of `from` the points of these.
+void take_points(const RefinementMesh& from, TriangleMesh& mesh) {
   constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> numbers(mesh.vertices.size(), kUnseen);
-  std::vector<Vec3> points;
-  for (auto& corners : triangles) {
+  std::vector<std::uint32_t> numbers(from.vertices.size(), kUnseen);
+  for (auto& corners : mesh.triangles) {
     for (std::uint32_t& v : corners) {
       if (numbers[v] == kUnseen) {
-        numbers[v] = static_cast<std::uint32_t>(points.size());
-        points.push_back(mesh.vertices[v].point);
+        numbers[v] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(from.vertices[v].point);
       }
       v = numbers[v];
     }
   }
-  return points;
 }
 
 // The cells of a coarse grid that boxes reach into, as rows of bits along x.
@@ -96,10 +88,12 @@ class CellMarks {
 }  // namespace
 
 SelfIntersections meeting_pairs(const RefinementMesh& mesh, int threads) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const RefinementMesh::Triangle& t : mesh.triangles) triangles.push_back(t.corners);
-  return self_intersections(points_of(mesh), triangles, kMostMeetingPairs, threads);
+  TriangleMesh taken;
+  taken.points.reserve(mesh.vertices.size());
+  taken.triangles.reserve(mesh.triangles.size());
+  for (const RefinementMesh::Vertex& v : mesh.vertices) taken.points.push_back(v.point);
+  for (const RefinementMesh::Triangle& t : mesh.triangles) taken.triangles.push_back(t.corners);
+  return self_intersections_of({}, std::move(taken), kMostMeetingPairs, threads);
 }
 
 SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threads) {
@@ -125,15 +119,18 @@ SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threa
       is_near[t] = marks.reached_by(mesh.box_of(static_cast<std::uint32_t>(t))) ? 1 : 0;
     }
   });
-  std::vector<std::array<std::uint32_t, 3>> corners;
+  const auto near = static_cast<std::size_t>(std::count(is_near.begin(), is_near.end(), 1));
+  TriangleMesh taken;
   std::vector<std::uint8_t> is_renewed;
+  taken.triangles.reserve(near);
+  is_renewed.reserve(near);
   for (std::uint32_t t = 0; t < count; ++t) {
     if (is_near[t] == 0) continue;
-    corners.push_back(mesh.triangles[t].corners);
+    taken.triangles.push_back(mesh.triangles[t].corners);
     is_renewed.push_back(mesh.triangles[t].is_renewed() ? 1 : 0);
   }
-  const std::vector<Vec3> points = take_points(mesh, corners);
-  return self_intersections_of(is_renewed, points, corners, kMostMeetingPairs, threads);
+  take_points(mesh, taken);
+  return self_intersections_of(is_renewed, std::move(taken), kMostMeetingPairs, threads);
 }
 
 }  // namespace deliso

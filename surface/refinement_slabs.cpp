@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "delaunay/base/parallel.h"
-#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -17,118 +17,155 @@ constexpr double kMostGrowth = 32;
 
 }  // namespace
 
-RefinementSlabs::RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs,
-                                 std::span<const float> work, int threads)
-    : parts_(slabs.size()), origins_(slabs.size()) {
-  for (std::size_t k = 0; k < slabs.size(); ++k) parts_[k].slab = slabs[k];
-  find_triangles(whole);
-  run_tasks(parts_.size(), threads, [&](std::size_t k) { fill(whole, work, k); });
+RefinementSlabs::RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work)
+    : whole_(whole),
+      slabs_(slabs),
+      origins_(slabs.size()),
+      refined_(slabs.size()),
+      local_triangle_(whole.triangles.size(), kNoSide),
+      local_vertex_(whole.vertices.size(), kNoSide) {
+  if (slabs_.empty()) return;
+  find_triangles();
+  make_room(work);
 }
 
 // The triangles that meet each slab: those that its planes meet come first.
-void RefinementSlabs::find_triangles(const RefinementMesh& whole) {
-  if (parts_.empty()) return;
-  const std::size_t axis = parts_.front().slab.axis;
-  std::vector<std::vector<std::uint32_t>> within(parts_.size());
-  for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) {
-    const auto [a, b, c] = whole.corner_points(whole.triangles[t].corners);
+void RefinementSlabs::find_triangles() {
+  const std::size_t axis = slabs_.front().axis;
+  std::vector<std::vector<std::uint32_t>> within(slabs_.size());
+  for (std::uint32_t t = 0; t < whole_.triangles.size(); ++t) {
+    const auto [a, b, c] = whole_.corner_points(whole_.triangles[t].corners);
     const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      const Slab& slab = parts_[k].slab;
+    for (std::size_t k = 0; k < slabs_.size(); ++k) {
+      const Slab& slab = slabs_[k];
       if (high < slab.low || slab.high < low) continue;
       const bool is_within = slab.low < low && high < slab.high;
       (is_within ? within[k] : origins_[k].triangles).push_back(t);
     }
   }
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
+  for (std::size_t k = 0; k < slabs_.size(); ++k) {
     std::vector<std::uint32_t>& own = origins_[k].triangles;
-    parts_[k].frozen = static_cast<std::uint32_t>(own.size());
+    origins_[k].frozen = static_cast<std::uint32_t>(own.size());
     own.insert(own.end(), within[k].begin(), within[k].end());
   }
 }
 
-void RefinementSlabs::fill(const RefinementMesh& whole, std::span<const float> work, std::size_t k) {
-  RefinementMesh& mesh = parts_[k].mesh;
-  const std::vector<std::uint32_t>& own = origins_[k].triangles;
-  // Room for the insertions that are expected.
-  double expected = 0;
-  for (const std::uint32_t t : own) expected += work[t];
-  const auto added = static_cast<std::size_t>(std::min(expected, kMostGrowth * static_cast<double>(own.size())));
-  mesh.triangles.reserve(own.size() + 2 * added);
-  mesh.vertices.reserve(own.size() + added);
-  std::vector<std::uint32_t> local_triangle(whole.triangles.size(), kNoSide);
-  for (std::uint32_t i = 0; i < own.size(); ++i) local_triangle[own[i]] = i;
-  std::vector<std::uint32_t> local_vertex(whole.vertices.size(), kNoSide);
+// In the whole for what all parts are expected to insert; the parts make their own.
+void RefinementSlabs::make_room(std::span<const float> work) {
+  std::size_t insertions = 0;
+  for (Origin& origin : origins_) {
+    double expected = 0;
+    for (const std::uint32_t t : origin.triangles) expected += work[t];
+    const double most = kMostGrowth * static_cast<double>(origin.triangles.size());
+    origin.insertions = static_cast<std::size_t>(std::min(expected, most));
+    insertions += origin.insertions;
+  }
+  const auto with_rest = [](std::size_t count) { return count + count / kRoomForRest; };
+  whole_.vertices.reserve(with_rest(whole_.vertices.size() + insertions));
+  whole_.triangles.reserve(with_rest(whole_.triangles.size() + 2 * insertions));
+}
+
+void RefinementSlabs::refine_each(const RefinePart& refine, int threads) {
+  run_tasks(slabs_.size(), threads, [&](std::size_t k) {
+    RefinementPart part = cut_out(k);
+    refine(k, part);
+    hand_in(k, std::move(part));
+  });
+  for (const std::uint32_t v : suspects_) whole_.vertices[v].is_suspect = true;
+  whole_.forget_attempts();
+}
+
+// Whatever other parts have been put back by then: nothing that belongs to a part is touched by another one, and what
+// they found suspect is noted only once all are back.
+RefinementPart RefinementSlabs::cut_out(std::size_t slab) {
+  const std::lock_guard lock(mutex_);
+  ++cut_out_;
+  RefinementPart part;
+  if (!spare_.empty()) {
+    part.mesh = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  part.frozen = origins_[slab].frozen;
+  part.slab = slabs_[slab];
+  fill(part.mesh, origins_[slab]);
+  return part;
+}
+
+void RefinementSlabs::fill(RefinementMesh& mesh, Origin& origin) {
+  const std::vector<std::uint32_t>& own = origin.triangles;
+  mesh.triangles.reserve(own.size() + 2 * origin.insertions);
+  mesh.vertices.reserve(own.size() + origin.insertions);
+  for (std::uint32_t i = 0; i < own.size(); ++i) local_triangle_[own[i]] = i;
   for (const std::uint32_t t : own) {
-    RefinementMesh::Triangle triangle = whole.triangles[t];
+    RefinementMesh::Triangle triangle = whole_.triangles[t];
     for (std::uint32_t& v : triangle.corners) {
-      if (local_vertex[v] == kNoSide) {
-        local_vertex[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.push_back(whole.vertices[v]);
-        origins_[k].vertices.push_back(v);
+      if (local_vertex_[v] == kNoSide) {
+        local_vertex_[v] = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(whole_.vertices[v]);
+        origin.vertices.push_back(v);
       }
-      v = local_vertex[v];
+      v = local_vertex_[v];
     }
     for (TriangleSide& side : triangle.neighbours) {
-      if (side == kNoSide) continue;
-      const std::uint32_t across = local_triangle[side >> 2];
-      side = across == kNoSide ? kNoSide : 4 * across + (side & 3u);
+      const std::uint32_t across = side >> 2;  // beyond the end for none, and for what other parts have added
+      const bool is_own = across < local_triangle_.size() && local_triangle_[across] != kNoSide;
+      side = is_own ? 4 * local_triangle_[across] + (side & 3u) : kNoSide;
     }
     mesh.triangles.push_back(triangle);
   }
+  for (const std::uint32_t t : own) local_triangle_[t] = kNoSide;
+  for (const std::uint32_t v : origin.vertices) local_vertex_[v] = kNoSide;
 }
 
-void RefinementSlabs::join(RefinementMesh& whole, int threads) {
-  std::size_t triangle_count = whole.triangles.size();
-  std::size_t vertex_count = whole.vertices.size();
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    triangle_count += parts_[k].mesh.triangles.size() - origins_[k].triangles.size();
-    vertex_count += parts_[k].mesh.vertices.size() - origins_[k].vertices.size();
+// Parts are put back in their order, so that it does not matter which was refined first.
+void RefinementSlabs::hand_in(std::size_t slab, RefinementPart part) {
+  const std::lock_guard lock(mutex_);
+  refined_[slab] = std::move(part);
+  for (; put_back_ < refined_.size() && refined_[put_back_]; ++put_back_) {
+    put_back(*refined_[put_back_], origins_[put_back_]);
+    origins_[put_back_] = {};
+    keep_memory(refined_[put_back_]->mesh);
+    refined_[put_back_].reset();
   }
-  if (triangle_count > whole.triangles.capacity()) {
-    whole.vertices.reserve(vertex_count + vertex_count / kRoomForRest);
-    whole.triangles.reserve(triangle_count + triangle_count / kRoomForRest);
-  }
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    put_back(parts_[k], origins_[k], whole, threads);
-    parts_[k] = {};
-    origins_[k] = {};
-  }
-  whole.forget_attempts();
 }
 
-void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin, RefinementMesh& whole, int threads) {
+void RefinementSlabs::keep_memory(RefinementMesh& mesh) {
+  if (spare_.size() == slabs_.size() - cut_out_) return;  // no more is needed
+  mesh.vertices.clear();
+  mesh.triangles.clear();
+  spare_.push_back(std::move(mesh));
+}
+
+void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin) {
   const RefinementMesh& mesh = part.mesh;
   // What is new comes behind all that is there.
   const std::size_t old_vertices = origin.vertices.size(), old_triangles = origin.triangles.size();
-  const std::size_t first_vertex = whole.vertices.size(), first_triangle = whole.triangles.size();
+  const std::size_t first_vertex = whole_.vertices.size(), first_triangle = whole_.triangles.size();
   const auto behind = [](const auto& array, std::size_t place) {
     return array.begin() + static_cast<std::ptrdiff_t>(place);
   };
-  whole.vertices.insert(whole.vertices.end(), behind(mesh.vertices, old_vertices), mesh.vertices.end());
-  whole.triangles.insert(whole.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
+  whole_.vertices.insert(whole_.vertices.end(), behind(mesh.vertices, old_vertices), mesh.vertices.end());
+  whole_.triangles.insert(whole_.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
   for (std::size_t v = 0; v < old_vertices; ++v) {
-    if (mesh.vertices[v].is_suspect) whole.vertices[origin.vertices[v]].is_suspect = true;
+    if (mesh.vertices[v].is_suspect) suspects_.push_back(origin.vertices[v]);
   }
   const auto place = [](const std::vector<std::uint32_t>& old, std::size_t first, std::uint32_t i) {
     return i < old.size() ? old[i] : static_cast<std::uint32_t>(first + i - old.size());
   };
   const auto place_of_triangle = [&](std::uint32_t t) { return place(origin.triangles, first_triangle, t); };
-  for_each_block(mesh.triangles.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const RefinementMesh::Triangle& from = mesh.triangles[t];
-      RefinementMesh::Triangle& to = whole.triangles[place_of_triangle(t)];
-      // A frozen triangle stays; its sides towards the part are as the part left them.
-      if (t >= part.frozen) {
-        to = from;
-        for (std::uint32_t& v : to.corners) v = place(origin.vertices, first_vertex, v);
-      }
-      for (unsigned i = 0; i < 3; ++i) {
-        const TriangleSide side = from.neighbours[i];
-        if (side != kNoSide) to.neighbours[i] = 4 * place_of_triangle(side >> 2) + (side & 3u);
-      }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const RefinementMesh::Triangle& from = mesh.triangles[t];
+    RefinementMesh::Triangle& to = whole_.triangles[place_of_triangle(t)];
+    // A frozen triangle stays; its sides towards the part are as the part left them.
+    if (t >= part.frozen) {
+      to = from;
+      for (std::uint32_t& v : to.corners) v = place(origin.vertices, first_vertex, v);
     }
-  });
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide side = from.neighbours[i];
+      if (side != kNoSide) to.neighbours[i] = 4 * place_of_triangle(side >> 2) + (side & 3u);
+    }
+  }
 }
 
 }  // namespace deliso

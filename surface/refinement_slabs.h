@@ -7,6 +7,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,30 +26,46 @@ struct RefinementPart {
 
 class RefinementSlabs {
  public:
-  // Cuts the parts in disjoint slabs out of a mesh whose balls are known. `work` estimates the insertions that each
-  // triangle needs: there is room for them.
-  RefinementSlabs(const RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work,
-                  int threads);
+  using RefinePart = std::function<void(std::size_t slab, RefinementPart& part)>;
 
-  [[nodiscard]] std::vector<RefinementPart>& parts() { return parts_; }
+  // Disjoint slabs of a mesh whose balls are known. `work` estimates the insertions that each triangle needs: there is
+  // room for them. Keeps a reference to the mesh.
+  RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work);
 
-  // Puts the refined parts back in place of what was cut out; they are empty afterwards. Old vertices keep their
-  // places.
-  void join(RefinementMesh& whole, int threads);
+  // Cuts out part after part, has each refined, on several threads at a time, and puts it back in place of what was cut
+  // out. Old vertices keep their places; new ones come in the order of the slabs. The memory of a part that is back
+  // serves a later one, so that all parts together need little more than the whole. To be called once.
+  void refine_each(const RefinePart& refine, int threads);
 
  private:
   // Where the first triangles and vertices of a part are in the whole.
   struct Origin {
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint32_t> vertices;
+    std::uint32_t frozen = 0;
+    std::size_t insertions = 0;  // that are expected
   };
 
-  void find_triangles(const RefinementMesh& whole);
-  void fill(const RefinementMesh& whole, std::span<const float> work, std::size_t part);
-  static void put_back(const RefinementPart& part, const Origin& origin, RefinementMesh& whole, int threads);
+  void find_triangles();
+  void make_room(std::span<const float> work);
+  [[nodiscard]] RefinementPart cut_out(std::size_t slab);
+  void fill(RefinementMesh& mesh, Origin& origin);
+  void hand_in(std::size_t slab, RefinementPart part);
+  void keep_memory(RefinementMesh& mesh);
+  void put_back(const RefinementPart& part, const Origin& origin);
 
-  std::vector<RefinementPart> parts_;
+  RefinementMesh& whole_;
+  std::vector<Slab> slabs_;
   std::vector<Origin> origins_;
+
+  // One thread at a time cuts out or puts back.
+  std::mutex mutex_;
+  std::vector<std::optional<RefinementPart>> refined_;  // parts that wait for earlier ones
+  std::size_t cut_out_ = 0, put_back_ = 0;              // so many parts are
+  std::vector<RefinementMesh> spare_;                   // empty ones with room
+  std::vector<std::uint32_t> local_triangle_;           // of each triangle at the start: its place in the part
+  std::vector<std::uint32_t> local_vertex_;
+  std::vector<std::uint32_t> suspects_;  // vertices that parts found suspect
 };
 
 }  // namespace deliso

@@ -194,23 +194,29 @@ PairCollector find_pairs(std::span<const std::uint8_t> marks, const OrderedTrian
   return all;
 }
 
-}  // namespace
-
-SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, std::span<const Vec3> points,
-                                        std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
-                                        int threads) {
-  const OrderedTriangles ordered(points, triangles, threads);
+SelfIntersections examined(const OrderedTriangles& ordered, std::size_t triangle_count,
+                           std::span<const std::uint8_t> marks, std::size_t keep, int threads) {
   PairCollector found = floats_do(ordered) ? find_pairs<float>(marks, ordered, keep, threads)
                                            : find_pairs<double>(marks, ordered, keep, threads);
   SelfIntersections result = std::move(found).sorted();
-  result.zero_area_triangles = static_cast<std::int64_t>(triangles.size() - ordered.size());
+  result.zero_area_triangles = static_cast<std::int64_t>(triangle_count - ordered.size());
   return result;
 }
+
+}  // namespace
 
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
                                      int threads) {
-  return self_intersections_of({}, points, triangles, keep, threads);
+  return examined(OrderedTriangles(points, triangles, threads), triangles.size(), {}, keep, threads);
+}
+
+SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep,
+                                        int threads) {
+  const std::size_t triangle_count = mesh.triangles.size();
+  const OrderedTriangles ordered(mesh.points, mesh.triangles, threads);
+  mesh = {};
+  return examined(ordered, triangle_count, marks, keep, threads);
 }
 
 }  // namespace deliso

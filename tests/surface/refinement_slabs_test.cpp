@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "delaunay/base/parallel.h"
@@ -45,17 +46,19 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   RefinementMesh whole(mesh);
   const std::vector<Slab> cut = slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192);
   ASSERT_EQ(cut.size(), 4u);
-  RefinementSlabs slabs(whole, cut, std::vector<float>(whole.triangles.size(), 1), 2);
-  std::size_t free_triangles = 0;
-  for (const RefinementPart& part : slabs.parts()) {
-    EXPECT_GT(part.frozen, 0u);
-    for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) {
-      for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.slab.contains(part.mesh.corner(t, i)));
-    }
-    free_triangles += part.mesh.triangles.size() - part.frozen;
-  }
+  std::atomic<std::size_t> free_triangles = 0;
+  RefinementSlabs slabs(whole, cut, std::vector<float>(whole.triangles.size(), 1));
+  slabs.refine_each(
+      [&](std::size_t k, const RefinementPart& part) {
+        EXPECT_EQ(part.slab.low, cut[k].low);
+        EXPECT_GT(part.frozen, 0u);
+        for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) {
+          for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.slab.contains(part.mesh.corner(t, i)));
+        }
+        free_triangles += part.mesh.triangles.size() - part.frozen;
+      },
+      2);
   EXPECT_GT(free_triangles, mesh.triangles.size() * 9 / 10);
-  slabs.join(whole, 2);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(testing::surface_mesh_defect(joined), "");
@@ -63,60 +66,98 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   EXPECT_EQ(sorted_triangles(joined.triangles), sorted_triangles(mesh.triangles));
 }
 
+// Splits the first free triangle of a part and one beside a frozen one at their centroids; finds the new vertices and
+// the first vertex of all suspect.
+void split_two_triangles(RefinementPart& part) {
+  const auto beside = [&] {
+    std::uint32_t t = part.frozen;
+    const auto touches_frozen = [&] {
+      const auto& sides = part.mesh.triangles[t].neighbours;
+      return std::any_of(sides.begin(), sides.end(),
+                         [&](TriangleSide side) { return side != kNoSide && side >> 2 < part.frozen; });
+    };
+    while (!touches_frozen()) ++t;
+    return t;
+  };
+  for (const std::uint32_t t : {part.frozen, beside()}) {
+    const auto old = part.mesh.triangles[t];
+    const auto p = static_cast<std::uint32_t>(part.mesh.vertices.size());
+    const auto [a, b, c] = part.mesh.corner_points(old.corners);
+    part.mesh.vertices.push_back({(a + b + c) / 3, 1});
+    const auto next = static_cast<std::uint32_t>(part.mesh.triangles.size());
+    const std::array<std::uint32_t, 3> slot = {t, next, next + 1};
+    part.mesh.triangles.resize(next + 2);
+    for (unsigned i = 0; i < 3; ++i) {
+      auto& triangle = part.mesh.triangles[slot[i]];
+      triangle.corners = {p, old.corners[(i + 1) % 3], old.corners[(i + 2) % 3]};
+      triangle.neighbours = {old.neighbours[i], 4 * slot[(i + 1) % 3] + 2, 4 * slot[(i + 2) % 3] + 1};
+      const TriangleSide outer = old.neighbours[i];
+      if (outer != kNoSide) part.mesh.triangles[outer >> 2].neighbours[outer & 3u] = 4 * slot[i];
+    }
+    part.mesh.vertices[p].is_suspect = part.mesh.vertices[0].is_suspect = true;
+  }
+}
+
 TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   const SurfaceMesh mesh = wavy_square(120);
   RefinementMesh whole(mesh);
   const std::vector<float> work(whole.triangles.size(), 1);
-  RefinementSlabs slabs(whole, slabs_of_equal_work(whole, work, 8192), work, 1);
-  // Every part splits its first free triangle and one beside a frozen one at their centroids.
-  std::size_t added = 0;
-  for (RefinementPart& part : slabs.parts()) {
-    const auto beside = [&] {
-      std::uint32_t t = part.frozen;
-      const auto touches_frozen = [&] {
-        const auto& sides = part.mesh.triangles[t].neighbours;
-        return std::any_of(sides.begin(), sides.end(),
-                           [&](TriangleSide side) { return side != kNoSide && side >> 2 < part.frozen; });
-      };
-      while (!touches_frozen()) ++t;
-      return t;
-    };
-    for (const std::uint32_t t : {part.frozen, beside()}) {
-      const auto old = part.mesh.triangles[t];
-      const auto p = static_cast<std::uint32_t>(part.mesh.vertices.size());
-      const auto [a, b, c] = part.mesh.corner_points(old.corners);
-      part.mesh.vertices.push_back({(a + b + c) / 3, 1});
-      const auto next = static_cast<std::uint32_t>(part.mesh.triangles.size());
-      const std::array<std::uint32_t, 3> slot = {t, next, next + 1};
-      part.mesh.triangles.resize(next + 2);
-      for (unsigned i = 0; i < 3; ++i) {
-        auto& triangle = part.mesh.triangles[slot[i]];
-        triangle.corners = {p, old.corners[(i + 1) % 3], old.corners[(i + 2) % 3]};
-        triangle.neighbours = {old.neighbours[i], 4 * slot[(i + 1) % 3] + 2, 4 * slot[(i + 2) % 3] + 1};
-        const TriangleSide outer = old.neighbours[i];
-        if (outer != kNoSide) part.mesh.triangles[outer >> 2].neighbours[outer & 3u] = 4 * slot[i];
-      }
-      ++added;
-    }
-  }
-  slabs.join(whole, 2);
+  const std::vector<Slab> cut = slabs_of_equal_work(whole, work, 8192);
+  RefinementSlabs(whole, cut, work)
+      .refine_each([](std::size_t, RefinementPart& part) { split_two_triangles(part); }, 1);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(testing::surface_mesh_defect(joined), "");
-  EXPECT_EQ(joined.points.size(), mesh.points.size() + added);
-  EXPECT_EQ(joined.triangles.size(), mesh.triangles.size() + 2 * added);
+  EXPECT_EQ(joined.points.size(), mesh.points.size() + 2 * cut.size());
+  EXPECT_EQ(joined.triangles.size(), mesh.triangles.size() + 4 * cut.size());
   EXPECT_TRUE(std::equal(mesh.points.begin(), mesh.points.end(), joined.points.begin()));
+}
+
+TEST(RefinementSlabs, ItDoesNotMatterWhichPartIsRefinedFirst) {
+  const SurfaceMesh mesh = wavy_square(120);
+  const std::vector<float> work(mesh.triangles.size(), 1);
+  const auto refined = [&](int threads) {
+    RefinementMesh whole(mesh);
+    const std::vector<Slab> cut = slabs_of_equal_work(whole, work, 8192);
+    std::atomic<std::size_t> done = 0;
+    const auto refine = [&](std::size_t k, RefinementPart& part) {
+      for (const auto& vertex : part.mesh.vertices) EXPECT_FALSE(vertex.is_suspect) << k;
+      split_two_triangles(part);
+      // The first part waits for all others.
+      if (threads > 1 && k == 0) {
+        for (std::size_t now = done; now + 1 < cut.size(); now = done) done.wait(now);
+      }
+      ++done;
+      done.notify_all();
+    };
+    RefinementSlabs(whole, cut, work).refine_each(refine, threads);
+    return whole;
+  };
+  const RefinementMesh expected = refined(1);
+  const RefinementMesh found = refined(2);
+  ASSERT_EQ(found.vertices.size(), expected.vertices.size());
+  ASSERT_EQ(found.triangles.size(), expected.triangles.size());
+  std::size_t suspects = 0;
+  for (std::size_t v = 0; v < expected.vertices.size(); ++v) {
+    EXPECT_EQ(found.vertices[v].point, expected.vertices[v].point) << v;
+    EXPECT_EQ(found.vertices[v].is_suspect, expected.vertices[v].is_suspect) << v;
+    suspects += expected.vertices[v].is_suspect ? 1 : 0;
+  }
+  EXPECT_EQ(suspects, 11u);  // two for each part, and one more; two parts share theirs
+  for (std::size_t t = 0; t < expected.triangles.size(); ++t) {
+    EXPECT_EQ(found.triangles[t].corners, expected.triangles[t].corners) << t;
+    EXPECT_EQ(found.triangles[t].neighbours, expected.triangles[t].neighbours) << t;
+  }
 }
 
 TEST(RefinementSlabs, TrianglesBeyondThemStayAsTheyAre) {
   const SurfaceMesh mesh = wavy_square(40);
   RefinementMesh whole(mesh);
   const std::vector<Slab> apart = {{1, 3.5, 9.25}, {1, 20, 31.5}};
-  RefinementSlabs slabs(whole, apart, std::vector<float>(whole.triangles.size()), 1);
   std::size_t cut_out = 0;
-  for (const RefinementPart& part : slabs.parts()) cut_out += part.mesh.triangles.size();
+  RefinementSlabs slabs(whole, apart, std::vector<float>(whole.triangles.size()));
+  slabs.refine_each([&](std::size_t, const RefinementPart& part) { cut_out += part.mesh.triangles.size(); }, 1);
   EXPECT_EQ(cut_out, 80u * (7 + 13));  // the rows of squares that the slabs meet, planes included
-  slabs.join(whole, 2);
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(joined.points, mesh.points);

@@ -106,7 +106,7 @@ TEST(SelfIntersections, OfMarkedTrianglesAreAllPairsWithOne) {
     for (std::uint8_t& mark : marks) mark = rng.below(4) == 0 ? 1 : 0;
     constexpr std::size_t kAll = 10000;
     const SelfIntersections all = self_intersections(mesh, kAll);
-    const SelfIntersections found = self_intersections_of(marks, mesh.points, mesh.triangles, kAll);
+    const SelfIntersections found = self_intersections_of(marks, mesh, kAll);
     for (const auto kind : {&SelfIntersections::crossing, &SelfIntersections::touching}) {
       std::vector<TrianglePair> expected = all.*kind;
       std::erase_if(expected, [&](const TrianglePair& p) { return marks[p.first] == 0 && marks[p.second] == 0; });
