@@ -54,7 +54,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineStats counted;
     Refinement refinement(part, task.isosurface, task.options, counted);
     refinement.run(controls, threads);
-    if (round == Round::kLater) release_free_memory();  // the peak may lie in the check
+    release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
       return;

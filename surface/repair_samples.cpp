@@ -23,6 +23,7 @@ std::vector<Vec3> Resampling::coming_points() const { return points_of(coming); 
 
 RepairSamples::RepairSamples(const SignedDelaunay& restricted) {
   const auto& points = restricted.delaunay().points();
+  samples_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!restricted.is_virtual(VertexId(i))) samples_.push_back({points[i], 0});
   }

@@ -1,15 +1,32 @@
 #include "surface/surface_mesh.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace deliso {
 
+namespace {
+
+// For so many elements, and little more: an array that grows by itself may have twice the room it needs.
+template <class Element>
+void make_room(std::vector<Element>& array, std::size_t count) {
+  if (count > array.capacity()) array.reserve(std::max(count, array.size() + array.size() / 4));
+}
+
+}  // namespace
+
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to) {
   std::vector<std::uint32_t> new_vertex(from.points.size(), kNoSide);
+  auto count = static_cast<std::uint32_t>(to.points.size());
   for (std::uint32_t v = 0; v < from.points.size(); ++v) {
-    if (piece_of[v] >= wanted.size() || !wanted[piece_of[v]]) continue;
-    new_vertex[v] = static_cast<std::uint32_t>(to.points.size());
+    if (piece_of[v] < wanted.size() && wanted[piece_of[v]]) new_vertex[v] = count++;
+  }
+  make_room(to.points, count);
+  if (!from.pole_heights.empty()) make_room(to.pole_heights, count);
+  for (std::uint32_t v = 0; v < from.points.size(); ++v) {
+    if (new_vertex[v] == kNoSide) continue;
     to.points.push_back(from.points[v]);
     if (!from.pole_heights.empty()) to.pole_heights.push_back(from.pole_heights[v]);
   }
@@ -18,6 +35,8 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
   for (std::uint32_t t = 0; t < from.triangles.size(); ++t) {
     if (new_vertex[from.triangles[t][0]] != kNoSide) new_triangle[t] = next++;
   }
+  make_room(to.triangles, next);
+  make_room(to.neighbours, next);
   for (std::uint32_t t = 0; t < from.triangles.size(); ++t) {
     if (new_triangle[t] == kNoSide) continue;
     const auto& v = from.triangles[t];
