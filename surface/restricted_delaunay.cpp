@@ -8,17 +8,34 @@
 
 namespace deliso {
 
+namespace {
+
+struct RestrictedFacet {
+  std::array<VertexId, 3> vertices;
+  bool is_seen_from_above = false;  // counterclockwise from outside the tetrahedron above
+
+  // Of the link of a vertex, turned the same way for all facets.
+  [[nodiscard]] LinkEdge link_edge(unsigned i) const {
+    const VertexId next = vertices[(i + 1) % 3], last = vertices[(i + 2) % 3];
+    return is_seen_from_above ? LinkEdge{next, last} : LinkEdge{last, next};
+  }
+};
+
+}  // namespace
+
 RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule)
     : SignedDelaunay(isosurface, points), rule_(rule) {
   const Stopwatch watch;
   search_everything();
+  touched_vertices_.clear();
+  link_changes_.clear();
   restricted_seconds_ += watch.seconds();
 }
 
 void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
   tets_.assign(slots, {});
-  touched_stamp_.assign(delaunay_.vertex_count(), 0);
+  touches_.assign(delaunay_.vertex_count(), {});
   umbrellas_.assign(delaunay_.vertex_count(), {});
   std::vector<DualEnd> dual_ends(slots);
   for (std::size_t i = 0; i < slots; ++i) {
@@ -30,7 +47,7 @@ void RestrictedDelaunay::search_everything() {
       const FacetId f(TetId(i), face);
       const FacetId mirror = delaunay_.mirror(f);
       if (mirror < f) continue;
-      if (is_dual_to_surface(f)) add_restricted(f);
+      if (is_dual_to_surface(f)) count_restricted(is_above(f.tet()) ? f : mirror);
       if (is_restricted(f)) {
         search_facet(f);
       } else {
@@ -97,7 +114,7 @@ RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
   tets_.resize(delaunay_.tet_slots());
-  touched_stamp_.resize(delaunay_.vertex_count(), 0);
+  touches_.resize(delaunay_.vertex_count());
   umbrellas_.resize(delaunay_.vertex_count());
   const std::span<const TetId> created = delaunay_.created();
   dual_ends_.resize(created.size());
@@ -125,6 +142,7 @@ void RestrictedDelaunay::renew_star() {
     }
   }
   touch(last_vertex());
+  if (rule_ == FacetRule::kSigns) judge_umbrellas();
 }
 
 void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
@@ -180,41 +198,69 @@ bool RestrictedDelaunay::has_virtual_vertex(FacetId f) const {
   return is_virtual(v[0]) || is_virtual(v[1]) || is_virtual(v[2]);
 }
 
-void RestrictedDelaunay::add_restricted(FacetId f) {
-  const FacetId from_above = is_above(f.tet()) ? f : delaunay_.mirror(f);
-  for (const VertexId v : delaunay_.facet_vertices(f)) {
+void RestrictedDelaunay::count_restricted(FacetId from_above) {
+  for (const VertexId v : delaunay_.facet_vertices(from_above)) {
     if (is_virtual(v)) continue;
-    Umbrella& umbrella = umbrellas_[v.index()];
-    ++umbrella.size;
-    umbrella.facet = from_above;
-    touch(v);
+    ++umbrellas_[v.index()].size;
+    umbrellas_[v.index()].facet = from_above;
   }
 }
 
+void RestrictedDelaunay::add_restricted(FacetId f) {
+  count_restricted(is_above(f.tet()) ? f : delaunay_.mirror(f));
+  const RestrictedFacet facet{delaunay_.facet_vertices(f), is_above(f.tet())};
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!is_virtual(facet.vertices[i])) touch(facet.vertices[i]).gain(facet.link_edge(i));
+  }
+}
+
+// On the rim the sign in the region has changed by now; that beyond it tells what the facet was.
 void RestrictedDelaunay::remove_restricted(FacetId f) {
-  for (const VertexId v : delaunay_.facet_vertices(f)) {
+  const RestrictedFacet facet{delaunay_.facet_vertices(f), !is_above(delaunay_.mirror(f).tet())};
+  for (unsigned i = 0; i < 3; ++i) {
+    const VertexId v = facet.vertices[i];
     if (is_virtual(v)) continue;
     --umbrellas_[v.index()].size;
-    touch(v);
+    touch(v).lose(facet.link_edge(i));
   }
 }
 
-UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) const {
+// Which umbrellas the insertion has left disks for certain.
+void RestrictedDelaunay::judge_umbrellas() {
+  const VertexId newest = last_vertex();
+  for (std::size_t i = 0; i < touched_vertices_.size(); ++i) {
+    Umbrella& umbrella = umbrellas_[touched_vertices_[i].index()];
+    umbrella.is_disk = touched_vertices_[i] == newest
+                           ? link_changes_[i].is_new_cycle(umbrella.size, [&](VertexId v) { return is_virtual(v); })
+                           : umbrella.is_disk && link_changes_[i].keeps_cycle(newest);
+  }
+}
+
+UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) {
   if (rule_ == FacetRule::kHits) return UmbrellaShape::kBroken;  // the walk goes by signs
-  const auto& [size, facet] = umbrellas_[q.index()];
+  auto& [size, facet, is_disk] = umbrellas_[q.index()];
+  if (is_disk) return UmbrellaShape::kDisk;
   if (size == 0) return UmbrellaShape::kEmpty;
   // The facet known may be gone, and another one stand in its place.
   if (facet.is_none() || !delaunay_.is_live(facet.tet()) || !is_above(facet.tet()) || !is_restricted(facet))
     return UmbrellaShape::kBroken;
   const std::array<VertexId, 3> v = delaunay_.facet_vertices(facet);
   if (v[0] != q && v[1] != q && v[2] != q) return UmbrellaShape::kBroken;
-  return shape_by_walk(*this, q, facet, size);
+  const UmbrellaShape shape = shape_by_walk(*this, q, facet, size);
+  is_disk = shape == UmbrellaShape::kDisk;
+  return shape;
 }
 
-void RestrictedDelaunay::touch(VertexId v) {
-  if (is_virtual(v) || touched_stamp_[v.index()] == stamp_) return;
-  touched_stamp_[v.index()] = stamp_;
-  touched_vertices_.push_back(v);
+// Tells where to note what becomes of the vertex's link.
+LinkChange& RestrictedDelaunay::touch(VertexId v) {
+  Touch& touch = touches_[v.index()];
+  if (touch.stamp != stamp_) {
+    touch = {stamp_, static_cast<std::uint32_t>(touched_vertices_.size())};
+    touched_vertices_.push_back(v);
+    if (link_changes_.size() < touched_vertices_.size()) link_changes_.emplace_back();
+    link_changes_[touch.place].clear();
+  }
+  return link_changes_[touch.place];
 }
 
 DualEdgeId RestrictedDelaunay::make_edge() {

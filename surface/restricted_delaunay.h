@@ -11,6 +11,7 @@
 
 #include "delaunay/base/counters.h"
 #include "delaunay/base/huge_pages.h"
+#include "surface/link_change.h"
 #include "surface/signed_delaunay.h"
 #include "surface/umbrella.h"
 
@@ -64,9 +65,9 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] bool is_dual_to_surface(FacetId f) const;
   [[nodiscard]] bool falls_through(FacetId f) const override;
 
-  // The umbrella of a vertex, as far as a quick walk can tell (see shape_by_walk). Only while nobody but insert() has
-  // changed signs.
-  [[nodiscard]] UmbrellaShape quick_umbrella_shape(VertexId q) const;
+  // The umbrella of a vertex, as far as what insertions changed of it or a quick walk can tell (see link_change.h,
+  // shape_by_walk). Only while nobody but insert() has changed signs.
+  [[nodiscard]] UmbrellaShape quick_umbrella_shape(VertexId q);
 
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
   // How often the hits of a dual edge contradicted the signs at its ends.
@@ -98,9 +99,11 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] DualEnd dual_end_of(TetId t) const;
   void search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to);
   [[nodiscard]] bool has_virtual_vertex(FacetId f) const;
+  void count_restricted(FacetId from_above);
   void add_restricted(FacetId f);
   void remove_restricted(FacetId f);
-  void touch(VertexId v);
+  LinkChange& touch(VertexId v);
+  void judge_umbrellas();
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
@@ -110,14 +113,19 @@ class RestrictedDelaunay : public SignedDelaunay {
     std::uint32_t position = 0;       // in created(), if it is one of them
   };
   LargeArray<TetRecord> tets_;
-  std::vector<std::uint32_t> touched_stamp_;  // of each vertex: the insertion that touched it last
-  std::uint32_t stamp_ = 0;
+  struct Touch {
+    std::uint32_t stamp = 0;  // the insertion that touched a vertex last; 0 for none
+    std::uint32_t place = 0;  // in touched_vertices_, as long as it is the last one
+  };
+  std::vector<Touch> touches_;  // of each vertex
+  std::uint32_t stamp_ = 1;
   std::vector<DualEnd> dual_ends_;       // of created()
   std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: bits of its faces on the rim
   // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
   struct Umbrella {
     std::uint32_t size = 0;
     FacetId facet;
+    bool is_disk = false;  // known to be one, by what kSigns says
   };
   std::vector<Umbrella> umbrellas_;
 
@@ -125,6 +133,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   std::vector<DualEdgeId> free_edges_;
   std::vector<DualEdgeId> touched_edges_;
   std::vector<VertexId> touched_vertices_;
+  std::vector<LinkChange> link_changes_;  // of these, the rest for later ones
 
   std::vector<RimEdge> rim_edges_;
   DualEdge scratch_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "surface/link_change.h"
 #include "surface/signed_delaunay.h"
 
 namespace deliso {
@@ -41,9 +42,6 @@ class UmbrellaInspector {
   std::uint32_t inspection_ = 0;
   std::vector<TetId> star_;
   std::vector<FacetId> facets_;
-  struct LinkEdge {
-    VertexId from, to;
-  };
   std::vector<LinkEdge> link_;  // of facets_[i]: the edge opposite q, counterclockwise seen from below the isovalue
 };
 
