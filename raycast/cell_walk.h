@@ -66,7 +66,7 @@ class CellWalk {
   CellWalk(const IndexLine& line, const Cell& start, const Cell& end, double s_start, double s_end)
       : line_(&line), cell_(start), entry_{s_start, -1, 0}, key_low_(to_key(s_start)), key_high_(to_key(s_end)) {
     for (std::size_t a = 0; a < 3; ++a) {
-      step_[a] = end[a] < start[a] ? -1 : 1;
+      step_[a] = 1 - 2 * static_cast<std::int32_t>(end[a] < start[a]);
       remaining_[a] = step_[a] * (end[a] - start[a]);
       set_next(a);
     }
@@ -108,10 +108,13 @@ class CellWalk {
   }
   // The face behind the next `count` cells of an axis, count >= 1.
   [[nodiscard]] std::int32_t plane_after(std::size_t a, std::int32_t count) const {
-    return step_[a] > 0 ? cell_[a] + count - 1 : cell_[a] - count;
+    return cell_[a] + step_[a] * count - ((step_[a] + 1) >> 1);
   }
   [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return to_key(line_->crossing(a, plane)); }
-  void set_next(std::size_t a) { next_[a] = remaining_[a] > 0 ? key(a, plane_after(a, 1)) : kNever; }
+  void set_next(std::size_t a) {
+    const double next = key(a, plane_after(a, 1));
+    next_[a] = remaining_[a] > 0 ? next : kNever;
+  }
   [[nodiscard]] double clamped(double key) const { return to_key(std::min(std::max(key, key_low_), key_high_)); }
   [[nodiscard]] std::size_t next_axis() const {
     const std::size_t xy = precedes(next_[1], 1, next_[0], 0) ? 1 : 0;

@@ -83,10 +83,11 @@ void RestrictedDelaunay::search_facet(FacetId f) {
 // through the facet, +1 when it enters. The apex d satisfies |x(t) - d| = |x(t) - a|, which gives t = (|d - c|^2 - r^2)
 // / (2 n.(d - c)); the sign of n.(d - c) is known exactly, so a rounded one that disagrees counts as 0.
 double RestrictedDelaunay::dual_end(const DualEdge& edge, TetId t, int side) const {
+  // What is left of the four when the facet's three cancel out: which one it is cannot be foretold.
+  const auto& v = delaunay_.vertices(t);
   VertexId apex;
-  for (const VertexId v : delaunay_.vertices(t)) {
-    if (v != edge.vertices[0] && v != edge.vertices[1] && v != edge.vertices[2]) apex = v;
-  }
+  apex.value = v[0].value ^ v[1].value ^ v[2].value ^ v[3].value ^ edge.vertices[0].value ^ edge.vertices[1].value ^
+               edge.vertices[2].value;
   if (apex == kInfiniteVertex) return side * kInfinity;
   const Vec3 d = delaunay_.point(apex) - edge.dual.origin;
   const double height = std::max(side * dot(edge.dual.direction, d), std::numeric_limits<double>::min());

@@ -1,7 +1,6 @@
 #include "surface/restricted_delaunay.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "delaunay/base/stopwatch.h"
@@ -88,19 +87,28 @@ void RestrictedDelaunay::forget_region() {
   for (const std::uint32_t from : delaunay_.rim_from_inside()) {
     rim_faces_[from >> 2] = static_cast<std::uint8_t>(rim_faces_[from >> 2] | 1u << (from & 3u));
   }
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    // Every inner facet from one of its two sides.
-    unsigned faces = 0;
-    for (unsigned face = 0; face < 4; ++face) {
-      const FacetId f(region[i], face);
-      faces |= static_cast<unsigned>(f < delaunay_.mirror(f)) << face;
-    }
-    for (faces &= ~static_cast<unsigned>(rim_faces_[i]); faces != 0; faces &= faces - 1) {
-      const FacetId f(region[i], static_cast<unsigned>(std::countr_zero(faces)));
-      if (is_dual_to_surface(f)) remove_restricted(f);
-      if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
+  for (const FacetId f : facets_once(region, 0, rim_faces_)) {
+    if (is_dual_to_surface(f)) remove_restricted(f);
+    if (const DualEdgeId e = dual_edge_of(f); !e.is_none()) release_edge(e);
+  }
+}
+
+// The facets of some tetrahedra from `first_face` on, but for those of `left_out` (bits for each tetrahedron, or
+// empty), each from one of its two sides. Which side cannot be foretold: so all are written, and those not wanted
+// overwritten.
+std::span<const FacetId> RestrictedDelaunay::facets_once(std::span<const TetId> tets, unsigned first_face,
+                                                         std::span<const std::uint8_t> left_out) {
+  facets_once_.resize(4 * tets.size() + 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const unsigned wanted = left_out.empty() ? ~0u : ~static_cast<unsigned>(left_out[i]);
+    for (unsigned face = first_face; face < 4; ++face) {
+      const FacetId f(tets[i], face);
+      facets_once_[count] = f;
+      count += static_cast<unsigned>(f < delaunay_.mirror(f)) & (wanted >> face);
     }
   }
+  return std::span(facets_once_).first(count);
 }
 
 RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
@@ -127,18 +135,14 @@ void RestrictedDelaunay::renew_star() {
     sign_[created[i].index()] = is_above ? Sign::kAbove : Sign::kBelow;
   }
   for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
-  for (std::size_t i = 0; i < created.size(); ++i) {
-    for (unsigned face = 1; face < 4; ++face) {
-      const FacetId f(created[i], face);
-      const FacetId mirror = delaunay_.mirror(f);
-      if (mirror < f) continue;
-      const bool restricted = sign_[created[i].index()] != sign_[mirror.tet().index()];
-      if (rule_ == FacetRule::kSigns ? restricted : is_dual_to_surface(f)) add_restricted(f);
-      if (restricted) {
-        search_facet(f);
-      } else {
-        search_clear_facet(f, dual_ends_[i], dual_ends_[tets_[mirror.tet().index()].position]);
-      }
+  for (const FacetId f : facets_once(created, 1, {})) {
+    const TetId across = delaunay_.mirror(f).tet();
+    const bool restricted = sign_[f.tet().index()] != sign_[across.index()];
+    if (rule_ == FacetRule::kSigns ? restricted : is_dual_to_surface(f)) add_restricted(f);
+    if (restricted) {
+      search_facet(f);
+    } else {
+      search_clear_facet(f, dual_ends_[tets_[f.tet().index()].position], dual_ends_[tets_[across.index()].position]);
     }
   }
   touch(last_vertex());

@@ -84,6 +84,8 @@ class RestrictedDelaunay : public SignedDelaunay {
 
   void search_everything();
   void forget_region();
+  [[nodiscard]] std::span<const FacetId> facets_once(std::span<const TetId> tets, unsigned first_face,
+                                                     std::span<const std::uint8_t> left_out);
   void renew_star();
   void renew_rim_facet(TetId created, const RimEdge& rim);
   void search_facet(FacetId f);
@@ -120,6 +122,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   std::vector<Touch> touches_;  // of each vertex
   std::uint32_t stamp_ = 1;
   std::vector<DualEnd> dual_ends_;       // of created()
+  std::vector<FacetId> facets_once_;     // the latest
   std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: bits of its faces on the rim
   // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
   struct Umbrella {
