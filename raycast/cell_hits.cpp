@@ -17,7 +17,10 @@ Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValue
     inside[static_cast<std::size_t>(at.axis)] = at.plane;
   }
   const auto coordinate = [&](std::size_t a) {
-    const double u = std::min(std::max(inside[a] - base[a], 0.0), 1.0);
+    // By selection: crossings lie on either face as often as between them.
+    double u = inside[a] - base[a];
+    u = u < 0 ? 0 : u;
+    u = u > 1 ? 1 : u;
     // Outer cells: the coordinate stays that of the box's face.
     return cell[a] == 0 ? 0.0 : cell[a] == dims[a] ? 1.0 : u;
   };

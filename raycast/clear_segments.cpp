@@ -42,15 +42,18 @@ void Isosurface::prefetch(const Place& place) const {
 bool Isosurface::is_clear_box(const Place& a, const Place& b) const {
   if (bricks_ == nullptr) return false;
   if (EmptyBricks::is_empty_between(a.cell, a.clearance, b.cell, b.clearance)) return true;
+  // Which cell is the lower one cannot be foretold: without branches.
   Cell low;
   Cell high;
-  std::int32_t longest = 0;
+  std::int32_t too_long = 0;  // below 0 when it is
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = std::min(a.cell[axis], b.cell[axis]);
-    high[axis] = std::max(a.cell[axis], b.cell[axis]);
-    longest = std::max(longest, high[axis] - low[axis]);
+    const std::int32_t ahead = b.cell[axis] - a.cell[axis];
+    const std::int32_t back = ahead & (ahead >> 31);  // 0 unless it goes back
+    low[axis] = a.cell[axis] + back;
+    high[axis] = b.cell[axis] - back;
+    too_long |= kMostCells - (high[axis] - low[axis]);
   }
-  return longest <= kMostCells && !active_->any_active(low, high);
+  return too_long >= 0 && !active_->any_active(low, high);
 }
 
 bool Isosurface::is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b) const {
