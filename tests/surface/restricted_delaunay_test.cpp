@@ -73,7 +73,7 @@ bool has_near(const std::vector<NamedHit>& hits, const Vec3& p, double tolerance
 }
 
 // Quick umbrella shapes are right or not known, and known for most of those that are disks or half disks.
-void expect_right_quick_umbrellas(const RestrictedDelaunay& restricted) {
+void expect_right_quick_umbrellas(RestrictedDelaunay& restricted) {
   const auto facets = testing::restricted_by_name(restricted);
   int simple = 0;
   int known = 0;
