@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "delaunay/base/rng.h"
 #include "delaunay/tetrahedralization.h"
 #include "tests/support/delaunay_big_integer.h"
 
@@ -90,6 +91,14 @@ inline std::set<std::array<std::uint32_t, 4>> tetrahedra_as_sets(const Tetrahedr
     result.insert(key);
   }
   return result;
+}
+
+// Any live tetrahedron: where a search may start.
+inline TetId some_live_tet(const Tetrahedralization& tets, Rng& rng) {
+  for (;;) {
+    const TetId t(rng.below(tets.tet_slots()));
+    if (tets.is_live(t)) return t;
+  }
 }
 
 }  // namespace deliso::test

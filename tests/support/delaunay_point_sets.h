@@ -20,6 +20,15 @@ inline Box3 box_of(const Points& points) {
   return box;
 }
 
+// The points without those that equal an earlier one.
+inline Points distinct(const Points& points) {
+  Points result;
+  for (const Vec3& p : points) {
+    if (std::find(result.begin(), result.end(), p) == result.end()) result.push_back(p);
+  }
+  return result;
+}
+
 inline void shuffle(Points& points, Rng& rng) {
   for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[rng.below(i)]);
 }

@@ -1,18 +1,34 @@
-// Grids for the topology tests: random integers, refinements with the same interpolant, the symmetries of the cube.
+// Grids for the topology tests: sampled fields, random integers, refinements with the same interpolant, the symmetries
+// of the cube.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/rng.h"
+#include "delaunay/base/vec3.h"
 #include "tests/support/topology_oracle.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso::test {
+
+// field(x, y, z) at the samples, which are unit steps apart.
+inline ScalarGrid sampled(const Dims& dims, const std::function<double(const Vec3&)>& field) {
+  std::vector<double> samples;
+  for (std::int32_t k = 0; k < dims[2]; ++k) {
+    for (std::int32_t j = 0; j < dims[1]; ++j) {
+      for (std::int32_t i = 0; i < dims[0]; ++i) {
+        samples.push_back(field({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}));
+      }
+    }
+  }
+  return {dims, samples};
+}
 
 // Samples uniform in {-range, ..., range - 1} and the isovalue -1/2: both signs are equally likely, and for a small
 // range ties are everywhere.
@@ -36,6 +52,10 @@ inline ScalarGrid scalar_grid(const IntegerGrid& grid) {
   return {grid.dims, std::vector<double>(grid.samples.begin(), grid.samples.end())};
 }
 inline double isovalue_of(const IntegerGrid& grid) { return static_cast<double>(grid.twice_isovalue) / 2; }
+
+inline bool is_singular(const IntegerGrid& grid) {
+  return !exact_topology(scalar_grid(grid), isovalue_of(grid)).singular_cells.empty();
+}
 
 // n samples for every voxel step, all values times n^3: the same interpolant, exactly.
 inline IntegerGrid refined(const IntegerGrid& grid, std::int32_t n) {

@@ -1,0 +1,170 @@
+// Options of the search: whatever they are, the hits are the same; and what the counters say of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/rng.h"
+#include "raycast/isosurface.h"
+#include "tests/support/raycast_cases.h"
+#include "tests/support/raycast_fields.h"
+#include "tests/support/raycast_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::Case;
+using testing::cases;
+using testing::describe;
+using testing::hits_of;
+using testing::noise_grid;
+using testing::random_line;
+using testing::RayOracle;
+using testing::wave_grid;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<SearchOptions> all_options() {
+  std::vector<SearchOptions> list;
+  for (const Traversal traversal : {Traversal::kKdTree, Traversal::kCellWalk})
+    for (const bool pruning : {true, false})
+      for (const std::int32_t leaf : {1, 5, 64})
+        for (const bool incremental : {true, false}) {
+          SearchOptions options;
+          options.traversal = traversal;
+          options.min_max_pruning = pruning;
+          options.leaf_cells = leaf;
+          options.incremental = incremental;
+          list.push_back(options);
+        }
+  return list;
+}
+
+TEST(Isosurface, EveryTraversalFindsTheSameHitsBitForBit) {
+  for (const Case& c : cases()) {
+    const Isosurface reference(c.grid, c.isovalue, {});
+    for (const SearchOptions& options : all_options()) {
+      const Isosurface surface(c.grid, c.isovalue, options);
+      Rng rng(16);
+      for (int trial = 0; trial < 300; ++trial) {
+        const Line line = random_line(surface, rng);
+        const bool infinite = rng.below(4) == 0;
+        const double t0 = infinite ? -kInfinity : rng.uniform(-20, 20);
+        const double t1 = infinite ? kInfinity : rng.uniform(t0, 40);
+        const std::vector<Hit> expected = hits_of(reference, line, t0, t1);
+        const std::vector<Hit> hits = hits_of(surface, line, t0, t1);
+        ASSERT_EQ(hits.size(), expected.size()) << describe(line, t0, t1);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+          ASSERT_EQ(hits[i].t, expected[i].t) << describe(line, t0, t1);
+          ASSERT_EQ(hits[i].falling, expected[i].falling) << describe(line, t0, t1);
+        }
+      }
+    }
+  }
+}
+
+std::optional<double> nearest_of_all_hits(const Isosurface& surface, const Line& line, double reach) {
+  std::optional<double> nearest;
+  for (const Hit& hit : hits_of(surface, line, -kInfinity, kInfinity))
+    if (hit.falling && std::abs(hit.t) <= reach && (!nearest || std::abs(hit.t) <= std::abs(*nearest))) nearest = hit.t;
+  return nearest;
+}
+
+// Bit for bit by the walks; a hit that is found in the start cell without them differs by rounding, but by no option.
+TEST(Isosurface, NearestFallingHitIsTheNearestOfAllHitsWithEveryOption) {
+  for (const CubicSolver solver : {CubicSolver::kBracketed, CubicSolver::kSchwarze}) {
+    SearchOptions plain;
+    plain.solver = solver;
+    for (const Case& c : cases()) {
+      const Isosurface reference(c.grid, c.isovalue, plain);
+      for (SearchOptions options : all_options()) {
+        options.solver = solver;
+        const bool is_quick = options.incremental && solver == CubicSolver::kBracketed;
+        const Isosurface surface(c.grid, c.isovalue, options);
+        Rng rng(17);
+        for (int trial = 0; trial < 300; ++trial) {
+          const Line line = random_line(surface, rng);
+          const double reach = rng.below(2) == 0 ? kInfinity : rng.uniform(0, 5);
+          const std::optional<double> expected = nearest_of_all_hits(reference, line, reach);
+          SearchCounters counters;
+          const std::optional<double> found = surface.nearest_falling_hit(line, reach, counters);
+          ASSERT_EQ(found.has_value(), expected.has_value()) << describe(line, -reach, reach);
+          if (!found) continue;
+          if (is_quick) {
+            ASSERT_NEAR(*found, *expected, 1e-12) << describe(line, -reach, reach);
+            ASSERT_EQ(*found, *reference.nearest_falling_hit(line, reach, counters)) << describe(line, -reach, reach);
+          } else {
+            ASSERT_EQ(*found, *expected) << describe(line, -reach, reach);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Isosurface, SchwarzeFindsTheSameHitsExceptNearTouches) {
+  for (const Case& c : cases()) {
+    SearchOptions options;
+    options.solver = CubicSolver::kSchwarze;
+    const Isosurface schwarze(c.grid, c.isovalue, options);
+    const Isosurface bracketed(c.grid, c.isovalue, {});
+    const RayOracle oracle(c.grid, c.isovalue, schwarze.step());
+    Rng rng(18);
+    for (int trial = 0; trial < 1000; ++trial) {
+      const Line line = random_line(schwarze, rng);
+      if (oracle.roots(line, -5, 30).near_touch) continue;
+      const std::vector<Hit> a = hits_of(schwarze, line, -5, 30);
+      const std::vector<Hit> b = hits_of(bracketed, line, -5, 30);
+      ASSERT_EQ(a.size(), b.size()) << describe(line, -5, 30);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_NEAR(a[i].t, b[i].t, 1e-6 / norm(line.direction)) << describe(line, -5, 30);
+    }
+  }
+}
+
+TEST(Isosurface, CountersCountSearchesAndSolves) {
+  Rng rng(22);
+  const ScalarGrid grid = wave_grid({24, 20, 33}, {1, 1, 1}, rng);
+  SearchOptions options;
+  const Isosurface pruned(grid, 0.1, options);
+  options.traversal = Traversal::kKdTree;
+  const Isosurface tree(grid, 0.1, options);
+  options.min_max_pruning = false;
+  const Isosurface unpruned(grid, 0.1, options);
+  SearchCounters a;
+  SearchCounters b;
+  SearchCounters c;
+  std::uint64_t with_hits = 0;
+  std::vector<Hit> hits;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Line line = random_line(pruned, rng);
+    const SearchCounters before = a;
+    pruned.all_hits(line, 0, 10, hits, a);
+    with_hits += static_cast<std::uint64_t>(!hits.empty());
+    EXPECT_GE(a.solves - before.solves, (hits.size() + 2) / 3);
+    tree.all_hits(line, 0, 10, hits, b);
+    unpruned.all_hits(line, 0, 10, hits, c);
+  }
+  EXPECT_EQ(a.searches, 1000u);
+  EXPECT_EQ(a.searches_hit, with_hits);
+  EXPECT_EQ(a.solves, b.solves);
+  EXPECT_EQ(a.solves_hit, b.solves_hit);
+  EXPECT_EQ(a.searches_hit, c.searches_hit);
+  EXPECT_LT(a.solves, c.solves);
+  EXPECT_LE(a.solves_hit, a.solves);
+}
+
+TEST(Isosurface, RefusesALeafWithoutCells) {
+  Rng rng(23);
+  const ScalarGrid grid = noise_grid({3, 3, 3}, {1, 1, 1}, rng);
+  SearchOptions options;
+  options.leaf_cells = 0;
+  EXPECT_THROW(Isosurface(grid, 127.5, options), InputError);
+}
+
+}  // namespace
+}  // namespace deliso

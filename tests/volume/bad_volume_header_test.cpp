@@ -1,0 +1,144 @@
+// Headers that describe no volume: lines, fields, types, dimensions and geometry that are refused.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/bad_volumes.h"
+#include "tests/support/volume_files.h"
+#include "volume/io/volume_file.h"
+
+namespace deliso {
+namespace {
+
+using test::BadVolume;
+using test::Header;
+using test::kSamples;
+
+TEST_F(BadVolume, LinesThatAreNoHeaderLines) {
+  Header header;
+  header.more = "this is not a header line\n";
+  refuse(header, {"line 6", "\"this is not a header line\"", "field: value"});
+  header.more = "kinds:domain\n";
+  refuse(header, {"line 6", "\"kinds:domain\""});
+  header.more = std::string("\x01\x02\xff binary", 10) + "\n";
+  refuse(header, {"line 6", "\"??? binary\""});
+  header.more = "spacing: 1 1 1\n";
+  refuse(header, {"line 6", "\"spacing\"", "\"spacings\""});
+  header.more = "type: uint8\n";
+  refuse(header, {"line 6", "\"type\"", "line 2"});
+  header.more = ": 1\n";
+  refuse(header, {"line 6"});
+}
+
+TEST_F(BadVolume, MissingFields) {
+  for (const auto& [line, name] :
+       {std::pair{&Header::type, "\"type\""}, std::pair{&Header::dimension, "\"dimension\""},
+        std::pair{&Header::sizes, "\"sizes\""}, std::pair{&Header::encoding, "\"encoding\""}}) {
+    Header header;
+    header.*line = "";
+    refuse(header, {"no field", name});
+  }
+  Header header;
+  header.type = "type: int16\n";
+  refuse(header, {"no field \"endian\"", "more than one byte"});
+  refuse(Header().text(), {"no field \"data file\""}, "v.nhdr");
+}
+
+TEST_F(BadVolume, UnknownTypesEncodingsAndByteOrders) {
+  for (const std::string type : {"uint32", "unsigned int", "int64", "block", "half", "", "uint8 uint8"}) {
+    Header header;
+    header.type = "type: " + type + "\n";
+    refuse(header, {"line 2", "\"" + type + "\"", "uint8, int8, uint16, int16, int32, float or double"});
+  }
+  for (const std::string encoding : {"bzip2", "ascii", "hex", "RAW1"}) {
+    Header header;
+    header.encoding = "encoding: " + encoding + "\n";
+    refuse(header, {"line 5", "\"" + encoding + "\"", "raw or gzip"});
+  }
+  Header header;
+  header.more = "endian: middle\n";
+  header.type = "type: short\n";
+  refuse(header, {"line 6", "\"middle\"", "little or big"});
+}
+
+TEST_F(BadVolume, DimensionsThatMakeNoVolume) {
+  for (const std::string dimension : {"2", "5", "0", "-3", "three", "3.0", ""}) {
+    Header header;
+    header.dimension = "dimension: " + dimension + "\n";
+    refuse(header, {"line 3", "\"" + dimension + "\""});
+  }
+  for (const std::string sizes : {"2 3", "2 3 2 1", "2 3 0", "2 3 -2", "2 3 1", "2 3 2147483647", "2 3 x", "2 3 2.5",
+                                  "2 3 99999999999999999999", ""}) {
+    Header header;
+    header.sizes = "sizes: " + sizes + "\n";
+    refuse(header, {"line 4", "sizes"});
+  }
+  Header header;
+  header.dimension = "dimension: 4\n";
+  header.sizes = "sizes: 3 2 2 3\n";
+  refuse(header, {"line 4", "\"3 2 2 3\"", "scalar"});
+}
+
+TEST_F(BadVolume, AHeaderThatLiesTakesNoMemory) {
+  // Any of these would need from gigabytes to more than memory can address.
+  for (const std::string sizes : {"100000 100000 100", "2000000 2000000 2000000", "2147483645 2147483645 2147483645"})
+    for (const std::string encoding : {"raw", "gzip"}) {
+      Header header;
+      header.sizes = "sizes: " + sizes + "\n";
+      header.encoding = "encoding: " + encoding + "\n";
+      refuse(header, {"dimensions"});
+    }
+}
+
+TEST_F(BadVolume, GeometryThatIsNone) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"spacings: 1 1\n", "3 values"},
+      {"spacings: 1 1 0\n", "positive spacing"},
+      {"spacings: 1 1 -1\n", "positive spacing"},
+      {"spacings: 1 1 inf\n", "finite number"},
+      {"spacings: 1 1 1e999\n", "finite number"},
+      {"spacings: 1 1 one\n", "\"one\""},
+      {"axis mins: 0 0 0\naxis maxs: 1 1 -1\n", "positive spacing"},
+      {"space directions: (1,0,0) (0,1,0)\n", "3 vectors"},
+      {"space directions: (1,0,0) (0,1,0) none\n", "a direction for each axis"},
+      {"space directions: (1,0,0) (0,1,0) (0,0)\n", "three numbers"},
+      {"space directions: (1,0,0) (0,1,0) (0,0,x)\n", "\"x\""},
+      {"space directions: (1,0,0) (0,1,0) (0,0,1\n", "(1,0,0)"},
+      {"space directions: (1,0,0) (0,1,0) (0,0,0)\n", "along the axes"},
+      {"space directions: (0,1,0) (1,0,0) (0,0,1)\n", "oblique and permuted"},
+      {"space directions: (1,0.01,0) (0,1,0) (0,0,1)\n", "oblique and permuted"},
+      {"space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n", "not both"},
+      {"space origin: (0,0)\n", "three numbers"},
+      {"space origin: (0,0,nan)\n", "finite number"},
+      {"space origin: 0 0 0\n", "(1,0,0)"},
+  };
+  for (const auto& [lines, part] : cases) {
+    Header header;
+    header.more = lines;
+    refuse(header, {"line ", part});
+  }
+}
+
+TEST_F(BadVolume, DataFilesAndSkipsThatLeadNowhere) {
+  const auto with = [](const std::string& lines) {
+    Header header;
+    header.more = lines;
+    return header.text();
+  };
+  refuse(with("data file: none.raw\n"), {"no such file"}, "v.nhdr");
+  expect_input_error([&] { read_volume(directory_ / "v.nhdr"); }, {"none.raw"});
+  refuse(with("data file: LIST\n"), {"line 6", "several files"}, "v.nhdr");
+  refuse(with("data file: slice%03d.raw 1 9 1\n"), {"line 6", "several files"}, "v.nhdr");
+  refuse(with("data file:\n"), {"line 6", "file name"}, "v.nhdr");
+  refuse(with("line skip: -1\n") + kSamples, {"line 6", "\"-1\""});
+  refuse(with("byte skip: -2\n") + kSamples, {"line 6", "\"-2\""});
+  refuse(with("line skip: 5\n") + "one\ntwo\n", {"line skip", "5", "2 lines"});
+  refuse(with("byte skip: 5\n") + "123", {"end after 3 bytes", "5 bytes"});
+  refuse(with("byte skip: 9223372036854775807\n") + kSamples, {"end after 12 bytes"});
+  refuse(with("byte skip: -1\n") + "123", {"end after 3 bytes"});
+}
+
+}  // namespace
+}  // namespace deliso
