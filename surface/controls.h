@@ -63,6 +63,7 @@ class Controls {
     }
     return part;
   }
+  // To be called once, of what for_part gave.
   void part_begins_with(std::size_t vertices) {
     if (budget_.max_vertices) *budget_.max_vertices += static_cast<std::int64_t>(vertices);
   }

@@ -116,9 +116,9 @@ void StarCensus::gather(std::uint32_t v) {
   }
 }
 
-// The rule: the triangles form one closed umbrella, all turned the same way. A walk around the vertex visits each of
-// them once, and each edge is found in one only: the search begins at the first corner every time. A long fan may be
-// denied.
+// The rule: the triangles form one closed umbrella, all turned the same way. Then a walk around the vertex visits each
+// of them once. Of two that come after the same edge the first is always found, so the walk cannot visit both. A long
+// fan may be denied.
 bool StarCensus::is_closed_fan(std::uint32_t v) const {
   if (at_.size() > kMostOfShortFan) return false;
   std::uint32_t visited = 1, next = at_[0].next;

@@ -47,8 +47,8 @@ struct MeshTopology {
   [[nodiscard]] bool is_oriented() const { return is_manifold() && misoriented_edges == 0; }
 };
 
-// In linear time for meshes of bounded valence; takes 36 bytes per vertex beside the mesh. The same for any number of
-// threads. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
+// In linear time for meshes of bounded valence; takes about 36 bytes per vertex of a closed mesh. The same for any
+// number of threads. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads = 1);
 
 // The first triangle that names a vertex out of range; mesh.triangles.size() when there is none.

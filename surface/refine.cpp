@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "delaunay/base/memory.h"
-#include "delaunay/base/parallel.h"
 #include "surface/crossing_guard.h"
 #include "surface/refinement.h"
 #include "surface/refinement_crossings.h"
@@ -118,7 +117,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   RefinementPart whole;
   RefinementMesh& refined = whole.mesh;
   refined = RefinementMesh(mesh);
-  mesh = {};  // not needed before all is refined, where the peak of a whole run may lie
+  mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
   set_clearances(refined);
   const std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles);

@@ -69,7 +69,7 @@ struct RefineStats : StageStats {
 };
 
 // Counters are those of what stayed, but searches count whatever was done. When `balls` is given, it gets B_sigma of
-// each triangle.
+// each triangle. After an exception the mesh is empty.
 void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
             RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
 

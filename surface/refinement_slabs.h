@@ -34,7 +34,8 @@ class RefinementSlabs {
 
   // Cuts out part after part, has each refined, on several threads at a time, and puts it back in place of what was cut
   // out. Old vertices keep their places; new ones come in the order of the slabs. The memory of a part that is back
-  // serves a later one, so that all parts together need little more than the whole. To be called once.
+  // serves a later one, so that as a rule all parts together need little more than the whole; only parts that wait for
+  // an earlier one are kept beside it. To be called once; after an exception the whole is of no use.
   void refine_each(const RefinePart& refine, int threads);
 
  private:

@@ -26,7 +26,7 @@ RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<c
     : SignedDelaunay(isosurface, points), rule_(rule) {
   const Stopwatch watch;
   search_everything();
-  touched_vertices_.clear();
+  touched_vertices_.clear();  // by kHits searches have touched some
   link_changes_.clear();
   restricted_seconds_ += watch.seconds();
 }
@@ -218,7 +218,8 @@ void RestrictedDelaunay::add_restricted(FacetId f) {
   }
 }
 
-// On the rim the sign in the region has changed by now; that beyond it tells what the facet was.
+// On the rim the sign in the region has changed by now; that beyond it tells which way the facet was turned. (By kHits
+// this may be wrong, and nobody asks.)
 void RestrictedDelaunay::remove_restricted(FacetId f) {
   const RestrictedFacet facet{delaunay_.facet_vertices(f), !is_above(delaunay_.mirror(f).tet())};
   for (unsigned i = 0; i < 3; ++i) {

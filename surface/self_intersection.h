@@ -33,7 +33,7 @@ SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
                                      int threads = 1);
 // The same of the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
-// none: then all count. A mesh that is moved in gives back its memory before the most is needed.
+// none: then all count. A mesh that is moved in is freed before the search, where the most memory is needed.
 SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep = 10,
                                         int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {
