@@ -20,6 +20,9 @@ namespace {
 // Starts again at most this often.
 constexpr std::int64_t kMostRestarts = 3;
 
+// What slabs leave behind in small pieces matters only beside nearly all of the whole: giving it back takes time.
+constexpr std::size_t kSlabsNearPeak = 2;
+
 // A first round renews most triangles of a part; a later one, of what others have left coarse, few.
 enum class Round { kFirst, kLater };
 
@@ -53,7 +56,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineStats counted;
     Refinement refinement(part, task.isosurface, task.options, counted);
     refinement.run(controls, threads);
-    release_free_memory();  // the peak may lie in the check
+    if (round == Round::kLater) release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
       return;
@@ -89,6 +92,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::spa
   const double share = 1.0 / static_cast<double>(slabs.size());
   std::vector<Controls> limits(slabs.size(), task.controls.for_part(share, mesh.vertices.size()));
   const auto refine = [&](std::size_t k, RefinementPart& part) {
+    if (k + kSlabsNearPeak >= slabs.size()) release_free_memory();
     limits[k].part_begins_with(part.mesh.vertices.size());
     refine_part(part, Round::kFirst, task, limits[k], 1, counted[k]);
   };

@@ -10,9 +10,9 @@
 #include "experiments/json.h"
 #include "surface/certificate.h"
 #include "surface/mesh_io.h"
+#include "tests/support/program_runner.h"
 #include "volume/analytic_fields.h"
 #include "volume/io/nrrd.h"
-#include "tests/support/program_runner.h"
 
 namespace deliso::testing {
 namespace {
