@@ -82,7 +82,6 @@ class Repair {
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;
-  bool is_own_ = false;                // whether the triangulation is repair's own, not that of stage 1
   RepairSamples samples_;              // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   KeptMeshes kept_;
@@ -148,7 +147,7 @@ SurfaceMesh Repair::as_it_is() {
 // where there are threads for both.
 void Repair::resample() {
   const Resampling resampling = samples_.resampling(raised_, lattice_, isosurface_);
-  const bool is_continued = is_own_ && samples_.changes_few(resampling);
+  const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || threads_ == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
   if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
@@ -165,7 +164,6 @@ void Repair::resample() {
   });
   round_.emplace(grid_, topology_, raised_, std::move(next), threads_);
   samples_.take_vertices(vertex_of);
-  is_own_ = true;
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
