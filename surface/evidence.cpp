@@ -19,7 +19,7 @@ namespace {
 constexpr double kShortest = 1.0 / 64;
 
 // Cells that one thread takes at a time.
-constexpr std::size_t kCellsAtOnce = 256;
+constexpr std::size_t kCellsAtOnce = 512;
 
 class Collector {
  public:

@@ -24,7 +24,7 @@ class SampleLocator {
   TetId locate(const std::array<std::int32_t, 3>& cell, unsigned corner, TetId hint);
 
  private:
-  static constexpr unsigned kBits = 12;
+  static constexpr unsigned kBits = 14;
   struct Known {
     std::size_t sample = std::numeric_limits<std::size_t>::max();  // its index in the grid
     unsigned corner = 0;
