@@ -36,6 +36,10 @@ double permanent3(const Row<double>& a, const Row<double>& b, const Row<double>&
   return a.z * (b.x * c.y + c.x * b.y) + b.z * (c.x * a.y + a.x * c.y) + c.z * (a.x * b.y + b.x * a.y);
 }
 
+Row<double> are_not_zero(const Row<double>& a) {
+  return {a.x != 0 ? 1.0 : 0.0, a.y != 0 ? 1.0 : 0.0, a.z != 0 ? 1.0 : 0.0};
+}
+
 double lift(const Row<double>& a) { return a.x * a.x + a.y * a.y + a.z * a.z; }
 
 double exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -78,6 +82,8 @@ double orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double det = determinant3(ab, ac, ad);
   const double permanent = permanent3(magnitudes(ab), magnitudes(ac), magnitudes(ad));
   if (std::abs(det) * kOrientRelativeError > kOrientErrorDouble * permanent) return det;
+  // In a plane or on a line of the grid every monomial has a factor that is exactly zero.
+  if (permanent == 0 && permanent3(are_not_zero(ab), are_not_zero(ac), are_not_zero(ad)) == 0) return 0;
 
   // Stage 2: exact differences, double-double determinant.
   using Number = DoubleDouble;
