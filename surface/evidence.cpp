@@ -7,6 +7,7 @@
 
 #include "delaunay/predicates.h"
 #include "surface/blocks.h"
+#include "surface/passage.h"
 #include "surface/sample_locator.h"
 #include "volume/critical_points.h"
 #include "volume/exact_topology_cell.h"
@@ -37,7 +38,17 @@ class Collector {
  private:
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
+  // A point of a segment and the tetrahedron that holds it.
+  struct Stop {
+    double s = 0;
+    Vec3 point;
+    Passage passage;
+  };
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
+  void follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side);
+  [[nodiscard]] Passage passage_of(TetId t, const Segment& segment) const {
+    return delaunay_.is_ghost(t) ? Passage{t} : passage_through(delaunay_, t, segment);
+  }
   TetId note(const Vec3& p, std::uint8_t side);
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
   void note_located(const Vec3& p, std::uint8_t side);
@@ -115,13 +126,28 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
   }
 }
 
-// Halves the segment until both ends lie in one tetrahedron.
 void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
-  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest) return;
-  const Vec3 middle = 0.5 * (a + b);
-  const TetId at_middle = note(middle, side);
-  follow(a, at_a, middle, at_middle, side);
-  follow(middle, at_middle, b, at_b, side);
+  if (at_a == at_b) return;
+  const Segment segment{a, b};
+  follow(segment, {0, a, passage_of(at_a, segment)}, {1, b, passage_of(at_b, segment)}, side);
+}
+
+// Halves the segment until both ends lie in one tetrahedron. Only where the middle is not surely in one that is known,
+// and so has taken note, it is looked for.
+void Collector::follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side) {
+  const double squared_length = squared_distance(from.point, to.point);
+  if (from.passage.tet == to.passage.tet || squared_length < kShortest * kShortest) return;
+  Stop middle{0.5 * (from.s + to.s), 0.5 * (from.point + to.point), {}};
+  if (from.passage.surely_holds(middle.s) || to.passage.surely_holds(middle.s)) {
+    middle.passage = from.passage.surely_holds(middle.s) ? from.passage : to.passage;
+    hint_ = middle.passage.tet;
+  } else {
+    middle.passage.tet = note(middle.point, side);
+    const bool is_last = squared_length < 4 * kShortest * kShortest;
+    if (!is_last) middle.passage = passage_of(hint_, segment);
+  }
+  follow(segment, from, middle, side);
+  follow(segment, middle, to, side);
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
