@@ -8,21 +8,28 @@ namespace deliso {
 std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
                                                const std::function<std::int32_t(TetId)>& distance) {
   const Tetrahedralization& delaunay = restricted.delaunay();
-  constexpr std::int32_t kNotDisputed = -1;
-  std::vector<std::int32_t> distance_of(delaunay.tet_slots(), kNotDisputed);
-  for (std::size_t i = 0; i < distance_of.size(); ++i) {
-    const TetId t(i);
-    if (delaunay.is_live(t) && restricted.is_above(t) != (signs[i] != 0)) distance_of[i] = distance(t);
-  }
+  struct Disputed {
+    TetId tet;
+    std::int32_t distance;  // kTaken when it is in a cluster
+  };
+  constexpr std::int32_t kTaken = -1;
+  std::vector<Disputed> disputed;  // ascending
+  restricted.for_each_difference(signs, [&](TetId t) {
+    if (!delaunay.is_live(t)) return;
+    const std::int32_t away = distance(t);
+    if (away >= 0) disputed.push_back({t, away});
+  });
   std::vector<DisputedCluster> clusters;
-  for (std::size_t seed = 0; seed < distance_of.size(); ++seed) {
-    if (distance_of[seed] < 0) continue;
-    DisputedCluster cluster{{TetId(seed)}, std::exchange(distance_of[seed], kNotDisputed)};
+  for (Disputed& seed : disputed) {
+    if (seed.distance == kTaken) continue;
+    DisputedCluster cluster{{seed.tet}, std::exchange(seed.distance, kTaken)};
     for (std::size_t at = 0; at < cluster.tets.size(); ++at) {
       for (unsigned face = 0; face < 4; ++face) {
         const TetId next = delaunay.neighbour(cluster.tets[at], face);
-        if (distance_of[next.index()] < 0) continue;
-        cluster.distance = std::min(cluster.distance, std::exchange(distance_of[next.index()], kNotDisputed));
+        const auto found = std::lower_bound(disputed.begin(), disputed.end(), next,
+                                            [](const Disputed& d, TetId t) { return d.tet < t; });
+        if (found == disputed.end() || found->tet != next || found->distance == kTaken) continue;
+        cluster.distance = std::min(cluster.distance, std::exchange(found->distance, kTaken));
         cluster.tets.push_back(next);
       }
     }

@@ -208,13 +208,13 @@ void Repair::try_signs(Controls& controls) {
   std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < places.size(); ++c) {
     if (kept_.done()[c] || places[c].all.empty()) continue;
-    if (!trials) trials.emplace(*round_, topology_, raised_, round_->rules());
+    if (!trials) trials.emplace(*round_, topology_, raised_, round_->rules(), places);
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       kept_.keep(mesh_, round_->restricted().signs());
       return static_cast<bool>(kept_.done()[c]);
     };
-    trials->mend(c, places[c], mesh_, improved, controls);
+    trials->mend(c, mesh_, improved, controls);
   }
 }
 

@@ -52,8 +52,8 @@ std::int64_t amount(const ComponentTopology& missing) {
 }  // namespace
 
 SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
-                       std::span<const SignRule> rules)
-    : round_(round), topology_(topology), cells_(cells) {
+                       std::span<const SignRule> rules, const std::vector<Places>& places)
+    : round_(round), topology_(topology), cells_(cells), places_(places) {
   const TetSigns signs = round_.restricted().signs();
   for (const SignRule rule : rules) {
     round_.take_signs(rule);
@@ -90,27 +90,45 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
   return clusters;
 }
 
-// Tetrahedra very near of whose side nothing is known, the nearest first.
-std::vector<DisputedCluster> SignTrials::undecided_near(const Places& places) const {
+// Of all components at once: most of the time goes into asking where tetrahedra are.
+void SignTrials::find_undecided() {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
-  const DistanceFromPlaces distance_from_places(places.likely, cells_.dims(), kReachOfSingles);
-  const auto append_if_near = [&](std::size_t i, std::vector<DisputedCluster>& singles) {
+  std::vector<std::pair<std::uint32_t, DistanceFromPlaces>> distances;  // from the places of components
+  for (std::uint32_t c = 0; c < places_.size(); ++c) {
+    if (!places_[c].likely.empty())
+      distances.emplace_back(c, DistanceFromPlaces(places_[c].likely, cells_.dims(), kReachOfSingles));
+  }
+  struct Near {
+    TetId tet;
+    std::uint32_t component;
+    std::int32_t layers;
+  };
+  const auto append_if_near = [&](std::size_t i, std::vector<Near>& near) {
     const TetId t(i);
     const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
     if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
-    const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
-    if (layers <= kReachOfSingles) singles.push_back({{t}, layers});
+    const CellIndex cell = cells_.cell_of(centre_of(restricted, t));
+    for (const auto& [component, distance] : distances) {
+      const std::int32_t layers = distance(cell);
+      if (layers <= kReachOfSingles) near.push_back({t, component, layers});
+    }
   };
-  auto singles = collect_in_blocks<DisputedCluster>(evidence.size(), round_.threads(), append_if_near);
-  std::stable_sort(singles.begin(), singles.end(), is_nearer);
-  return singles;
+  undecided_.resize(places_.size());
+  for (const Near& one : collect_in_blocks<Near>(evidence.size(), round_.threads(), append_if_near)) {
+    undecided_[one.component].push_back({{one.tet}, one.layers});
+  }
+  for (std::vector<DisputedCluster>& singles : undecided_) {
+    std::stable_sort(singles.begin(), singles.end(), is_nearer);
+  }
 }
 
-void SignTrials::mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh,
-                      const Improved& improved, Controls& controls) {
-  if (!try_all(clusters_near(places), kMostTrials, component, mesh, improved, controls)) return;
-  try_all(undecided_near(places), kMostTrialsOfSingles, component, mesh, improved, controls);
+void SignTrials::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
+                      Controls& controls) {
+  const std::vector<DisputedCluster> clusters = clusters_near(places_[component]);
+  if (!try_all(clusters, kMostTrials, component, mesh, improved, controls)) return;
+  if (undecided_.empty()) find_undecided();
+  try_all(undecided_[component], kMostTrialsOfSingles, component, mesh, improved, controls);
 }
 
 // Returns whether there is still something to mend.

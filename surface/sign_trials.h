@@ -22,29 +22,30 @@ namespace deliso {
 
 class SignTrials {
  public:
-  // Keeps references.
+  // Keeps references. `places`: of each component, those at which its main piece parts from it.
   SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
-             std::span<const SignRule> rules);
+             std::span<const SignRule> rules, const std::vector<Places>& places);
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
-  // Tries near the likely places at which the main piece of a component parts from it: disputed clusters, then single
-  // tetrahedra of whose side nothing is known. `mesh` is the mesh of the round's signs; afterwards the signs are those
-  // of the best mesh.
-  void mend(std::uint32_t component, const Places& places, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
-            Controls& controls);
+  // Tries near the likely places of a component: disputed clusters, then single tetrahedra of whose side nothing is
+  // known. `mesh` is the mesh of the round's signs; afterwards the signs are those of the best mesh.
+  void mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved, Controls& controls);
 
  private:
   bool try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
                std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls);
-  [[nodiscard]] std::vector<DisputedCluster> undecided_near(const Places& places) const;
+  void find_undecided();
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
   [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places) const;
 
   RepairRound& round_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& cells_;
+  const std::vector<Places>& places_;
   std::vector<TetSigns> signs_by_rule_;
+  // Of each component, when first needed: tetrahedra very near of whose side nothing is known, the nearest first.
+  std::vector<std::vector<DisputedCluster>> undecided_;
 };
 
 }  // namespace deliso

@@ -83,9 +83,17 @@ class SignedDelaunay {
     DELISO_CHECK(above.size() == sign_.size(), "every slot has a sign");
     if (!sign_.empty()) std::memcpy(sign_.data(), above.data(), sign_.size());
   }
-  // Calls visit(t) for every slot t whose sign is not that in `known`; and takes it over.
+  // Calls visit(t) for every slot t, ascending, whose sign is not that in `known`.
   template <class Visit>
-  void for_each_change(TetSigns& known, Visit visit) const;
+  void for_each_difference(const TetSigns& known, Visit visit) const;
+  // The same, and takes the sign over first.
+  template <class Visit>
+  void for_each_change(TetSigns& known, Visit visit) const {
+    for_each_difference(known, [&](TetId t) {
+      known[t.index()] = static_cast<std::uint8_t>(sign_[t.index()]);
+      visit(t);
+    });
+  }
   void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
@@ -108,16 +116,13 @@ class SignedDelaunay {
 };
 
 template <class Visit>
-void SignedDelaunay::for_each_change(TetSigns& known, Visit visit) const {
+void SignedDelaunay::for_each_difference(const TetSigns& known, Visit visit) const {
   constexpr std::size_t kAtOnce = 64;
   for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
     const std::size_t last = std::min(known.size(), first + kAtOnce);
     if (std::memcmp(&known[first], &sign_[first], last - first) == 0) continue;
     for (std::size_t i = first; i < last; ++i) {
-      const auto now = static_cast<std::uint8_t>(sign_[i]);
-      if (known[i] == now) continue;
-      known[i] = now;
-      visit(TetId(i));
+      if (known[i] != static_cast<std::uint8_t>(sign_[i])) visit(TetId(i));
     }
   }
 }

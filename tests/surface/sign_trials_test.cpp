@@ -166,8 +166,10 @@ TEST(SignTrials, MendASpoiltPlace) {
         };
         Controls controls(BudgetParameters{}, nullptr, {});
         const std::array<SignRule, 1> rules = {SignRule::kCircumcenter};
-        SignTrials(round, scene->topology, cells, rules)
-            .mend(c, places_at(cells, delaunay, spoilt[0]), std::make_shared<MatchedMesh>(*mesh), improved, controls);
+        std::vector<Places> places(scene->topology.components.size());
+        places[c] = places_at(cells, delaunay, spoilt[0]);
+        SignTrials(round, scene->topology, cells, rules, places)
+            .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);
         ASSERT_NE(best, nullptr) << "seed " << seed << " tetrahedron " << i;
         EXPECT_LE(amount_missing(*best, want, c), amount_missing(before, want, c));
         EXPECT_LE(best->match.error, mesh->match.error);
