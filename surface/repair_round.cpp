@@ -54,7 +54,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
   });
 }
 
-bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
+bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                            ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
   for (TetSigns& signs : signs_by_rule_) signs.clear();
@@ -72,7 +72,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   if (rules_) {
     rules_->renew(exchanged);
     rules_->update();
-    keep_signs(exchanged);
+    if (keeps_signs) keep_signs(exchanged);
   }
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);

@@ -35,8 +35,10 @@ class RepairRound {
               std::unique_ptr<SignedDelaunay> restricted, int threads);
 
   // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
-  // SignedDelaunay::exchange; when that says no, this round is of no more use.
-  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
+  // SignedDelaunay::exchange; when that says no, this round is of no more use. `keeps_signs`: those before, where
+  // something has been mended, are worth trying again (SignRule::kAsBefore).
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
+                ExchangedPoints& exchanged);
 
   // Takes the signs of the circumcenters, less those without foundation.
   void take_plain_signs();

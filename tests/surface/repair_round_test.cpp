@@ -139,7 +139,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads) {
     }
 
     ExchangedPoints exchanged;
-    ASSERT_TRUE(continued.exchange(leaving, coming, exchanged)) << where;
+    ASSERT_TRUE(continued.exchange(leaving, coming, true, exchanged)) << where;
     std::vector<Vec3> left;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool leaves = std::find(leaving.begin(), leaving.end(), VertexId(i)) != leaving.end();
@@ -220,7 +220,7 @@ TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
 
     ExchangedPoints exchanged;
     const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
-    ASSERT_TRUE(round.exchange(leaving, {}, exchanged));
+    ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
     ASSERT_EQ(round.rules().front(), SignRule::kAsBefore);
     round.take_signs(SignRule::kAsBefore);
     const TetSigns after = round.restricted().signs();
@@ -239,6 +239,17 @@ TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
   EXPECT_GT(stayed, 1000u);
 }
 
+TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
+  const auto scene = noise_scene({9, 9, 9}, 1);
+  const RaisedCells raised(scene->grid, *scene->isosurface);
+  RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+  round.take_signs(SignRule::kCircumcenter);
+  ExchangedPoints exchanged;
+  const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
+  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
+}
+
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
@@ -246,7 +257,7 @@ TEST(RepairRound, WithGuardsHasToBeginAnew) {
   RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, points), 1);
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};
-  EXPECT_FALSE(round.exchange({}, coming, exchanged));
+  EXPECT_FALSE(round.exchange({}, coming, true, exchanged));
 }
 
 }  // namespace
