@@ -15,7 +15,8 @@ struct Segment {
 // The tetrahedron that holds some point of a segment.
 struct Passage {
   TetId tet;
-  // Points of the segment with from < s < to, rounded to doubles, lie strictly within it; none where from >= to.
+  // Points of the segment with 0 <= s <= 1 and from < s < to, as halving rounds them, lie strictly within it; none
+  // where from >= to.
   double from = 1;
   double to = 0;
 

@@ -72,6 +72,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   if (rules_) {
     rules_->renew(exchanged);
     rules_->update();
+    as_before_.clear();
     if (keeps_signs) keep_signs(exchanged);
   }
   unfounded_.renew(exchanged);

@@ -1,8 +1,8 @@
 // The triangulation of repair and the meshes that the sign rules make of it.
 //
-// The rules differ in few signs, and rounds after the first one in few points. So whatever depends on the triangulation
-// alone is found once, and again only where points have been exchanged; and what depends on signs only where they have
-// changed from one rule to the next.
+// The rules differ in few signs, and most rounds in few points from what was before. So whatever depends on the
+// triangulation alone is found once, and again only where points have been exchanged; and what depends on signs only
+// where they have changed from one rule to the next.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ class RepairRound {
               std::unique_ptr<SignedDelaunay> restricted, int threads);
 
   // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
-  // SignedDelaunay::exchange; when that says no, this round is of no more use. `keeps_signs`: those before, where
-  // something has been mended, are worth trying again (SignRule::kAsBefore).
+  // SignedDelaunay::exchange; when that says no, this round is of no more use. `keeps_signs`: the signs as they
+  // are, of a round that has tried to mend, are to be tried again (SignRule::kAsBefore).
   bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                 ExchangedPoints& exchanged);
 
@@ -73,8 +73,8 @@ class RepairRound {
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
-  // The rules that are worth trying now, in order. After an exchange the last ones hardly ever help: where they did,
-  // that is in the signs before.
+  // The rules that are worth trying now, in order. Where the signs before are tried, too, the last ones hardly ever
+  // help: where they did, that is in those signs.
   [[nodiscard]] std::span<const SignRule> rules() const {
     return as_before_.empty() ? std::span(kSignRules).subspan(1) : std::span(kSignRules).first(kRulesAfterExchange);
   }

@@ -96,8 +96,8 @@ void SignTrials::find_undecided() {
   const std::span<const std::uint8_t> evidence = round_.evidence();
   std::vector<std::pair<std::uint32_t, DistanceFromPlaces>> distances;  // from the places of components
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
-    if (!places_[c].likely.empty())
-      distances.emplace_back(c, DistanceFromPlaces(places_[c].likely, cells_.dims(), kReachOfSingles));
+    if (places_[c].likely.empty()) continue;
+    distances.emplace_back(c, DistanceFromPlaces(places_[c].likely, cells_.dims(), kReachOfSingles));
   }
   struct Near {
     TetId tet;
@@ -116,10 +116,11 @@ void SignTrials::find_undecided() {
   };
   undecided_.resize(places_.size());
   for (const Near& one : collect_in_blocks<Near>(evidence.size(), round_.threads(), append_if_near)) {
-    undecided_[one.component].push_back({{one.tet}, one.layers});
+    undecided_[one.component].push_back({one.tet, one.layers});
   }
-  for (std::vector<DisputedCluster>& singles : undecided_) {
-    std::stable_sort(singles.begin(), singles.end(), is_nearer);
+  for (std::vector<Single>& singles : undecided_) {
+    std::stable_sort(singles.begin(), singles.end(),
+                     [](const Single& a, const Single& b) { return a.layers < b.layers; });
   }
 }
 
@@ -128,7 +129,9 @@ void SignTrials::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh
   const std::vector<DisputedCluster> clusters = clusters_near(places_[component]);
   if (!try_all(clusters, kMostTrials, component, mesh, improved, controls)) return;
   if (undecided_.empty()) find_undecided();
-  try_all(undecided_[component], kMostTrialsOfSingles, component, mesh, improved, controls);
+  std::vector<DisputedCluster> singles;
+  for (const Single& single : undecided_[component]) singles.push_back({{single.tet}, single.layers});
+  try_all(singles, kMostTrialsOfSingles, component, mesh, improved, controls);
 }
 
 // Returns whether there is still something to mend.

@@ -44,8 +44,12 @@ class SignTrials {
   const RaisedCells& cells_;
   const std::vector<Places>& places_;
   std::vector<TetSigns> signs_by_rule_;
+  struct Single {
+    TetId tet;
+    std::int32_t layers = 0;  // to the nearest place
+  };
   // Of each component, when first needed: tetrahedra very near of whose side nothing is known, the nearest first.
-  std::vector<std::vector<DisputedCluster>> undecided_;
+  std::vector<std::vector<Single>> undecided_;
 };
 
 }  // namespace deliso

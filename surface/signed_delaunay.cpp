@@ -17,14 +17,13 @@ constexpr double kGuardDistance = 16;
 // near to a side of the box as its data please.
 constexpr double kSmallestCoordinate = 0x1p-100;
 
-// Around all points, with so many box diagonals to spare. The smaller it is, the more orientations are plain.
+// Of the box of all points, to spare along each axis. The smaller it is, the more orientations are plain.
 constexpr double kToSpare = 1.0 / 64;
 
-Box3 with_margin(const Box3& box, double diagonals) {
-  const double reach = diagonals * box.diagonal();
+Box3 with_margin(const Box3& box, const Vec3& reach) {
   Box3 large = box;
-  large.extend(box.low - Vec3{reach, reach, reach});
-  large.extend(box.high + Vec3{reach, reach, reach});
+  large.extend(box.low - reach);
+  large.extend(box.high + reach);
   return large;
 }
 
@@ -63,7 +62,7 @@ Vec3 SignedDelaunay::snapped(const Vec3& p) {
 
 SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> given, int threads,
                                std::vector<VertexId>* vertex_of)
-    : isosurface_(isosurface), delaunay_(with_margin(isosurface.box(), kToSpare)) {
+    : isosurface_(isosurface), delaunay_(with_margin(isosurface.box(), kToSpare * isosurface.box().size())) {
   std::vector<Vec3> points;
   points.reserve(given.size());
   for (const Vec3& p : given) {
@@ -76,7 +75,8 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
     const Vec3 off = kGuardDistance * isosurface.box().diagonal() * plane_normal(points);
     guarded.push_back(points.front() + off);
     guarded.push_back(points.front() - off);
-    delaunay_ = BowyerWatson(with_margin(isosurface.box(), kGuardDistance + 1));
+    const double reach = (kGuardDistance + 1) * isosurface.box().diagonal();
+    delaunay_ = BowyerWatson(with_margin(isosurface.box(), {reach, reach, reach}));
     DELISO_CHECK(delaunay_.build(guarded, &vertices), "guards must lift coplanar points into space");
     guards_ = 2;
     first_guard_ = static_cast<std::uint32_t>(delaunay_.vertex_count()) - guards_;

@@ -32,10 +32,10 @@ struct ExchangedPoints {
 
 class SignedDelaunay {
  public:
-  // Points on the isosurface in mesh space. When all of them are coplanar two guard vertices far off the plane are
-  // added; facets with a guard count as infinite. Throws InputError when fewer than three points are not in line. The
-  // signs are found on several threads, the same for any number. `vertex_of`, when asked for, tells the vertex of each
-  // point; none for one that is not finite.
+  // Points on the isosurface in mesh space, in its box; what comes or is located later is in the box, too. When all of
+  // them are coplanar two guard vertices far off the plane are added; facets with a guard count as infinite. Throws
+  // InputError when fewer than three points are not in line. The signs are found on several threads, the same for any
+  // number. `vertex_of`, when asked for, tells the vertex of each point; none for one that is not finite.
   SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1,
                  std::vector<VertexId>* vertex_of = nullptr);
   virtual ~SignedDelaunay() = default;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <vector>
 
 #include "delaunay/base/rng.h"
 #include "delaunay/bowyer_watson.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "surface/evidence.h"
+#include "surface/restricted_delaunay.h"
 #include "surface/sample_lattice.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
@@ -22,6 +23,15 @@ constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRul
 
 std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vector<Vec3>& points) {
   return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
+}
+
+// The same as stage 1 leaves it: grown point by point, in slots as they came free.
+std::unique_ptr<SignedDelaunay> grown(const Scene& scene, const std::vector<Vec3>& points) {
+  RestrictedDelaunay restricted(*scene.isosurface, std::span(points).first(points.size() / 4));
+  for (const Vec3& p : points) {
+    restricted.insert(p, restricted.delaunay().incident_tet(restricted.last_vertex()), 0);
+  }
+  return std::make_unique<SignedDelaunay>(std::move(restricted));
 }
 
 std::vector<Vec3> points_of(const RepairRound& round) {
@@ -116,11 +126,13 @@ void raise_some(const Scene& scene, RaisedCells& raised, Rng& rng) {
   raised.raise(cells);
 }
 
-void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads) {
+void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool is_grown = false) {
   Rng rng(seed);
   const SampleLattice lattice(scene.grid, scene.isovalue, scene.topology);
   RaisedCells raised(scene.grid, *scene.isosurface);
-  RepairRound continued(scene.grid, scene.topology, raised, triangulation(scene, all_crossings(scene)), threads);
+  const std::vector<Vec3> start = all_crossings(scene);
+  RepairRound continued(scene.grid, scene.topology, raised,
+                        is_grown ? grown(scene, start) : triangulation(scene, start), threads);
   std::vector<Vec3> points = points_of(continued);
   continued.take_plain_signs();
   ASSERT_TRUE(continued.assemble());
@@ -160,6 +172,13 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads) {
 TEST(RepairRound, GoingOnIsLikeBeginningAnew) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     go_on_and_compare(*noise_scene({11, 10, 9}, seed), seed, seed % 2 == 0 ? 3 : 1);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(RepairRound, GoingOnFromStageOneIsLikeBeginningAnew) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    go_on_and_compare(*noise_scene({10, 9, 9}, seed), seed, 1, true);
     if (HasFatalFailure()) return;
   }
 }
@@ -246,6 +265,10 @@ TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
   round.take_signs(SignRule::kCircumcenter);
   ExchangedPoints exchanged;
   const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
+  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
+  ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kAsBefore);
   ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
   EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
 }
