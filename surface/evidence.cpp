@@ -36,14 +36,15 @@ class Collector {
   std::vector<TetId> collect(const CellIndex& cell);
 
  private:
-  void collect_edges(const CellIndex& cell, const CellCorners& corners);
-  void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   // A point of a segment and the tetrahedron that holds it.
   struct Stop {
     double s = 0;
     Vec3 point;
     Passage passage;
   };
+
+  void collect_edges(const CellIndex& cell, const CellCorners& corners);
+  void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   void follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side);
   [[nodiscard]] Passage passage_of(TetId t, const Segment& segment) const {
@@ -132,8 +133,8 @@ void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std
   follow(segment, {0, a, passage_of(at_a, segment)}, {1, b, passage_of(at_b, segment)}, side);
 }
 
-// Halves the segment until both ends lie in one tetrahedron. Only where the middle is not surely in one that is known,
-// and so has taken note, it is looked for.
+// Halves the segment until both ends lie in one tetrahedron. Where the middle is surely in one of the two, that one has
+// taken note; only elsewhere is its tetrahedron looked for.
 void Collector::follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side) {
   const double squared_length = squared_distance(from.point, to.point);
   if (from.passage.tet == to.passage.tet || squared_length < kShortest * kShortest) return;

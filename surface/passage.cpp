@@ -17,13 +17,13 @@ constexpr double kParameterError = 1e-12;
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// Keeps the part where values that go evenly from `at_a` to `at_b` are below zero.
-void keep_below_zero(double at_a, double at_b, Passage& passage) {
-  if (at_a < 0 && at_b < 0) return;
+// Keeps the part where values that go evenly from `at_a` to `at_b` are positive; none when they are no numbers.
+void keep_positive(double at_a, double at_b, Passage& passage) {
+  if (at_a > 0 && at_b > 0) return;
   const double zero = at_a / (at_a - at_b);
-  if (at_a < 0 && zero <= 1) {
+  if (at_a > 0 && zero <= 1) {
     passage.to = std::min(passage.to, zero - kParameterError);
-  } else if (at_b < 0 && zero >= 0) {
+  } else if (at_b > 0 && zero >= 0) {
     passage.from = std::max(passage.from, zero + kParameterError);
   } else {
     passage.to = passage.from;
@@ -44,22 +44,21 @@ Passage passage_through(const Tetrahedralization& tets, TetId t, const Segment& 
       2 * std::max({largest(side[0]), largest(side[1]), largest(side[2]), largest(to_a), largest(to_b)});
   const double off = kRoundings * kEpsilon * length * length * (length + largest(corner));
 
-  // Of the volumes that a point makes up with the four sides, which come to the whole, three by minus their value: the
-  // point is within where all four are positive.
+  // A point is within where the volumes that it makes up with the four sides, which come to the whole, are positive.
   Passage passage{t, -1, 2};
   std::array<Vec3, 3> normal = {cross(side[1], side[2]), cross(side[2], side[0]), cross(side[0], side[1])};
   const double whole = dot(side[0], normal[0]);
-  if (whole > 0) {
+  if (whole < 0) {
     for (Vec3& n : normal) n = -1.0 * n;
   }
   double left_at_a = std::abs(whole), left_at_b = left_at_a;
   for (const Vec3& n : normal) {
     const double at_a = dot(n, to_a), at_b = dot(n, to_b);
-    keep_below_zero(at_a + off, at_b + off, passage);
-    left_at_a += at_a;
-    left_at_b += at_b;
+    keep_positive(at_a - off, at_b - off, passage);
+    left_at_a -= at_a;
+    left_at_b -= at_b;
   }
-  keep_below_zero(off - left_at_a, off - left_at_b, passage);
+  keep_positive(left_at_a - off, left_at_b - off, passage);
   return passage;
 }
 

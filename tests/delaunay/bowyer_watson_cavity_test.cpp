@@ -10,7 +10,6 @@
 #include "delaunay/base/rng.h"
 #include "delaunay/bowyer_watson.h"
 #include "delaunay/predicates.h"
-#include "delaunay/validate.h"
 #include "tests/support/delaunay_oracle.h"
 #include "tests/support/delaunay_point_sets.h"
 
@@ -20,8 +19,7 @@ namespace {
 using test::distinct;
 using test::Points;
 using test::some_live_tet;
-
-std::string violation_of(const Tetrahedralization& tets) { return find_violation(tets).value_or("none"); }
+using test::violation_of;
 
 TEST(BowyerWatson, RefusesAPointOutsideItsBox) {
   Rng rng(9);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "delaunay/validate.h"
 #include "tests/support/delaunay_oracle.h"
 #include "tests/support/delaunay_point_sets.h"
 
@@ -19,8 +18,7 @@ namespace {
 using test::distinct;
 using test::Points;
 using test::some_live_tet;
-
-std::string violation_of(const Tetrahedralization& tets) { return find_violation(tets).value_or("none"); }
+using test::violation_of;
 
 // Inserts all points one by one after a build on the shortest prefix that spans space. Duplicates are skipped.
 void insert_one_by_one(BowyerWatson& tets, const Points& points, Rng& rng) {

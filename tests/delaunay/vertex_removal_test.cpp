@@ -6,7 +6,6 @@
 #include "delaunay/base/rng.h"
 #include "delaunay/bowyer_watson.h"
 #include "delaunay/predicates.h"
-#include "delaunay/validate.h"
 #include "tests/support/delaunay_oracle.h"
 #include "tests/support/delaunay_point_sets.h"
 
@@ -14,9 +13,8 @@ namespace deliso {
 namespace {
 
 using test::Points;
+using test::violation_of;
 using TetSet = std::set<std::array<std::uint32_t, 4>>;
-
-std::string violation_of(const Tetrahedralization& tets) { return find_violation(tets).value_or("none"); }
 
 std::vector<VertexId> live_vertices(const Tetrahedralization& tets) {
   std::vector<VertexId> live;

@@ -15,18 +15,13 @@
 #include "experiments/lighting.h"
 #include "experiments/mesh_shape.h"
 #include "experiments/picture.h"
-#include "tests/support/mesh_fields.h"
+#include "tests/support/sphere_pictures.h"
 #include "volume/analytic_fields.h"
 
 namespace deliso::testing {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRadius = 9.3;
-const Vec3 kCentre{12.1, 11.7, 12.4};
-
-// The distance inwards from a sphere; the isosurface at 0 is the sphere, but for 0.02 voxels or so.
-ScalarGrid sphere_grid() { return sampled({25, 25, 25}, ball_field(kCentre, kRadius)); }
 
 double linear(std::uint8_t byte) {
   const double value = byte / 255.0;

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "delaunay/base/rng.h"
 #include "delaunay/tetrahedralization.h"
+#include "delaunay/validate.h"
 #include "tests/support/delaunay_big_integer.h"
 
 namespace deliso::test {
@@ -100,5 +102,8 @@ inline TetId some_live_tet(const Tetrahedralization& tets, Rng& rng) {
     if (tets.is_live(t)) return t;
   }
 }
+
+// What is wrong with a triangulation, or "none".
+inline std::string violation_of(const Tetrahedralization& tets) { return find_violation(tets).value_or("none"); }
 
 }  // namespace deliso::test
