@@ -150,8 +150,8 @@ void Repair::resample() {
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || threads_ == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
-  const bool has_mended = stats_.rounds > 0;  // the signs of stage 1 are nothing to keep
-  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), has_mended, exchanged)) {
+  const bool keeps_signs = stats_.rounds > 0;  // nobody has tried to mend those of stage 1
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), keeps_signs, exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
