@@ -155,7 +155,7 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
       v = renamed[v.index()];
     }
   }
-  LargeArray<TetId> incident(count);
+  SharedArray<TetId> incident(count);
   for (std::size_t v = 0; v < count; ++v) incident[renamed[v].index()] = incident_[v];
   incident_.swap(incident);
   ranks_.clear();

@@ -6,6 +6,12 @@
 // A removal has one: remove(v). After insertions and removals in any order the triangulation is that of the points that
 // are left, as if it had been built from them in the order of their vertices.
 //
+// Parts. Several threads may insert at the same time, each within a slab of its own, by a triangulation that shares the
+// arrays of the whole. A tetrahedron with vertices in two slabs is *frozen*: parts may look at it, but none takes it
+// away. A tetrahedron next to one that lies within a slab has three of its finite vertices there or shares the infinite
+// one; so it lies within the slab, too, or is frozen, and parts never meet. An insertion that a frozen tetrahedron is
+// in conflict with is *blocked*, and left to the whole. What parts do depends neither on threads nor on other parts.
+//
 // Ties. orient3d is zero exactly for coplanar points. A zero insphere is resolved by a symbolic perturbation of the
 // lifted coordinate by vertex index (Devillers, Teillaud: Perturbations for Delaunay and weighted Delaunay 3D
 // triangulations, 2011), which amounts to infinitesimal weights: the perturbed insphere is never zero, and a flat
@@ -14,6 +20,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,6 +29,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/base/slab.h"
 #include "delaunay/lifted_rows.h"
 #include "delaunay/point_location.h"
 #include "delaunay/rim_edges.h"
@@ -29,6 +37,14 @@
 #include "delaunay/tetrahedralization.h"
 
 namespace deliso {
+
+// Where a part works: its slab, and places for what is new.
+struct PartRoom {
+  Slab slab;
+  Range vertices;
+  Range tets;
+  std::vector<TetId> free;  // slots, beside those of the range
+};
 
 class BowyerWatson : public Tetrahedralization {
  public:
@@ -49,8 +65,12 @@ class BowyerWatson : public Tetrahedralization {
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& p) const;
 
   // The conflict region of p. `start`: a live tetrahedron, best one in conflict with p; if it is not, a walk from it
-  // finds one. Returns the vertex that p duplicates, if any; then there is no region.
+  // finds one. Returns the vertex that p duplicates, if any; then there is no region. In a part there may be none for
+  // another reason, see is_blocked().
   std::optional<VertexId> find_conflicts(const Vec3& p, TetId start);
+  // Of a part: whether find_conflicts() gave up, for the region reaches beyond the slab, is not found at `start`, or
+  // there is no room to fill it.
+  [[nodiscard]] bool is_blocked() const { return is_blocked_; }
   [[nodiscard]] std::span<const TetId> conflict_region() const { return std::span(region_).first(region_size_); }
   // The facets around the region, each as the tetrahedron outside knows it.
   [[nodiscard]] std::span<const FacetId> rim() const { return std::span(rim_).first(rim_size_); }
@@ -77,6 +97,18 @@ class BowyerWatson : public Tetrahedralization {
   // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one.
   std::vector<VertexId> close_gaps();
 
+  // Rooms for parts in slabs that do not meet, for so many insertions each; none when there would be too many
+  // tetrahedra. No vertex may wait to be closed up.
+  std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions);
+  // A part of `whole`, which must stay where it is and be left alone until it has joined its parts.
+  BowyerWatson(BowyerWatson& whole, const PartRoom& room);
+  // Whether there is room for an insertion, unless it is a very large one.
+  [[nodiscard]] bool has_room() const { return points_.room_left() > 0 && tets_left() >= kFewestLeft; }
+  // Takes in one part after the other, in the order of their rooms. Then finish_join() numbers the vertices without
+  // gaps, in the same order, and returns the new id of each.
+  void join(BowyerWatson& part);
+  std::vector<VertexId> finish_join() { return close_gaps(); }
+
  private:
   // A face of a tetrahedron whose neighbour has yet to be tested, and the same facet as the neighbour knows it.
   struct Untested {
@@ -92,8 +124,13 @@ class BowyerWatson : public Tetrahedralization {
   static constexpr unsigned kMarkShift = 30;
   static constexpr std::uint32_t kMirrorMask = (1u << kMarkShift) - 1;
   static constexpr std::size_t kMostTets = std::size_t{1} << (kMarkShift - 2);
+  static constexpr std::size_t kFewestLeft = 256;  // slots
 
-  [[nodiscard]] std::uint32_t mark(TetId t) const { return tets_[t.index()].mirrors[0].value >> kMarkShift; }
+  // Another part may be writing the first mirror of a frozen tetrahedron, which has no mark.
+  [[nodiscard]] std::uint32_t mark(TetId t) const {
+    std::uint32_t& value = const_cast<std::uint32_t&>(tets_[t.index()].mirrors[0].value);  // NOLINT: only read
+    return std::atomic_ref(value).load(std::memory_order_relaxed) >> kMarkShift;
+  }
   void set_mark(TetId t, Mark mark) {
     FacetId& mirror = tets_[t.index()].mirrors[0];
     mirror.value = (mirror.value & kMirrorMask) | (mark << kMarkShift);
@@ -107,10 +144,20 @@ class BowyerWatson : public Tetrahedralization {
   [[nodiscard]] VertexId perturbation_rank(VertexId v) const { return ranks_.empty() ? v : ranks_[v.index()]; }
   [[nodiscard]] bool conflicts(TetId t, const Vec3& p, VertexId p_rank) const;
   std::optional<VertexId> find_conflicts_from_located(const Vec3& p, VertexId p_rank, TetId located);
+  template <bool kIsPart>
   void grow_region(const Vec3& p, VertexId p_rank, TetId first);
   void reserve_more();
+  template <bool kIsPart>
   void test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank);
+  template <bool kIsPart>
   void test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p, VertexId p_rank);
+  void find_conflicts_of_part(const Vec3& p, TetId start);
+  // Of a tetrahedron across a facet from one within the slab.
+  [[nodiscard]] bool is_frozen(FacetId mirror) const {
+    const VertexId far = vertices(mirror.tet())[mirror.face()];
+    return far != kInfiniteVertex && !slab_->contains(point(far));
+  }
+  [[nodiscard]] std::size_t tets_left() const { return free_.size() + tets_.room_left(); }
   void take_slots(std::span<const TetId> old, std::size_t count);
   void star_rim(VertexId apex);
   template <class EdgeTable>
@@ -127,6 +174,8 @@ class BowyerWatson : public Tetrahedralization {
 
   Box3 box_;
   StaticFilter filter_;
+  std::optional<Slab> slab_;  // of a part
+  bool is_blocked_ = false;
   std::vector<TetId> free_;  // free slots
   // Region and rim are the first so many of these; what lies beyond is room for branch-free appending.
   std::vector<TetId> region_;

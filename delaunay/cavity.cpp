@@ -1,5 +1,6 @@
 // The second half of an insertion: the conflict region gives way to the star of the point.
 #include <algorithm>
+#include <atomic>
 
 #include "delaunay/base/check.h"
 #include "delaunay/bowyer_watson.h"
@@ -78,7 +79,9 @@ void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
     Tet& tet = tets_[t.index()];
     tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
     tet.mirrors[0] = outside;
-    tets_[outside.tet().index()].mirrors[outside.face()] = FacetId(t, 0);
+    // Where a part writes this another one may be looking for marks, see mark().
+    std::atomic_ref(tets_[outside.tet().index()].mirrors[outside.face()].value)
+        .store(FacetId(t, 0).value, std::memory_order_relaxed);
     edges.at(y, z) = FacetId(t, 1);
     edges.at(z, x) = FacetId(t, 2);
     edges.at(x, y) = FacetId(t, 3);

@@ -38,9 +38,13 @@ std::optional<VertexId> BowyerWatson::find_conflicts(const Vec3& p, TetId start)
   DELISO_CHECK(start.index() < tets_.size() && is_live(start), "the search starts from a live tetrahedron");
   const VertexId p_rank(points_.size());
   pending_ = p;
+  if (slab_) {
+    find_conflicts_of_part(p, start);
+    return std::nullopt;
+  }
   // In conflict with the newest vertex p means strictly inside (or beyond a hull facet): then p is no duplicate.
   if (conflicts(start, p, p_rank)) {
-    grow_region(p, p_rank, start);
+    grow_region<false>(p, p_rank, start);
     return std::nullopt;
   }
   return find_conflicts_from_located(p, p_rank, locate(p, start));
@@ -53,10 +57,24 @@ std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p,
       if (point(v) == p) return v;
     }
   }
-  grow_region(p, p_rank, located);
+  grow_region<false>(p, p_rank, located);
   return std::nullopt;
 }
 
+// In a part nobody walks: on its way a walk might look at what others are changing.
+void BowyerWatson::find_conflicts_of_part(const Vec3& p, TetId start) {
+  const VertexId p_rank(points_.size());
+  const std::array<VertexId, 4>& v = vertices(start);
+  const bool is_within = std::all_of(
+      v.begin(), v.end(), [&](VertexId corner) { return corner == kInfiniteVertex || slab_->contains(point(corner)); });
+  is_blocked_ = !is_within || !slab_->contains(p) || !conflicts(start, p, p_rank);
+  if (is_blocked_) return;
+  grow_region<true>(p, p_rank, start);
+  is_blocked_ = is_blocked_ || points_.room_left() == 0 || rim_size_ > region_size_ + tets_left();
+  if (is_blocked_) abandon_cavity();
+}
+
+template <bool kIsPart>
 void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
   region_size_ = 0;
   rim_size_ = 0;
@@ -69,15 +87,18 @@ void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
   region_[region_size_++] = first;
   set_mark(first, kInside);
   for (std::uint32_t i = 0; i < region_size_; ++i) {
+    if (kIsPart && is_blocked_) break;
     const bool is_full = region_size_ + 4 > region_.size() || rim_size_ + 4 > rim_.size();
     if (is_full) [[unlikely]] {
       reserve_more();
     }
     rows_.reserve_more(4);
-    test_neighbours(i, p, p_rank);
+    test_neighbours<kIsPart>(i, p, p_rank);
   }
   for (const TetId t : conflict_region()) set_mark(t, kUnknown);
-  for (const FacetId f : rim()) set_mark(f.tet(), kUnknown);
+  for (const FacetId f : rim()) {
+    if (!kIsPart || mark(f.tet()) != kUnknown) set_mark(f.tet(), kUnknown);
+  }
 }
 
 void BowyerWatson::reserve_more() {
@@ -93,7 +114,9 @@ void BowyerWatson::reserve_more() {
 }
 
 // The outcome of a test is as good as random, and a branch on it would cost more than the test: hence results are
-// appended without branches, to the place beyond the end, and the end moves or does not.
+// appended without branches, to the place beyond the end, and the end moves or does not. (Frozen tetrahedra are few;
+// they are not marked, for two parts may look at one.)
+template <bool kIsPart>
 void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank) {
   const TetId t = region_[i];
   const auto& v = vertices(t);
@@ -125,9 +148,10 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
   }
 
   rim_size_ = rim_size;
-  test_unknown_neighbours(i, std::span(untested).first(untested_count), p, p_rank);
+  test_unknown_neighbours<kIsPart>(i, std::span(untested).first(untested_count), p, p_rank);
 }
 
+template <bool kIsPart>
 void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p,
                                            VertexId p_rank) {
   const Corners corners = region_corners_[i];
@@ -152,6 +176,13 @@ void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const Unte
     bool inside = (det > 0) != ((face & 1u) != 0);
     if (!certain) [[unlikely]] {
       inside = conflicts(outside, p, p_rank);
+    }
+    if (kIsPart && is_frozen(mirror)) [[unlikely]] {
+      is_blocked_ = is_blocked_ || inside;
+      rim_[rim_size] = mirror;
+      rim_from_[rim_size] = 4 * i + face;
+      ++rim_size;
+      continue;
     }
     // Two faces may lead to the same neighbour: then it is known by now.
     const bool is_new = mark(outside) == kUnknown;

@@ -13,9 +13,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "delaunay/base/huge_pages.h"
+#include "delaunay/base/shared_array.h"
 #include "delaunay/base/vec3.h"
 #include "delaunay/ids.h"
 
@@ -30,7 +29,7 @@ class Tetrahedralization {
   [[nodiscard]] bool is_ghost(TetId t) const { return vertices(t)[3] == kInfiniteVertex; }
   [[nodiscard]] const std::array<VertexId, 4>& vertices(TetId t) const { return tets_[t.index()].vertices; }
   [[nodiscard]] const Vec3& point(VertexId v) const { return points_[v.index()]; }
-  [[nodiscard]] std::span<const Vec3> points() const { return points_; }
+  [[nodiscard]] std::span<const Vec3> points() const { return {points_.data(), points_.size()}; }
   // The same facet seen from the neighbour across it.
   [[nodiscard]] FacetId mirror(FacetId f) const { return tets_[f.tet().index()].mirrors[f.face()]; }
   [[nodiscard]] TetId neighbour(TetId t, unsigned face) const { return tets_[t.index()].mirrors[face].tet(); }
@@ -48,15 +47,20 @@ class Tetrahedralization {
   void prefetch(TetId t) const { __builtin_prefetch(&tets_[t.index()]); }
 
  protected:
+  Tetrahedralization() = default;
+  // A view of another one, with room for new vertices and tetrahedra.
+  Tetrahedralization(Tetrahedralization& whole, const Range& vertices, const Range& tets)
+      : points_(whole.points_, vertices), incident_(whole.incident_, vertices), tets_(whole.tets_, tets) {}
+
   // Half a cache line. A free slot has no vertex in slot 0.
   struct alignas(32) Tet {
     std::array<VertexId, 4> vertices;
     std::array<FacetId, 4> mirrors;  // across face i: that facet as the neighbour knows it
   };
 
-  LargeArray<Vec3> points_;     // point of each vertex
-  LargeArray<TetId> incident_;  // a live tetrahedron at each vertex
-  LargeArray<Tet> tets_;        // live and free slots
+  SharedArray<Vec3> points_;     // point of each vertex
+  SharedArray<TetId> incident_;  // a live tetrahedron at each vertex
+  SharedArray<Tet> tets_;        // live and free slots
 };
 
 }  // namespace deliso

@@ -88,7 +88,7 @@ bool is_tight(const std::array<Vec3, 3>& points, float clearance) {
   return clearance * clearance < kTightness * kTightness * longest;
 }
 
-Box3 box_of(const std::array<Vec3, 3>& points) {
+Box3 box_of(std::span<const Vec3> points) {
   Box3 box;
   for (const Vec3& p : points) box.extend(p);
   return box;
@@ -132,9 +132,14 @@ void set_clearances(RefinementMesh& mesh) {
 
 void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   if (suspects.empty()) return;
+  // Mostly all of them are in one place.
+  Box3 around = box_of(suspects);
+  around.extend(around.low - Vec3{kSuspectReach, kSuspectReach, kSuspectReach});
+  around.extend(around.high + Vec3{kSuspectReach, kSuspectReach, kSuspectReach});
   std::vector<std::uint32_t> reached;
   for (const RefinementMesh::Triangle& t : mesh.triangles) {
     const Box3 box = box_of(mesh.corner_points(t.corners));
+    if (!box.meets(around)) continue;
     if (std::any_of(suspects.begin(), suspects.end(),
                     [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
       reached.insert(reached.end(), t.corners.begin(), t.corners.end());

@@ -68,8 +68,9 @@ Lengths lengths_of(const Parameters& parameters, const Box3& box) {
           std::max(parameters.stage1.r_min * b, parameters.stage1.size_bound_voxels)};
 }
 
-RecoverOptions stage1_options(const Parameters& parameters, const Lengths& lengths) {
+RecoverOptions stage1_options(const Parameters& parameters, const Lengths& lengths, int threads) {
   RecoverOptions options;
+  options.threads = threads;
   options.geometry = {
       .epsilon = parameters.stage1.epsilon, .rho = parameters.stage1.rho, .r_min = lengths.r_min_stage1};
   options.size_bound = lengths.size_bound;
@@ -129,7 +130,7 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 // have got samples.
 void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
                  const MeshingOptions& options, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
-  const RecoverOptions stage1 = stage1_options(options.parameters, lengths);
+  const RecoverOptions stage1 = stage1_options(options.parameters, lengths, options.threads);
   recover(restricted, stage1, controls, stats);
   if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);

@@ -49,6 +49,11 @@ struct QueuedElement {
   std::uint32_t generation = 0;
 };
 
+struct RankedElement {
+  std::uint64_t rank = 0;
+  QueuedElement queued;
+};
+
 // Highest rank first; or first in, first out.
 //
 // Ranks that agree in their upper half share a bucket, which becomes a heap when its turn comes: of block_rank() that
@@ -62,18 +67,36 @@ class RankedQueue {
     ++size_;
   }
   void push_by_age(const QueuedElement& queued) { push(--next_age_, queued); }
+  // What pop() or take_all() gave, of this queue or another one: it keeps its rank, and its age.
+  void put_back(const RankedElement& element) {
+    next_age_ = std::min(next_age_, element.rank);
+    push(element.rank, element.queued);
+  }
 
-  std::optional<QueuedElement> pop() {
+  std::optional<RankedElement> pop() {
     if (size_ == 0) return std::nullopt;
     --size_;
     Bucket& bucket = buckets_[places_.front().place];
     if (!bucket.is_heap) std::make_heap(bucket.entries.begin(), bucket.entries.end());
     bucket.is_heap = true;
     std::pop_heap(bucket.entries.begin(), bucket.entries.end());
-    const QueuedElement top = bucket.entries.back().queued;
+    const RankedElement top = ranked(bucket, bucket.entries.back());
     bucket.entries.pop_back();
     if (bucket.entries.empty()) drop_first_bucket();
     return top;
+  }
+  // Empties the queue, in no order that means anything.
+  template <class Visit>
+  void take_all(Visit&& visit) {
+    for (const Bucket& bucket : buckets_) {
+      for (const Entry& entry : bucket.entries) visit(ranked(bucket, entry));
+    }
+    buckets_.clear();
+    free_.clear();
+    place_of_.clear();
+    places_.clear();
+    latest_.fill(0);
+    size_ = 0;
   }
   [[nodiscard]] std::size_t size() const { return size_; }
   // What pop() would give next, where that is known without work: something to fetch ahead.
@@ -106,6 +129,9 @@ class RankedQueue {
     std::vector<Entry> entries;  // some, unless the bucket is free
   };
 
+  static RankedElement ranked(const Bucket& bucket, const Entry& entry) {
+    return {std::uint64_t{bucket.key} << 32 | entry.rank, entry.queued};
+  }
   Bucket& bucket_at(std::uint32_t key) {
     std::uint32_t& latest = latest_[key >> 24];
     if (latest < buckets_.size() && buckets_[latest].key == key && !buckets_[latest].entries.empty()) {

@@ -31,6 +31,7 @@ struct RecoverOptions {
   GeometryCriterion geometry;
   double size_bound = 0;  // no insertion nearer than this to a vertex
   QueueOrder order = QueueOrder::kWorstFirst;
+  int threads = 1;  // the result is the same for any number
 };
 
 struct StageStats {
@@ -48,6 +49,17 @@ struct RecoverStats : StageStats {
   std::int64_t hits_against_signs = 0;     // dual edges whose hits contradicted the signs at their ends
   SearchCounters search;
   double restricted_seconds = 0;  // time spent deciding which facets are restricted
+
+  // Adds what a part has done.
+  void add(const RecoverStats& part) {
+    insertions += part.insertions;
+    multi_intersect += part.multi_intersect;
+    extract_manifold += part.extract_manifold;
+    approximate_geometry += part.approximate_geometry;
+    boundary_splits += part.boundary_splits;
+    refused_by_size_bound += part.refused_by_size_bound;
+    search += part.search;
+  }
 };
 
 // Runs until no violation is left that the size bound lets us mend, or `controls` say stop. `pole_heights`, one for

@@ -22,13 +22,13 @@ void Refinement::run(Controls& controls, int threads) {
   guard_.emplace(mesh_, threads);
   queue_coarse_triangles();
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
-    const auto queued = queue_.pop();
-    if (!queued && !retry_crossed()) break;
+    const auto popped = queue_.pop();
+    if (!popped && !retry_crossed()) break;
     // What pops cost is waiting for the triangle they name; its neighbours are known once it has come.
     const auto next = queue_.next();
     if (next) __builtin_prefetch(&mesh_.triangles[*next]);
-    if (!queued || mesh_.triangles[queued->element].state != queued->generation) continue;
-    if (treat(queued->element)) wake_neighbours();
+    if (!popped || mesh_.triangles[popped->queued.element].state != popped->queued.generation) continue;
+    if (treat(popped->queued.element)) wake_neighbours();
     if (next) mesh_.prefetch_around(*next);
   }
   guard_.reset();

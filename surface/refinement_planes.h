@@ -5,22 +5,13 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "delaunay/base/slab.h"
 #include "surface/refinement_mesh.h"
 
 namespace deliso {
-
-// What lies strictly between two planes across an axis.
-struct Slab {
-  std::size_t axis = 0;
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] bool contains(const Vec3& p) const { return low < p[axis] && p[axis] < high; }
-};
 
 // At most 8 slabs next to each other of `slab_triangles` or more, about; a small mesh is one. `work` estimates the
 // insertions that each triangle needs.

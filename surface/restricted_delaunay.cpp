@@ -33,9 +33,9 @@ RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<c
 
 void RestrictedDelaunay::search_everything() {
   const std::size_t slots = delaunay_.tet_slots();
-  tets_.assign(slots, {});
-  touches_.assign(delaunay_.vertex_count(), {});
-  umbrellas_.assign(delaunay_.vertex_count(), {});
+  tets_.resize(slots);
+  touches_.resize(delaunay_.vertex_count());
+  umbrellas_.resize(delaunay_.vertex_count());
   std::vector<DualEnd> dual_ends(slots);
   for (std::size_t i = 0; i < slots; ++i) {
     if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_of(TetId(i));
@@ -59,9 +59,15 @@ void RestrictedDelaunay::search_everything() {
 RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId start, double min_distance) {
   const Vec3 p = snapped(point);
   if (delaunay_.find_conflicts(p, start)) return Outcome::kDuplicate;
+  if (delaunay_.is_blocked()) return Outcome::kBlocked;
   if (std::sqrt(delaunay_.nearest_squared_distance()) < min_distance) {
     delaunay_.abandon_cavity();
     return Outcome::kTooClose;
+  }
+  // Each facet of the star may have a dual edge: at most five for two on the rim.
+  if (is_part_ && edges_left() < 3 * delaunay_.rim().size()) {
+    delaunay_.abandon_cavity();
+    return Outcome::kBlocked;
   }
   ++stamp_;
   touched_edges_.clear();

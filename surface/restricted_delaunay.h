@@ -6,11 +6,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "delaunay/base/counters.h"
-#include "delaunay/base/huge_pages.h"
+#include "delaunay/base/shared_array.h"
 #include "surface/link_change.h"
 #include "surface/signed_delaunay.h"
 #include "surface/umbrella.h"
@@ -43,16 +44,29 @@ class RestrictedDelaunay : public SignedDelaunay {
   // See SignedDelaunay.
   RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule = FacetRule::kSigns);
 
-  enum class Outcome { kInserted, kDuplicate, kTooClose };
+  enum class Outcome { kInserted, kDuplicate, kTooClose, kBlocked };
   // Inserts the point unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with
-  // it.
+  // it. Parts alone are blocked.
   Outcome insert(const Vec3& point, TetId start, double min_distance);
+
+  // Whether it would destroy a tetrahedron.
+  [[nodiscard]] bool in_conflict(TetId t, const Vec3& point) const { return delaunay_.in_conflict(t, snapped(point)); }
 
   // What the last successful insertion changed: dual edges that are new or other than before, and vertices whose
   // umbrella is.
   [[nodiscard]] std::span<const DualEdgeId> touched_edges() const { return touched_edges_; }
   [[nodiscard]] std::span<const VertexId> touched_vertices() const { return touched_vertices_; }
   [[nodiscard]] VertexId last_vertex() const { return VertexId(delaunay_.vertex_count() - 1); }
+
+  // Parts for several threads, one in each of some slabs that do not meet, with room for so many insertions each (see
+  // BowyerWatson); no parts when that is 0 or cannot be. To be left alone until they have joined.
+  std::vector<std::unique_ptr<RestrictedDelaunay>> parts(std::span<const Slab> slabs, std::size_t insertions);
+  // Whether there is room for an insertion, unless it is a very large one in a part.
+  [[nodiscard]] bool has_room() const {
+    return !is_part_ || (delaunay_.has_room() && edges_left() >= kFewestEdgesLeft);
+  }
+  // Takes in what the parts have done. Returns the new id of each vertex.
+  std::vector<VertexId> join(std::span<const std::unique_ptr<RestrictedDelaunay>> parts);
 
   // Slots of dual edges; `is_alive` tells the used ones.
   [[nodiscard]] std::size_t dual_edge_slots() const { return dual_edges_.size(); }
@@ -72,10 +86,22 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
   // How often the hits of a dual edge contradicted the signs at its ends.
   [[nodiscard]] std::int64_t hits_against_signs() const { return hits_against_signs_; }
-  // Wall-clock time spent deciding which facets are restricted.
+  // Wall-clock time spent deciding which facets are restricted; that of parts is added up.
   [[nodiscard]] double restricted_seconds() const { return restricted_seconds_; }
 
  private:
+  static constexpr std::size_t kFewestEdgesLeft = 256;
+
+  struct EdgeRoom {
+    Range edges;
+    std::vector<DualEdgeId> free;
+  };
+  RestrictedDelaunay(RestrictedDelaunay& whole, const PartRoom& room, const EdgeRoom& edges);
+  void make_room(const PartRoom& last, std::size_t edges);
+  void forget_facets_gone();
+  void rename(std::span<const VertexId> renamed);
+  [[nodiscard]] std::size_t edges_left() const { return free_edges_.size() + dual_edges_.room_left(); }
+
   struct RimEdge {
     DualEdgeId edge;               // of a facet on the rim, or none
     bool inside_is_begin = false;  // its t_begin end was in the region
@@ -114,12 +140,12 @@ class RestrictedDelaunay : public SignedDelaunay {
     std::array<DualEdgeId, 4> edges;  // of its facets
     std::uint32_t position = 0;       // in created(), if it is one of them
   };
-  LargeArray<TetRecord> tets_;
+  SharedArray<TetRecord> tets_;
   struct Touch {
     std::uint32_t stamp = 0;  // the insertion that touched a vertex last; 0 for none
     std::uint32_t place = 0;  // in touched_vertices_, as long as it is the last one
   };
-  std::vector<Touch> touches_;  // of each vertex
+  SharedArray<Touch> touches_;  // of each vertex
   std::uint32_t stamp_ = 1;
   std::vector<DualEnd> dual_ends_;       // of created()
   std::vector<FacetId> facets_once_;     // the latest
@@ -130,9 +156,9 @@ class RestrictedDelaunay : public SignedDelaunay {
     FacetId facet;
     bool is_disk = false;  // known to be one, by what kSigns says
   };
-  std::vector<Umbrella> umbrellas_;
+  SharedArray<Umbrella> umbrellas_;
 
-  LargeArray<DualEdge> dual_edges_;
+  SharedArray<DualEdge> dual_edges_;
   std::vector<DualEdgeId> free_edges_;
   std::vector<DualEdgeId> touched_edges_;
   std::vector<VertexId> touched_vertices_;
@@ -143,6 +169,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   SearchCounters counters_;
   std::int64_t hits_against_signs_ = 0;
   double restricted_seconds_ = 0;
+  bool is_part_ = false;
 };
 
 }  // namespace deliso

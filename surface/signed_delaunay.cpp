@@ -87,7 +87,7 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
       if (is_finite(given[i])) (*vertex_of)[i] = vertices[finite++];
     }
   }
-  sign_.assign(delaunay_.tet_slots(), Sign::kBelow);
+  sign_.resize(delaunay_.tet_slots());
   for_each_block(sign_.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (delaunay_.is_live(TetId(i))) sign_[i] = sign_of(TetId(i));
@@ -124,7 +124,7 @@ bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const
   // Step 3: signs.
   std::sort(renewed.begin(), renewed.end());
   renewed.erase(std::unique(renewed.begin(), renewed.end()), renewed.end());
-  sign_.resize(delaunay_.tet_slots(), Sign::kBelow);
+  sign_.resize(delaunay_.tet_slots());
   for (const TetId t : renewed) sign_[t.index()] = delaunay_.is_live(t) ? sign_of(t) : Sign::kBelow;
   return true;
 }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
-#include "delaunay/base/huge_pages.h"
+#include "delaunay/base/shared_array.h"
 #include "delaunay/bowyer_watson.h"
 #include "raycast/isosurface.h"
 
@@ -102,7 +102,13 @@ class SignedDelaunay {
   static bool on_box(const Box3& box, const Vec3& p);
 
  protected:
-  enum class Sign : std::uint8_t { kBelow, kAbove };
+  // A part of another one (see BowyerWatson); it has the same signs.
+  SignedDelaunay(SignedDelaunay& whole, const PartRoom& room)
+      : isosurface_(whole.isosurface_), delaunay_(whole.delaunay_, room), sign_(whole.sign_, room.tets) {
+    DELISO_CHECK(whole.guards_ == 0, "there are no guards");
+  }
+
+  enum class Sign : std::uint8_t { kBelow, kAbove };  // kBelow where none was found yet
   [[nodiscard]] Sign sign_at(const Vec3& p) const { return isosurface_.is_above(p) ? Sign::kAbove : Sign::kBelow; }
   [[nodiscard]] Sign sign_of(TetId t) const { return sign_at(dual_point(t)); }
   // The circumcenter of t; of a ghost, where its dual ray ends up when it is clamped to the box.
@@ -110,7 +116,7 @@ class SignedDelaunay {
 
   const Isosurface& isosurface_;
   BowyerWatson delaunay_;
-  LargeArray<Sign> sign_;  // of each tetrahedron
+  SharedArray<Sign> sign_;  // of each tetrahedron
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "delaunay/base/vec3.h"
 #include "surface/parameters.h"
@@ -19,6 +20,7 @@ struct Violation {
   ViolationKind kind = ViolationKind::kMultiIntersect;
   std::uint32_t element = 0;     // a dual edge or, for kExtractManifold, a vertex
   std::uint32_t generation = 0;  // of the dual edge when it was queued
+  std::uint64_t rank = 0;        // among those of its kind; the queue gives it
 };
 
 // The worst or the largest first; ApproximateGeom, which makes most of the insertions, block by block. Umbrellas, which
@@ -45,14 +47,34 @@ class ViolationQueue {
   std::optional<Violation> pop() {
     for (const ViolationKind kind :
          {ViolationKind::kMultiIntersect, ViolationKind::kExtractManifold, ViolationKind::kApproximateGeometry}) {
-      const auto queued = queues_[static_cast<std::size_t>(kind)].pop();
-      if (queued) return Violation{kind, queued->element, queued->generation};
+      const auto popped = queues_[static_cast<std::size_t>(kind)].pop();
+      if (popped) return violation(kind, *popped);
     }
     return std::nullopt;
+  }
+  // What pop() or take_all() gave, of this queue or another one of the same order.
+  void put_back(const Violation& violation) {
+    queues_[static_cast<std::size_t>(violation.kind)].put_back(
+        {violation.rank, {violation.element, violation.generation}});
+  }
+  // Empties the queue; returns what it held, in no order that means anything.
+  std::vector<Violation> take_all() {
+    std::vector<Violation> all;
+    all.reserve(size());
+    for (const ViolationKind kind :
+         {ViolationKind::kMultiIntersect, ViolationKind::kExtractManifold, ViolationKind::kApproximateGeometry}) {
+      queues_[static_cast<std::size_t>(kind)].take_all(
+          [&](const RankedElement& element) { all.push_back(violation(kind, element)); });
+    }
+    return all;
   }
   [[nodiscard]] std::size_t size() const { return queues_[0].size() + queues_[1].size() + queues_[2].size(); }
 
  private:
+  static Violation violation(ViolationKind kind, const RankedElement& element) {
+    return {kind, element.queued.element, element.queued.generation, element.rank};
+  }
+
   QueueOrder order_;
   std::array<RankedQueue, 3> queues_;  // of each kind
 };

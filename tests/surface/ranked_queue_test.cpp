@@ -47,10 +47,10 @@ TEST(RankedQueue, PopsByRankHoweverPushesAndPopsMix) {
         ASSERT_EQ(popped.has_value(), !expected.empty()) << "seed " << seed << " step " << step;
         if (!popped) continue;
         const auto last = std::prev(expected.end());
-        ASSERT_EQ(popped->element, -std::get<1>(*last)) << "seed " << seed << " step " << step;
-        ASSERT_EQ(popped->generation, std::get<2>(*last)) << "seed " << seed << " step " << step;
+        ASSERT_EQ(popped->queued.element, -std::get<1>(*last)) << "seed " << seed << " step " << step;
+        ASSERT_EQ(popped->queued.generation, std::get<2>(*last)) << "seed " << seed << " step " << step;
         if (next) {
-          ASSERT_EQ(*next, popped->element);
+          ASSERT_EQ(*next, popped->queued.element);
           ++foretold;
         }
         expected.erase(last);
@@ -64,7 +64,7 @@ TEST(RankedQueue, PopsByRankHoweverPushesAndPopsMix) {
 TEST(RankedQueue, ByAgeTheFirstComesOutFirst) {
   RankedQueue queue;
   for (std::uint32_t i = 0; i < 100; ++i) queue.push_by_age({i, 2 * i});
-  for (std::uint32_t i = 0; i < 100; ++i) EXPECT_EQ(queue.pop()->element, i);
+  for (std::uint32_t i = 0; i < 100; ++i) EXPECT_EQ(queue.pop()->queued.element, i);
   EXPECT_FALSE(queue.pop());
 }
 

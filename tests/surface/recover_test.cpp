@@ -5,6 +5,7 @@
 #include <atomic>
 #include <limits>
 
+#include "delaunay/validate.h"
 #include "surface/poles.h"
 #include "surface/umbrella.h"
 #include "tests/support/surface_fields.h"
@@ -136,6 +137,64 @@ TEST(Recover, EqualRunsGiveEqualVerticesAndOtherOrdersEndToo) {
     const auto pb = b.restricted->delaunay().points();
     EXPECT_TRUE(std::equal(pa.begin(), pa.end(), pb.begin(), pb.end()));
     EXPECT_GT(a.stats.insertions, 0);
+  }
+}
+
+// Large enough to be refined in slabs, which keep the promises of stage 1, too.
+TEST(Recover, AnyNumberOfThreadsGivesTheSameVerticesAndSigns) {
+  for (const auto& scene : {field_scene("gyroid", 40), noise_scene({12, 14, 13}, 5)}) {
+    SCOPED_TRACE(scene->name);
+    RecoverOptions options = coarse_options();
+    const Recovered one = run(*scene, options);
+    const auto points = one.restricted->delaunay().points();
+    ASSERT_GT(points.size(), 2000u);
+    for (std::size_t i = one.at_start; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) ASSERT_GE(distance(points[i], points[j]), 0.3);
+    }
+    EXPECT_EQ(find_violation(one.restricted->delaunay()).value_or("none"), "none");
+    const RestrictedDelaunay fresh(*scene->isosurface, points);
+    EXPECT_EQ(testing::signs_by_name(*one.restricted), testing::signs_by_name(fresh));
+    for (const int threads : {2, 3}) {
+      options.threads = threads;
+      const Recovered several = run(*scene, options);
+      const auto others = several.restricted->delaunay().points();
+      EXPECT_TRUE(std::equal(points.begin(), points.end(), others.begin(), others.end()));
+      EXPECT_EQ(several.restricted->signs(), one.restricted->signs());
+      EXPECT_EQ(several.stats.insertions, one.stats.insertions);
+      EXPECT_EQ(several.stats.search.searches, one.stats.search.searches);
+    }
+  }
+}
+
+// In no part of it, and none is lost.
+TEST(Recover, SlabsLeaveNoViolation) {
+  const auto scene = field_scene("gyroid", 40);
+  RecoverOptions options;
+  options.geometry.r_min = 0.2;
+  options.size_bound = 1e-3;
+  Recovered result = run(*scene, options);
+  ASSERT_GT(result.stats.insertions, 2000);
+  const std::int64_t refused = result.stats.refused_by_size_bound;
+  RecoverStats again;
+  Controls controls = free_run();
+  recover(*result.restricted, options, controls, again);
+  EXPECT_EQ(again.insertions, 0);
+  EXPECT_LE(again.refused_by_size_bound, refused);
+}
+
+TEST(Recover, SlabsEndAtTheVertexBudget) {
+  const auto scene = field_scene("gyroid", 40);
+  for (const std::size_t more : {100, 777, 1500}) {
+    RestrictedDelaunay restricted(*scene->isosurface, scene->start());
+    const std::size_t most = restricted.delaunay().vertex_count() + more;
+    BudgetParameters budget;
+    budget.max_vertices = static_cast<std::int64_t>(most);
+    Controls limited(budget, nullptr, {});
+    RecoverStats stats;
+    recover(restricted, coarse_options(), limited, stats);
+    EXPECT_TRUE(limited.stopped());
+    EXPECT_EQ(restricted.delaunay().vertex_count(), most);
+    EXPECT_EQ(find_violation(restricted.delaunay()).value_or("none"), "none");
   }
 }
 

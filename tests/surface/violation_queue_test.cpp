@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,33 @@ TEST(ViolationQueue, KindsComeInThePapersOrderThenPowersOfTwoThenBlocksAndTheWor
       }
     }
     EXPECT_GT(left.size(), 20u);
+  }
+}
+
+// What goes through other queues comes out where it would have come out here.
+TEST(ViolationQueue, WhatIsHandedOutAndPutBackKeepsItsPlace) {
+  for (const QueueOrder order : {QueueOrder::kWorstFirst, QueueOrder::kFirstInFirstOut, QueueOrder::kLargestRadius}) {
+    const std::vector<Pushed> list = random_violations(4);
+    ViolationQueue queue(order);
+    std::array<ViolationQueue, 2> others = {ViolationQueue(order), ViolationQueue(order)};
+    const std::size_t half = list.size() / 2;
+    for (const Pushed& p : std::span(list).first(half)) queue.push(p.violation, p.badness, p.radius, p.where);
+    const std::vector<Violation> all = queue.take_all();
+    EXPECT_EQ(all.size(), half);
+    EXPECT_EQ(queue.size(), 0u);
+    EXPECT_FALSE(queue.pop());
+    for (std::size_t i = 0; i < all.size(); ++i) others[i % 2].put_back(all[i]);
+    for (ViolationQueue& other : others) {
+      for (int i = 0; i < 10; ++i) queue.put_back(*other.pop());
+      for (const Violation& violation : other.take_all()) queue.put_back(violation);
+    }
+    for (const Pushed& p : std::span(list).subspan(half)) queue.push(p.violation, p.badness, p.radius, p.where);
+    for (const Pushed& expected : all_in_order_of_pops(order, list)) {
+      const auto violation = queue.pop();
+      ASSERT_TRUE(violation);
+      ASSERT_EQ(violation->element, expected.violation.element);
+    }
+    EXPECT_FALSE(queue.pop());
   }
 }
 
