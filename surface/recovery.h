@@ -72,6 +72,7 @@ class Recovery {
   [[nodiscard]] std::array<VertexId, 3> vertices_of(const Violation& violation) const;
   std::vector<Violation> hand_out(std::span<const Violation> waiting, std::span<const Slab> slabs,
                                   std::span<Recovery> parts) const;
+  void mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed, Controls& controls);
   void take_back(std::span<const Violation> left, std::span<const VertexId> renamed);
 
   RestrictedDelaunay& restricted_;

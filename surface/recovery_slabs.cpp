@@ -1,8 +1,8 @@
 // Stage 1 on several threads: rounds, each in slabs of the volume.
 //
 // A round is planned by the whole alone and worked by parts of the triangulation that do not meet (see BowyerWatson),
-// so the result does not depend on how many threads there are. What a plane is in the way of waits for the next round,
-// whose planes lie across another axis.
+// so the result does not depend on how many threads there are. What a plane is in the way of the whole mends at the end
+// of the round, or it waits for the next one, whose planes lie across another axis.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -67,14 +67,31 @@ std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
   const std::vector<VertexId> renamed = restricted_.join(parts);
   umbrella_queued_.assign(delaunay_.vertex_count(), false);
   std::int64_t inserted = 0;
+  std::vector<Violation> blocked;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     take_back(work[k].queue_.take_all(), renamed);
-    take_back(work[k].blocked_, renamed);
+    blocked.insert(blocked.end(), work[k].blocked_.begin(), work[k].blocked_.end());
     stats_.add(counted[k]);
     inserted += counted[k].insertions;
   }
   take_back(between, renamed);
+  mend_blocked(blocked, renamed, controls);
   return inserted;
+}
+
+// One by one, but not what follows from it. Left alone, coarse triangles would block all that is finer around them, in
+// round after round.
+void Recovery::mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed, Controls& controls) {
+  ViolationQueue in_order(options_.order);
+  for (Violation violation : blocked) {
+    if (violation.kind == ViolationKind::kExtractManifold) violation.element = renamed[violation.element].value;
+    in_order.put_back(violation);
+  }
+  while (!controls.must_stop("recover", delaunay_.vertex_count(), queue_.size() + in_order.size())) {
+    const std::optional<Violation> violation = in_order.pop();
+    if (!violation) break;
+    treat(*violation);
+  }
 }
 
 // Empties the queue; without what was mended or destroyed meanwhile.
@@ -96,11 +113,13 @@ std::size_t Recovery::most_insertions(std::span<const Violation> waiting) const 
   return std::min(kMostPerTriangle * triangles, static_cast<std::size_t>(kMostGrowth * vertices));
 }
 
-// With about as many violations each.
+// With about as many triangles that wait each.
 std::vector<Slab> Recovery::slabs_of(std::span<const Violation> waiting, std::size_t axis) const {
   std::vector<double> places;
-  places.reserve(waiting.size());
-  for (const Violation& violation : waiting) places.push_back(delaunay_.point(vertices_of(violation)[0])[axis]);
+  for (const Violation& violation : waiting) {
+    if (violation.kind == ViolationKind::kExtractManifold) continue;
+    places.push_back(delaunay_.point(vertices_of(violation)[0])[axis]);
+  }
   std::vector<Slab> slabs(kSlabs);
   for (std::size_t k = 0; k < kSlabs; ++k) {
     slabs[k].axis = axis;

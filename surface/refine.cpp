@@ -49,7 +49,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   const auto meeting = [&] {
     return round == Round::kFirst ? meeting_pairs(part.mesh, threads) : meeting_pairs_of_renewed(part.mesh, threads);
   };
-  RefinementMesh least;
+  RefinementChange least;
   std::int64_t fewest = 0, before = 0;
   std::vector<Vec3> suspects;
   for (std::int64_t restarts = 0;; ++restarts) {
@@ -72,8 +72,8 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
       stats = counted;
     }
     if (is_best && fewest <= before) return;
-    if (is_best) least = part.mesh;
-    refinement.take_back();
+    RefinementChange change = refinement.take_back();
+    if (is_best) least = std::move(change);
     if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
@@ -83,7 +83,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
       distrust(part.mesh, suspects);
     }
   }
-  part.mesh = std::move(least);
+  least.redo(part.mesh);
 }
 
 // Refines slabs apart from each other.

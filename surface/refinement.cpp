@@ -34,9 +34,10 @@ void Refinement::run(Controls& controls, int threads) {
   guard_.reset();
 }
 
-void Refinement::take_back() {
-  start_->restore(mesh_);
+RefinementChange Refinement::take_back() {
+  RefinementChange change = start_->restore(mesh_);
   start_.reset();
+  return change;
 }
 
 void Refinement::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
@@ -46,11 +47,24 @@ void Refinement::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
   triangles_.push_back(mesh.triangles[t]);
 }
 
-void Refinement::Start::restore(RefinementMesh& mesh) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) mesh.triangles[places_[i]] = triangles_[i];
+RefinementChange Refinement::Start::restore(RefinementMesh& mesh) {
+  RefinementChange change;
+  change.new_triangles.assign(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(is_kept_.size()),
+                              mesh.triangles.end());
+  change.new_vertices.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(vertex_count_), mesh.vertices.end());
+  for (std::size_t i = 0; i < places_.size(); ++i) std::swap(mesh.triangles[places_[i]], triangles_[i]);
+  change.places = std::move(places_);
+  change.triangles = std::move(triangles_);
   mesh.triangles.resize(is_kept_.size());
   mesh.vertices.resize(vertex_count_);
   mesh.forget_attempts();
+  return change;
+}
+
+void RefinementChange::redo(RefinementMesh& mesh) const {
+  for (std::size_t i = 0; i < places.size(); ++i) mesh.triangles[places[i]] = triangles[i];
+  mesh.triangles.insert(mesh.triangles.end(), new_triangles.begin(), new_triangles.end());
+  mesh.vertices.insert(mesh.vertices.end(), new_vertices.begin(), new_vertices.end());
 }
 
 // What another part left coarse is to be tried again; frozen triangles stay as they are.

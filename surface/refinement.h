@@ -16,6 +16,17 @@
 
 namespace deliso {
 
+// What a refinement did to a mesh.
+struct RefinementChange {
+  std::vector<std::uint32_t> places;
+  std::vector<RefinementMesh::Triangle> triangles;  // at these places
+  std::vector<RefinementMesh::Triangle> new_triangles;
+  std::vector<RefinementMesh::Vertex> new_vertices;
+
+  // Does it again to the mesh as it was.
+  void redo(RefinementMesh& mesh) const;
+};
+
 class Refinement {
  public:
   // Of a mesh whose vertices have clearances.
@@ -31,8 +42,8 @@ class Refinement {
   std::vector<float> measure_all(int threads);
   // Refines the coarse triangles, as far as the part allows. Threads prepare it; it runs on this one alone.
   void run(Controls& controls, int threads);
-  // Takes back all that run() did, but for what it found suspect.
-  void take_back();
+  // Takes back all that run() did, but for what it found suspect; returns what that was.
+  RefinementChange take_back();
 
  private:
   using Candidate = RefinementCandidate;
@@ -82,7 +93,7 @@ class Refinement {
     explicit Start(const RefinementMesh& mesh)
         : is_kept_(mesh.triangles.size(), false), vertex_count_(mesh.vertices.size()) {}
     void keep(std::uint32_t t, const RefinementMesh& mesh);
-    void restore(RefinementMesh& mesh) const;
+    RefinementChange restore(RefinementMesh& mesh);
 
    private:
     std::vector<std::uint32_t> places_;

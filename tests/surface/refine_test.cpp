@@ -164,7 +164,24 @@ TEST(Refine, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
+// Corners, neighbours, balls and flags.
+void expect_equal(const RefinementMesh& mesh, const RefinementMesh& expected) {
+  ASSERT_EQ(mesh.vertices.size(), expected.vertices.size());
+  ASSERT_EQ(mesh.triangles.size(), expected.triangles.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    EXPECT_EQ(mesh.vertices[v].point, expected.vertices[v].point);
+    EXPECT_EQ(mesh.vertices[v].pole_height, expected.vertices[v].pole_height);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto &now = mesh.triangles[t], &then = expected.triangles[t];
+    EXPECT_EQ(now.corners, then.corners);
+    EXPECT_EQ(now.neighbours, then.neighbours);
+    EXPECT_EQ(now.ball.center, then.ball.center);
+    EXPECT_EQ(now.state, then.state);
+  }
+}
+
+TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWasAndCanBeDoneAgain) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
     RefinementPart part;
@@ -179,18 +196,11 @@ TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWas) {
     Refinement refinement(part, *scene->isosurface, options, stats);
     refinement.run(controls, 1);
     EXPECT_EQ(mesh.vertices.size(), before.vertices.size() + static_cast<std::size_t>(stats.insertions));
-    refinement.take_back();
-    ASSERT_EQ(mesh.vertices.size(), before.vertices.size());
-    ASSERT_EQ(mesh.triangles.size(), before.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto &now = mesh.triangles[t], &then = before.triangles[t];
-      EXPECT_EQ(now.corners, then.corners);
-      EXPECT_EQ(now.neighbours, then.neighbours);
-      EXPECT_EQ(now.ball.center, then.ball.center);
-      EXPECT_EQ(now.has_hit(), then.has_hit());
-      EXPECT_EQ(now.is_coarse(), then.is_coarse());
-      EXPECT_FALSE(now.is_renewed() || now.is_refused());
-    }
+    const RefinementMesh after = mesh;
+    const RefinementChange change = refinement.take_back();
+    expect_equal(mesh, before);
+    change.redo(mesh);
+    expect_equal(mesh, after);
   }
 }
 
