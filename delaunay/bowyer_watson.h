@@ -6,11 +6,12 @@
 // A removal has one: remove(v). After insertions and removals in any order the triangulation is that of the points that
 // are left, as if it had been built from them in the order of their vertices.
 //
-// Parts. Several threads may insert at the same time, each within a slab of its own, by a triangulation that shares the
-// arrays of the whole. A tetrahedron with vertices in two slabs is *frozen*: parts may look at it, but none takes it
-// away. A tetrahedron next to one that lies within a slab has three of its finite vertices there or shares the infinite
-// one; so it lies within the slab, too, or is frozen, and parts never meet. An insertion that a frozen tetrahedron is
-// in conflict with is *blocked*, and left to the whole. What parts do depends neither on threads nor on other parts.
+// Parts. Several threads may insert at the same time, each by a part: a triangulation that shares the arrays of the
+// whole, but takes away only tetrahedra that lie within its slab, with all their finite vertices strictly between its
+// planes. The others that parts come across are *frozen*: what lies next to a tetrahedron within a slab has two or
+// three of its finite vertices in common with it, so it lies within the same slab or within none, and no part meets
+// another. An insertion that a frozen tetrahedron is in conflict with is *blocked*, and left to the whole. What a part
+// does depends neither on threads nor on other parts.
 //
 // Ties. orient3d is zero exactly for coplanar points. A zero insphere is resolved by a symbolic perturbation of the
 // lifted coordinate by vertex index (Devillers, Teillaud: Perturbations for Delaunay and weighted Delaunay 3D

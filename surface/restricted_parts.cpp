@@ -35,13 +35,15 @@ std::vector<std::unique_ptr<RestrictedDelaunay>> RestrictedDelaunay::parts(std::
   return parts;
 }
 
-// A slot that was free is anybody's: a part must not look there for the facet of a vertex that it had before.
+// A slot that is free becomes anybody's: a part must not look there for the facet of a vertex that it had before.
 void RestrictedDelaunay::forget_facets_gone() {
   for (std::size_t v = 0; v < umbrellas_.size(); ++v) {
     FacetId& facet = umbrellas_[v].facet;
     if (facet.is_none()) continue;
     const auto& corners = delaunay_.vertices(facet.tet());
-    if (std::find(corners.begin(), corners.end(), VertexId(v)) == corners.end()) facet = FacetId();
+    const bool is_there =
+        delaunay_.is_live(facet.tet()) && std::find(corners.begin(), corners.end(), VertexId(v)) != corners.end();
+    if (!is_there) facet = FacetId();
   }
 }
 
