@@ -18,6 +18,7 @@ namespace deliso {
 namespace {
 
 constexpr double kNear = 0.8;  // mesh-space units
+constexpr double kClose = 0.5;
 // How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
 constexpr double kRadiusFraction = 0.3;
 // How far a sample may be left out by the mesh. Stage 1 leaves out crossings that are nearer to a sample than
@@ -108,29 +109,29 @@ double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) con
   return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
 }
 
-bool MeshCover::covers(const Vec3& p, std::uint32_t& guess) const {
-  if (mesh_.triangles.empty()) return false;
+MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
+  if (mesh_.triangles.empty()) return Cover::kNone;
   // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
   const auto [reached, squared_reached] = walk_towards(p, guess);
-  if (squared_reached < kNear * kNear) {
+  if (squared_reached < kClose * kClose) {
     guess = reached;
-    return true;
+    return Cover::kClose;
   }
   // The nearest of all is no farther than that; a little more, so that the one reached is found as well.
   const auto [nearest, squared] =
       tree_.nearest(p, 1.001 * squared_reached, [&](std::uint32_t t) { return squared_distance_to(p, t); });
   if (squared < kNear * kNear) {
     guess = nearest;
-    return true;
+    return squared < kClose * kClose ? Cover::kClose : Cover::kFar;
   }
   const double reach = kRadiusFraction * extent(mesh_, nearest);
-  return squared <= reach * reach;
+  return squared <= reach * reach ? Cover::kFar : Cover::kNone;
 }
 
 std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
   std::pair<std::uint32_t, double> best = {start, squared_distance_to(p, start)};
   if (mesh_.neighbours.empty()) return best;
-  for (int step = 0; step < kLongestWalk && best.second >= kNear * kNear; ++step) {
+  for (int step = 0; step < kLongestWalk && best.second >= kClose * kClose; ++step) {
     const std::uint32_t from = best.first;
     for (const TriangleSide side : mesh_.neighbours[from]) {
       if (side == kNoSide) continue;
@@ -195,7 +196,7 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
 
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects, int threads) {
+                              std::vector<std::uint32_t>& suspects, int threads, std::vector<Vec3>* landmarks) {
   // The facets as they are: how they make up a manifold does not matter here. Where few crossings are left to ask
   // about, walks do not pay.
   SurfaceMesh mesh = facets_alone(restricted);
@@ -205,14 +206,15 @@ std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& 
   };
   const MeshCover cover(mesh, threads);
   const std::vector<std::uint32_t> asked = std::move(suspects);
-  std::vector<std::uint8_t> is_covered(asked.size());
+  std::vector<MeshCover::Cover> covers(asked.size());
   for_each_block(asked.size(), threads, [&](std::size_t first, std::size_t last) {
     std::uint32_t guess = 0;
-    for (std::size_t i = first; i < last; ++i) is_covered[i] = cover.covers(position(asked[i]), guess) ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) covers[i] = cover.look(position(asked[i]), guess);
   });
   suspects.clear();
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (is_covered[i] == 0) suspects.push_back(asked[i]);
+    if (covers[i] == MeshCover::Cover::kNone) suspects.push_back(asked[i]);
+    if (landmarks != nullptr && covers[i] != MeshCover::Cover::kClose) landmarks->push_back(position(asked[i]));
   }
   std::int64_t inserted = 0;
   for (const std::uint32_t i : suspects) {

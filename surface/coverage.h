@@ -26,7 +26,10 @@ class MeshCover {
   // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. The search
   // begins at the triangle `guess`, which becomes the one that covers p, if any: a good guess for a point nearby. The
   // answer does not depend on it.
-  [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const;
+  [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const { return look(p, guess) != Cover::kNone; }
+  // The same, and whether it is within 0.5 units.
+  enum class Cover : std::uint8_t { kNone, kFar, kClose };
+  [[nodiscard]] Cover look(const Vec3& p, std::uint32_t& guess) const;
 
  private:
   [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
@@ -47,10 +50,12 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
 
 // Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
 // nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are
-// not covered stay in it. Returns how many went in; stage 1 has to go on then. The same for any number of threads.
+// not covered stay in it. Returns how many went in; stage 1 has to go on then. `landmarks`, when asked for, gets those
+// that the mesh is not close to (MeshCover::look), covered or not. The same for any number of threads.
 std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects, int threads = 1);
+                              std::vector<std::uint32_t>& suspects, int threads = 1,
+                              std::vector<Vec3>* landmarks = nullptr);
 
 // All crossings, in an order that keeps neighbours together.
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads = 1);

@@ -92,8 +92,10 @@ RecoverOptions full3d_options(const Parameters& parameters, const Lengths& lengt
   return options;
 }
 
-RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths, int threads) {
+RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths, std::span<const Vec3> landmarks,
+                             int threads) {
   RefineOptions options;
+  options.landmarks = landmarks;
   options.threads = threads;
   options.epsilon1 = parameters.stage2.epsilon1;
   options.epsilon2 = parameters.stage2.epsilon2;
@@ -101,7 +103,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   options.r_min = lengths.r_min_stage2;
   if (parameters.stage2.max_distance) options.max_distance = *parameters.stage2.max_distance;
   options.order = parameters.queue_order;
-  options.restart_at_crossings = parameters.certify && parameters.repair.max_rounds > 0;
+  options.restart_at_crossings = repairs(parameters);
   options.criterion2 = parameters.stage2.criterion2;
   options.new_pole = parameters.stage2.new_pole;
   options.store_hits = parameters.stage2.store_hits;
@@ -127,42 +129,30 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 }
 
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
-// have got samples.
-void recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid, const IsosurfaceTopology* topology,
-                 const MeshingOptions& options, const Lengths& lengths, Controls& controls, RecoverStats& stats) {
+// have got samples. Returns landmarks for stage 2: the crossings that its first mesh is not close to.
+std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid,
+                              const IsosurfaceTopology* topology, const MeshingOptions& options, const Lengths& lengths,
+                              Controls& controls, RecoverStats& stats) {
   const RecoverOptions stage1 = stage1_options(options.parameters, lengths, options.threads);
   recover(restricted, stage1, controls, stats);
-  if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return;
+  if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return {};
+  std::vector<Vec3> landmarks;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
-    const std::int64_t inserted =
-        insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects, options.threads);
+    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects,
+                                                   options.threads, i == 0 ? &landmarks : nullptr);
     stats.insertions += inserted;
     stats.uncovered += inserted;
     if (inserted == 0 || controls.poll()) break;
     recover(restricted, stage1, controls, stats);
   }
+  return landmarks;
 }
 
 void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
   stats.search += restricted.counters();
   stats.restricted_seconds = restricted.restricted_seconds();
   stats.hits_against_signs = restricted.hits_against_signs();
-}
-
-bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
-
-// Combinations of parameters that contradict each other.
-void check_parameters(const Parameters& parameters) {
-  if (parameters.stage2.pole_height != PoleHeight::kNearer && repairs(parameters)) {
-    throw InputError("stage2.pole_height: repair takes the nearer pole; another one needs repair.max_rounds = 0");
-  }
-  if (!parameters.stage1.one_sign_per_tetrahedron &&
-      (repairs(parameters) || parameters.stage1.coverage || !parameters.certify)) {
-    throw InputError(
-        "stage1.one_sign_per_tetrahedron: false gives facets that only the certificate can judge; it needs certify = "
-        "true, stage1.coverage = false and repair.max_rounds = 0");
-  }
 }
 
 // Without one sign per tetrahedron: gives the tetrahedra the signs that the restricted facets ask for, if there are
@@ -248,8 +238,9 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     return std::make_unique<RestrictedDelaunay>(*isosurface, points, rule);
   });
 
-  timed(result.recover, [&] {
-    recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls, result.recover);
+  const std::vector<Vec3> landmarks = timed(result.recover, [&] {
+    return recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls,
+                       result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -265,7 +256,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
-      refine(surface, *isosurface, stage2_options(parameters, lengths, options.threads), controls, result.refine);
+      refine(surface, *isosurface, stage2_options(parameters, lengths, landmarks, options.threads), controls,
+             result.refine);
     });
   }
   result.stopped_early = controls.stopped();

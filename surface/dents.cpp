@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "delaunay/base/box3.h"
 #include "delaunay/triangle_contact.h"
 #include "surface/box_tree.h"
+#include "surface/gradients_at.h"
 #include "surface/least_triangulation.h"
 #include "surface/surface_distance.h"
 #include "surface/vertex_fans.h"
@@ -22,8 +22,6 @@ constexpr double kLeastEdge = 1;
 constexpr double kLeastDistance = 0.5;
 // The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
 constexpr double kFarthestCover = 0.2;
-// A vertex so near to a face between cells, in steps of the grid, lies on it.
-constexpr double kOnFace = 1e-3;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -31,7 +29,7 @@ class Dents {
  public:
   Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
 
-  std::int64_t remove_all();
+  DentRemoval remove_all();
 
  private:
   // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
@@ -43,9 +41,11 @@ class Dents {
   };
   void find_apexes();
   void find_surroundings();
+  std::vector<Box3> boxes_of_dents();
   void look_around(Apex& apex, const Box3& box);
   bool remove(Apex& apex);
   void append_apexes(const std::vector<std::uint32_t>& link);
+  [[nodiscard]] Triangles triangles_of(const VertexFan& fan) const;
   [[nodiscard]] Box3 box_around(std::uint32_t v, const VertexFan& fan) const;
   [[nodiscard]] bool can_be_filled(std::uint32_t v, const VertexFan& fan) const;
   [[nodiscard]] double far_area(const Triangles& triangles);
@@ -77,20 +77,38 @@ class Dents {
   SearchCounters search_;
 };
 
-std::int64_t Dents::remove_all() {
+DentRemoval Dents::remove_all() {
   find_apexes();
-  if (apexes_.empty()) return 0;
+  if (apexes_.empty()) return {};
   find_surroundings();
   // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
-  std::int64_t removed = 0;
-  for (std::int64_t before = -1; before != removed;) {
-    before = removed;
+  DentRemoval result;
+  for (std::int64_t before = -1; before != result.removed;) {
+    before = result.removed;
     for (std::size_t a = 0; a < apexes_.size(); ++a) {
-      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++removed;
+      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++result.removed;
     }
   }
-  if (removed > 0) fans_.drop_free_slots();
-  return removed;
+  result.left = boxes_of_dents();
+  if (result.removed > 0) fans_.drop_free_slots();
+  return result;
+}
+
+// Of the apexes there are, those with triangles far from the surface.
+std::vector<Box3> Dents::boxes_of_dents() {
+  std::vector<Box3> boxes;
+  for (const Apex& apex : apexes_) {
+    VertexFan fan;
+    if (!fans_.has(apex.vertex) || !fans_.find(apex.vertex, fan)) continue;
+    if (far_area(triangles_of(fan)) > 0) boxes.push_back(box_around(apex.vertex, fan));
+  }
+  return boxes;
+}
+
+Triangles Dents::triangles_of(const VertexFan& fan) const {
+  Triangles triangles;
+  for (const std::uint32_t t : fan.triangles) triangles.push_back(mesh_.triangles[t]);
+  return triangles;
 }
 
 // Inner vertices with a long edge whose triangles face against the surface on the whole.
@@ -111,23 +129,12 @@ void Dents::find_apexes() {
   }
 }
 
-// The gradient may jump from cell to cell; that of any cell at the vertex tells.
+// That of any cell at the vertex tells.
 bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
-  const Vec3 &p = mesh_.points[v], &step = isosurface_.step();
-  unsigned jumps = 0;  // the axes across which the next cell is near, as bits
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const double place = p[axis] / step[axis];
-    if (std::abs(place - std::round(place)) < kOnFace) jumps |= 1u << axis;
-  }
-  for (unsigned side = 0; side < 8; ++side) {
-    if ((side & ~jumps) != 0) continue;
-    Vec3 q = p;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      if ((jumps >> axis & 1u) != 0) q[axis] += ((side >> axis & 1u) != 0 ? 2 : -2) * kOnFace * step[axis];
-    }
-    if (dot(normals, isosurface_.gradient(q)) > 0) return true;
-  }
-  return false;
+  bool is_against = false;
+  for_each_gradient_at(isosurface_, mesh_.points[v],
+                       [&](const Vec3& gradient) { is_against |= dot(normals, gradient) > 0; });
+  return is_against;
 }
 
 // For all apexes at once: what is near them or meets the box of their links.
@@ -170,10 +177,9 @@ bool Dents::remove(Apex& apex) {
   if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
   const LeastTriangulation least = fans_.least_filling(fan);
   if (!least.exists()) return false;
-  Triangles now, filling;
-  for (const std::uint32_t t : fan.triangles) now.push_back(mesh_.triangles[t]);
+  Triangles filling;
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
-  if (!(far_area(filling) < far_area(now))) return false;
+  if (!(far_area(filling) < far_area(triangles_of(fan)))) return false;
   look_around(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   fans_.replace(apex.vertex, fan, least);
@@ -235,7 +241,7 @@ bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
 
 }  // namespace
 
-std::int64_t remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface) {
+DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface) {
   return Dents(mesh, isosurface).remove_all();
 }
 

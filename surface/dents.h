@@ -8,17 +8,24 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "delaunay/base/box3.h"
 #include "raycast/isosurface.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
 
+struct DentRemoval {
+  std::int64_t removed = 0;  // vertices
+  std::vector<Box3> left;    // around the links of those that had to stay
+};
+
 // Takes inner vertices out of the mesh whose triangles face against the surface on the whole, when other triangles lie
 // where the vertex is. What is left open is closed by the triangulation of the link that has the least area, if less of
 // it than before is far from the surface that faces the same way, and if it meets no other triangle and has no edge
 // that the mesh has elsewhere; or else the vertex stays. A disk replaces a disk, so the mesh stays homeomorphic to what
-// it was. Returns how many went. The mesh may have pole heights or none.
-std::int64_t remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface);
+// it was. The mesh may have pole heights or none.
+DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface);
 
 }  // namespace deliso

@@ -135,6 +135,12 @@ bool KeptMeshes::would_be_done(const MatchedMesh& mesh) const {
   return true;
 }
 
+void KeptMeshes::reopen(std::uint32_t component) {
+  done_[component] = false;
+  best_[component] = Agreement::kPartial;
+  drop_outdone();
+}
+
 // Keeps a mesh when some component agrees with it that agreed with no earlier one.
 void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   bool helps = false;

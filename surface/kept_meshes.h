@@ -34,6 +34,8 @@ class KeptMeshes {
   }
   // Whether nothing would be left to do with this mesh.
   [[nodiscard]] bool would_be_done(const MatchedMesh& mesh) const;
+  // A component is to be mended further; no mesh kept so far may give it. Precondition: the meshes have pole heights.
+  void reopen(std::uint32_t component);
   // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be
   // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);

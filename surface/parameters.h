@@ -67,4 +67,10 @@ struct Parameters {
   BudgetParameters budget;
 };
 
+// Whether a mesh that differs from the exact topology is mended.
+inline bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
+
+// Throws InputError when some parameters contradict each other.
+void check_parameters(const Parameters& parameters);
+
 }  // namespace deliso

@@ -106,6 +106,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::spa
 void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
   RefinementPart whole;
   std::swap(whole.mesh, mesh);
+  whole.landmarks = task.options.landmarks;
   RefineStats counted;
   refine_part(whole, round, task, task.controls, task.options.threads, counted);
   std::swap(whole.mesh, mesh);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct RefineOptions {
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
+  std::span<const Vec3> landmarks;    // points of the surface that the mesh is to come near (landmarks.h)
   int threads = 1;                    // the result is the same for any number
   std::size_t slab_triangles = 8192;  // of stage 1 in a slab (refinement_slabs.h), about
 };
@@ -51,6 +53,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;
   std::int64_t boundary_splits = 0;  // of them on boundary edges
+  std::int64_t landmarks = 0;        // of them points that the mesh had missed (landmarks.h)
   std::int64_t halvings = 0;         // of them on the longest edge of a coarse triangle, x_sigma having been refused
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
@@ -62,6 +65,7 @@ struct RefineStats : StageStats {
     insertions += part.insertions;
     boundary_splits += part.boundary_splits;
     halvings += part.halvings;
+    landmarks += part.landmarks;
     for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += part.refused[i];
     restarts += part.restarts;
     search += part.search;

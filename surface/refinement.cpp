@@ -4,6 +4,9 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
+
+#include "surface/landmarks.h"
 
 namespace deliso {
 
@@ -13,6 +16,8 @@ namespace {
 constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
+// Landmarks are inserted so often, what follows from it being refined in between.
+constexpr int kLandmarkRounds = 4;
 
 }  // namespace
 
@@ -21,6 +26,12 @@ void Refinement::run(Controls& controls, int threads) {
   if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
   guard_.emplace(mesh_, threads);
   queue_coarse_triangles();
+  refine_queued(controls);
+  for (int i = 0; i < kLandmarkRounds && insert_landmarks(controls, threads); ++i) refine_queued(controls);
+  guard_.reset();
+}
+
+void Refinement::refine_queued(Controls& controls) {
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto popped = queue_.pop();
     if (!popped && !retry_crossed()) break;
@@ -31,7 +42,26 @@ void Refinement::run(Controls& controls, int threads) {
     if (treat(popped->queued.element)) wake_neighbours();
     if (next) mesh_.prefetch_around(*next);
   }
-  guard_.reset();
+}
+
+// Points that no triangle has for its x_sigma: for each triangle that is nearest to landmarks missed the farthest of
+// them that will do. True when some went in.
+bool Refinement::insert_landmarks(Controls& controls, int threads) {
+  // Balls that are not kept are searched, and that is counted.
+  const std::vector<MissedLandmark> missed = missed_landmarks(
+      part_.landmarks, mesh_, [this](std::uint32_t t) { return ball_of(t); }, options_.r_min,
+      options_.store_hits ? threads : 1);
+  std::vector<std::uint32_t> states;  // of the nearest triangles
+  for (const MissedLandmark& m : missed) states.push_back(mesh_.triangles[m.triangle].state);
+  const std::int64_t before = stats_.landmarks;
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    if (controls.must_stop("refine", mesh_.vertices.size(), missed.size() - i)) break;
+    if (mesh_.triangles[missed[i].triangle].state != states[i]) continue;
+    if (insert(landmark_candidate(isosurface_, missed[i]), nullptr)) continue;
+    ++stats_.insertions;
+    ++stats_.landmarks;
+  }
+  return stats_.landmarks > before;
 }
 
 RefinementChange Refinement::take_back() {
@@ -152,7 +182,7 @@ std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSi
 std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
-  const Vec3 gradient = isosurface_.gradient(p);
+  const Vec3 gradient = candidate.gradient ? *candidate.gradient : isosurface_.gradient(p);
   for (const RimEdge& edge : disk_.rim()) {
     const Vec3& a = mesh_.vertices[edge.from].point;
     const Vec3& b = mesh_.vertices[edge.to].point;

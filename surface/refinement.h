@@ -56,6 +56,8 @@ class Refinement {
   };
 
   void queue_coarse_triangles();
+  void refine_queued(Controls& controls);
+  bool insert_landmarks(Controls& controls, int threads);
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);

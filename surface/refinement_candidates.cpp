@@ -1,6 +1,9 @@
 #include "surface/refinement_candidates.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "surface/gradients_at.h"
 
 namespace deliso {
 
@@ -13,7 +16,19 @@ constexpr double kCoarseEdge = 1.5;
 // The middle of an edge may be this near to a vertex, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
 
+// A landmark is not inserted so near to a vertex (mesh-space units),
+constexpr double kLandmarkToVertex = 0.3;
+// and must be less far off E's triangles than this many times its distance from the next one.
+constexpr double kLandmarkMove = 2;
+
 }  // namespace
+
+RefinementCandidate landmark_candidate(const Isosurface& isosurface, const MissedLandmark& missed) {
+  Vec3 sum;
+  for_each_gradient_at(isosurface, missed.point, [&](const Vec3& gradient) { sum += gradient; });
+  const double radius = kLandmarkMove * std::sqrt(missed.squared_distance);
+  return {missed.point, radius, kLandmarkToVertex, missed.triangle, kNoSide, kNoSide, sum};
+}
 
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                       TriangleSide side, double r_min, SearchCounters& counters) {

@@ -8,7 +8,8 @@
 // its topology, holds no vertex of another component and lies near all of it. At the end each component is taken from
 // the latest mesh that has it at its best; one that no mesh has right is meshed by marching cubes, whose topology is
 // exact, and reported. Vertices of other components (intruders.h) and dents (dents.h) are removed from what that makes;
-// when the former are all that is wrong, that is the end. Components whose triangles cross others are meshed by
+// when the former are all that is wrong, that is the end. Where dents that have to stay leave parts of the surface out
+// (left_out.h), the rounds go on, with samples around these. Components whose triangles cross others are meshed by
 // marching cubes, too, until none do (crossing_pieces.h).
 #pragma once
 

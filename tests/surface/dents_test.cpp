@@ -67,7 +67,7 @@ TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
     mesh.triangles.push_back({b, c, apex});
     mesh.triangles.push_back({c, a, apex});
     link_sides(mesh);
-    ASSERT_EQ(remove_dents(mesh, *scene.isosurface), 1) << t;
+    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << t;
     expect_good_sphere(mesh, scene, t);
     EXPECT_EQ(mesh.points, whole.points) << t;
     EXPECT_EQ(mesh.pole_heights, whole.pole_heights) << t;
@@ -86,7 +86,7 @@ TEST(Dents, AVertexDrawnThroughABodyGoes) {
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
     SurfaceMesh mesh = whole;
     mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
-    ASSERT_EQ(remove_dents(mesh, *scene.isosurface), 1) << v;
+    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << v;
     EXPECT_EQ(mesh.points.size(), whole.points.size() - 1) << v;
     expect_good_sphere(mesh, scene, v);
   }
@@ -101,7 +101,7 @@ TEST(Dents, ARidgeGoesVertexByVertex) {
       mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
     }
     // Vertices at the foot of the ridge may go, too.
-    const std::int64_t removed = remove_dents(mesh, *scene.isosurface);
+    const std::int64_t removed = remove_dents(mesh, *scene.isosurface).removed;
     EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
     expect_good_sphere(mesh, scene, t);
   }
@@ -111,7 +111,7 @@ TEST(Dents, VerticesThatNothingElseCoversStay) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   SurfaceMesh untouched = whole;
-  EXPECT_EQ(remove_dents(untouched, *scene.isosurface), 0);
+  EXPECT_EQ(remove_dents(untouched, *scene.isosurface).removed, 0);
   EXPECT_EQ(untouched.triangles, whole.triangles);
   EXPECT_EQ(untouched.points, whole.points);
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
@@ -119,7 +119,7 @@ TEST(Dents, VerticesThatNothingElseCoversStay) {
     // Half a voxel short of the other side.
     const Vec3 there = whole.points[opposite(whole, v)];
     mesh.points[v] = there + 0.5 / distance(there, kCenter) * (kCenter - there);
-    EXPECT_EQ(remove_dents(mesh, *scene.isosurface), 0) << v;
+    EXPECT_EQ(remove_dents(mesh, *scene.isosurface).removed, 0) << v;
     EXPECT_EQ(mesh.triangles, whole.triangles) << v;
   }
 }
@@ -153,7 +153,7 @@ TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
     mesh.pole_heights.resize(mesh.points.size(), 1);
     link_sides(mesh);
     const auto before = mesh.triangles;
-    EXPECT_EQ(remove_dents(mesh, *scene.isosurface), 0) << v;
+    EXPECT_EQ(remove_dents(mesh, *scene.isosurface).removed, 0) << v;
     EXPECT_EQ(mesh.triangles, before) << v;
   }
 }
@@ -171,7 +171,7 @@ TEST(Dents, TopologyStaysAndNoCrossingsCome) {
       if (distance(other, p) < 4) p = other + 1e-4 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
     }
     const TriangleMesh before{mesh.points, mesh.triangles};
-    removed += remove_dents(mesh, *scene->isosurface);
+    removed += remove_dents(mesh, *scene->isosurface).removed;
     const TriangleMesh after{mesh.points, mesh.triangles};
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << "seed " << seed;
     EXPECT_EQ(component_topologies(after), component_topologies(before)) << "seed " << seed;

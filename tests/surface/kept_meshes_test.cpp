@@ -170,5 +170,40 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   EXPECT_GT(mended, 0u);
 }
 
+// A component that is opened again is given by later meshes alone.
+TEST(KeptMeshes, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
+  const auto scene = blobs(1);
+  const Box3& box = scene->isosurface->box();
+  const std::size_t components = scene->topology.components.size();
+  Attempts attempts(*scene, 1);
+  std::vector<bool> left;
+  RepairStats stats;
+  KeptMeshes kept(components);
+  kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
+  kept.give_poles(attempts.round);
+  const AssembledMesh before = kept.assemble(left, box, 1, stats);
+  std::size_t reopened = 0;
+  for (std::uint32_t c = 0; c < components; ++c) {
+    const bool is_right = attempts.meshes[0].match.agreement[c] >= Agreement::kWithStrays;
+    if (!is_right || left[c]) continue;
+    ++reopened;
+    KeptMeshes again = kept;
+    again.reopen(c);
+    EXPECT_FALSE(again.done()[c]);
+    EXPECT_FALSE(again.is_done_but_for_mixing());
+    std::vector<bool> lacks;
+    again.assemble(lacks, box, 1, stats);
+    std::vector<bool> expected = left;
+    expected[c] = true;
+    EXPECT_EQ(lacks, expected);
+    again.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
+    again.give_poles(attempts.round);
+    EXPECT_TRUE(again.done()[c]);
+    EXPECT_EQ(again.assemble(lacks, box, 1, stats).mesh.points.size(), before.mesh.points.size());
+    EXPECT_EQ(lacks, left);
+  }
+  EXPECT_GT(reopened, 3u);
+}
+
 }  // namespace
 }  // namespace deliso

@@ -1,0 +1,112 @@
+#include "surface/landmarks.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "delaunay/base/box3.h"
+#include "surface/blocks.h"
+#include "surface/point_blocks.h"
+#include "surface/surface_distance.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kNear = 0.8;    // mesh-space units
+constexpr double kBlock = 2;     // side of the blocks near landmarks
+constexpr double kFarthest = 6;  // where the nearest triangle is looked for
+constexpr double kLong = 4;      // triangles with such an edge may be off the surface
+constexpr double kTimesHeight = 2;
+
+Box3 widened(const Box3& box, double reach) {
+  const Vec3 around{reach, reach, reach};
+  return {box.low - around, box.high + around};
+}
+
+class LandmarkSearch {
+ public:
+  LandmarkSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
+      : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, kNear)), threads_(threads) {}
+
+  [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> landmarks) const;
+  // Of landmarks that are far from all triangles.
+  [[nodiscard]] std::vector<MissedLandmark> with_nearest(std::span<const Vec3> landmarks) const;
+
+ private:
+  [[nodiscard]] std::array<Vec3, 3> corners(std::size_t triangle) const {
+    return mesh_.corner_points(mesh_.triangles[triangle].corners);
+  }
+  [[nodiscard]] double squared_distance_to(const Vec3& p, std::size_t triangle) const {
+    const auto [a, b, c] = corners(triangle);
+    return squared_distance_to_triangle(p, a, b, c);
+  }
+  [[nodiscard]] double reach_of(std::uint32_t triangle) const;
+
+  const RefinementMesh& mesh_;
+  const BallOf& ball_of_;
+  double least_;
+  int threads_;
+};
+
+// How far off a point of the surface may be that a triangle stands for.
+double LandmarkSearch::reach_of(std::uint32_t triangle) const {
+  const auto [a, b, c] = corners(triangle);
+  const double squared_edge = std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+  if (squared_edge <= kLong * kLong || !mesh_.triangles[triangle].has_hit()) return least_;
+  const Vec3 normal = cross(b - a, c - a);
+  const double h = std::abs(dot(normal, ball_of_(triangle).center - a)) / std::max(norm(normal), 1e-300);
+  return std::max(least_, kTimesHeight * h);
+}
+
+// Those that no triangle is as near to as it would have to be.
+std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) const {
+  if (landmarks.empty()) return {};
+  const PointBlocks blocks(landmarks, kBlock);
+  std::vector<std::uint8_t> is_near(landmarks.size(), 0);
+  for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      const double reach = reach_of(t);
+      blocks.for_each_near(widened(mesh_.box_of(t), reach), [&](std::uint32_t i) {
+        const std::atomic_ref near(is_near[i]);
+        if (near.load(std::memory_order_relaxed) != 0) return;
+        if (squared_distance_to(landmarks[i], t) <= reach * reach) near.store(1, std::memory_order_relaxed);
+      });
+    }
+  });
+  std::vector<Vec3> far;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    if (is_near[i] == 0) far.push_back(landmarks[i]);
+  }
+  return far;
+}
+
+std::vector<MissedLandmark> LandmarkSearch::with_nearest(std::span<const Vec3> landmarks) const {
+  if (landmarks.empty()) return {};
+  const PointBlocks blocks(landmarks, kBlock);
+  std::vector<MissedLandmark> found;
+  for (const Vec3& p : landmarks) found.push_back({p, 0, kFarthest * kFarthest});
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    blocks.for_each_near(widened(mesh_.box_of(t), kFarthest), [&](std::uint32_t i) {
+      const double squared = squared_distance_to(landmarks[i], t);
+      if (squared < found[i].squared_distance) found[i] = {landmarks[i], t, squared};
+    });
+  }
+  std::erase_if(found, [](const MissedLandmark& m) { return !(m.squared_distance < kFarthest * kFarthest); });
+  return found;
+}
+
+}  // namespace
+
+std::vector<MissedLandmark> missed_landmarks(std::span<const Vec3> landmarks, const RefinementMesh& mesh,
+                                             const BallOf& ball_of, double least, int threads) {
+  const LandmarkSearch search(mesh, ball_of, least, threads);
+  std::vector<MissedLandmark> missed = search.with_nearest(search.far_from_all(landmarks));
+  std::stable_sort(missed.begin(), missed.end(), [](const MissedLandmark& a, const MissedLandmark& b) {
+    return a.squared_distance > b.squared_distance;
+  });
+  return missed;
+}
+
+}  // namespace deliso
