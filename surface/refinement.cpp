@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/gradients_at.h"
 #include "surface/landmarks.h"
 
 namespace deliso {
@@ -57,7 +58,7 @@ bool Refinement::insert_landmarks(Controls& controls, int threads) {
   for (std::size_t i = 0; i < missed.size(); ++i) {
     if (controls.must_stop("refine", mesh_.vertices.size(), missed.size() - i)) break;
     if (mesh_.triangles[missed[i].triangle].state != states[i]) continue;
-    if (insert(landmark_candidate(isosurface_, missed[i]), nullptr)) continue;
+    if (insert(landmark_candidate(missed[i]), nullptr)) continue;
     ++stats_.insertions;
     ++stats_.landmarks;
   }
@@ -182,7 +183,7 @@ std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSi
 std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
-  const Vec3 gradient = candidate.gradient ? *candidate.gradient : isosurface_.gradient(p);
+  const Vec3 gradient = upwards(candidate);
   for (const RimEdge& edge : disk_.rim()) {
     const Vec3& a = mesh_.vertices[edge.from].point;
     const Vec3& b = mesh_.vertices[edge.to].point;
@@ -215,6 +216,17 @@ double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
   for (const RimEdge& edge : disk_.rim()) visit(edge.from);
   if (!closed) visit(disk_.rim().back().to);
   return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
+}
+
+// The direction that no triangle of the star may face: that of the gradient. At the tip of a finger that jumps, and the
+// disk which the finger stands on tells more of it, unless the gradients around the tip say otherwise.
+Vec3 Refinement::upwards(const Candidate& candidate) const {
+  if (!candidate.is_landmark) return isosurface_.gradient(candidate.point);
+  Vec3 mean;
+  for_each_gradient_at(isosurface_, candidate.point,
+                       [&](const Vec3& gradient) { mean += gradient / std::max(norm(gradient), 1e-300); });
+  const Vec3 down = disk_.normal_sum();
+  return dot(mean, down) < 0 ? -down : mean;
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.

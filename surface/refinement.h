@@ -61,6 +61,7 @@ class Refinement {
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  [[nodiscard]] Vec3 upwards(const Candidate& candidate) const;
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
   bool retry_crossed();

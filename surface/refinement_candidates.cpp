@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/gradients_at.h"
-
 namespace deliso {
 
 namespace {
@@ -23,11 +21,9 @@ constexpr double kLandmarkMove = 2;
 
 }  // namespace
 
-RefinementCandidate landmark_candidate(const Isosurface& isosurface, const MissedLandmark& missed) {
-  Vec3 sum;
-  for_each_gradient_at(isosurface, missed.point, [&](const Vec3& gradient) { sum += gradient; });
+RefinementCandidate landmark_candidate(const MissedLandmark& missed) {
   const double radius = kLandmarkMove * std::sqrt(missed.squared_distance);
-  return {missed.point, radius, kLandmarkToVertex, missed.triangle, kNoSide, kNoSide, sum};
+  return {missed.point, radius, kLandmarkToVertex, missed.triangle, kNoSide, kNoSide, true};
 }
 
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,

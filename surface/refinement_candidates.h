@@ -16,13 +16,13 @@ struct RefinementCandidate {
   double ball_radius = 0;
   double nearest = 0;  // no vertex may be nearer to the point
   std::uint32_t seed = 0;
-  TriangleSide split = kNoSide;    // the boundary edge on which the point lies
-  TriangleSide halved = kNoSide;   // the inner edge whose two triangles alone make up E
-  std::optional<Vec3> gradient{};  // stands for the one of the field at the point, where that would not do
+  TriangleSide split = kNoSide;   // the boundary edge on which the point lies
+  TriangleSide halved = kNoSide;  // the inner edge whose two triangles alone make up E
+  bool is_landmark = false;
 };
 
-// A landmark, for the triangle next to it. At the tip of a finger the gradient jumps: the mean of all sides counts.
-RefinementCandidate landmark_candidate(const Isosurface& isosurface, const MissedLandmark& missed);
+// A landmark, for the triangle next to it.
+RefinementCandidate landmark_candidate(const MissedLandmark& missed);
 
 // A point of the boundary curve between the ends of a boundary edge of the box's face, if the edge is longer than
 // `r_min`: the hit nearest to its midpoint on the bisector within the face.

@@ -58,6 +58,15 @@ std::optional<TriangleSide> RefinementDisk::encroached_boundary_edge(const Refin
   return std::nullopt;
 }
 
+Vec3 RefinementDisk::normal_sum() const {
+  Vec3 sum;
+  for (const std::uint32_t t : triangles_) {
+    const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[t].corners);
+    sum += cross(b - a, c - a);
+  }
+  return sum;
+}
+
 double RefinementDisk::distance_to(const Vec3& p) const {
   double farthest = 0;
   for (const std::uint32_t t : triangles_) {

@@ -44,6 +44,8 @@ class RefinementDisk {
                                                                      const Box3& box) const;
   // Whether E would have to hold a frozen triangle.
   [[nodiscard]] bool is_blocked() const { return is_blocked_; }
+  // The sum of the normals of E's triangles, each as long as twice its area.
+  [[nodiscard]] Vec3 normal_sum() const;
   // How far p lies off the planes of E's triangles at most.
   [[nodiscard]] double distance_to(const Vec3& p) const;
 
