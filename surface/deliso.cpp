@@ -129,23 +129,27 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
 }
 
 // Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
-// have got samples. Returns landmarks for stage 2: the crossings that its first mesh is not close to.
+// have got samples. Returns landmarks for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
+// not close to.
 std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology* topology, const MeshingOptions& options, const Lengths& lengths,
                               Controls& controls, RecoverStats& stats) {
   const RecoverOptions stage1 = stage1_options(options.parameters, lengths, options.threads);
   recover(restricted, stage1, controls, stats);
   if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return {};
+  // Only where triangles that they make cross are looked for.
+  const bool wants_landmarks = options.parameters.algorithm == Algorithm::kTwoStage && repairs(options.parameters);
   std::vector<Vec3> landmarks;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
     const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects,
-                                                   options.threads, i == 0 ? &landmarks : nullptr);
+                                                   options.threads, i == 0 && wants_landmarks ? &landmarks : nullptr);
     stats.insertions += inserted;
     stats.uncovered += inserted;
     if (inserted == 0 || controls.poll()) break;
     recover(restricted, stage1, controls, stats);
   }
+  landmarks.shrink_to_fit();
   return landmarks;
 }
 

@@ -57,7 +57,7 @@ double LandmarkSearch::reach_of(std::uint32_t triangle) const {
   if (squared_edge <= kLong * kLong || !mesh_.triangles[triangle].has_hit()) return least_;
   const Vec3 normal = cross(b - a, c - a);
   const double h = std::abs(dot(normal, ball_of_(triangle).center - a)) / std::max(norm(normal), 1e-300);
-  return std::max(least_, kTimesHeight * h);
+  return std::max(least_, std::min(kTimesHeight * h, std::sqrt(squared_edge)));
 }
 
 // Those that no triangle is as near to as it would have to be.

@@ -26,9 +26,9 @@ struct MissedLandmark {
 using BallOf = std::function<SurfaceDelaunayBall(std::uint32_t triangle)>;
 
 // The landmarks that a mesh has no triangle near, farthest first. Near is within `least` or 0.8 mesh-space units,
-// whichever is more; and a triangle with an edge longer than 4 units is near as far as twice its own height h, for
-// where the surface is smooth it may be that far off. A landmark without any triangle within 6 units is not told of.
-// The same for any number of threads.
+// whichever is more; and a triangle with an edge longer than 4 units is near as far as twice its own height h, but no
+// farther than its edge is long, for where the surface is smooth it may be that far off. A landmark without any
+// triangle within 6 units is not told of. The same for any number of threads.
 std::vector<MissedLandmark> missed_landmarks(std::span<const Vec3> landmarks, const RefinementMesh& mesh,
                                              const BallOf& ball_of, double least, int threads);
 

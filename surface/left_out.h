@@ -22,7 +22,7 @@ std::vector<std::uint32_t> crossings_left_out(const SurfaceMesh& mesh, std::span
                                               const ScalarGrid& grid, const IsosurfaceTopology& topology,
                                               const Vec3& step, int threads);
 
-// The active cells within three layers of some crossings; may repeat cells.
+// The active cells within three layers of one that holds a crossing, for some crossings; may repeat cells.
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
                                    const IsosurfaceTopology& topology, const RaisedCells& cells);
 

@@ -59,7 +59,7 @@ class PointBlocks {
   }
 
  private:
-  static constexpr double kMostBlocks = 128;  // along an axis
+  static constexpr double kMostBlocks = 128;  // along an axis, or one more
 
   // In blocks from the lowest one.
   [[nodiscard]] double place(const Vec3& p, std::size_t axis) const { return (p[axis] - low_[axis]) * per_side_; }

@@ -4,10 +4,6 @@
 #include <cmath>
 #include <span>
 #include <utility>
-#include <vector>
-
-#include "surface/gradients_at.h"
-#include "surface/landmarks.h"
 
 namespace deliso {
 
@@ -43,26 +39,6 @@ void Refinement::refine_queued(Controls& controls) {
     if (treat(popped->queued.element)) wake_neighbours();
     if (next) mesh_.prefetch_around(*next);
   }
-}
-
-// Points that no triangle has for its x_sigma: for each triangle that is nearest to landmarks missed the farthest of
-// them that will do. True when some went in.
-bool Refinement::insert_landmarks(Controls& controls, int threads) {
-  // Balls that are not kept are searched, and that is counted.
-  const std::vector<MissedLandmark> missed = missed_landmarks(
-      part_.landmarks, mesh_, [this](std::uint32_t t) { return ball_of(t); }, options_.r_min,
-      options_.store_hits ? threads : 1);
-  std::vector<std::uint32_t> states;  // of the nearest triangles
-  for (const MissedLandmark& m : missed) states.push_back(mesh_.triangles[m.triangle].state);
-  const std::int64_t before = stats_.landmarks;
-  for (std::size_t i = 0; i < missed.size(); ++i) {
-    if (controls.must_stop("refine", mesh_.vertices.size(), missed.size() - i)) break;
-    if (mesh_.triangles[missed[i].triangle].state != states[i]) continue;
-    if (insert(landmark_candidate(missed[i]), nullptr)) continue;
-    ++stats_.insertions;
-    ++stats_.landmarks;
-  }
-  return stats_.landmarks > before;
 }
 
 RefinementChange Refinement::take_back() {
@@ -216,17 +192,6 @@ double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
   for (const RimEdge& edge : disk_.rim()) visit(edge.from);
   if (!closed) visit(disk_.rim().back().to);
   return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
-}
-
-// The direction that no triangle of the star may face: that of the gradient. At the tip of a finger that jumps, and the
-// disk which the finger stands on tells more of it, unless the gradients around the tip say otherwise.
-Vec3 Refinement::upwards(const Candidate& candidate) const {
-  if (!candidate.is_landmark) return isosurface_.gradient(candidate.point);
-  Vec3 mean;
-  for_each_gradient_at(isosurface_, candidate.point,
-                       [&](const Vec3& gradient) { mean += gradient / std::max(norm(gradient), 1e-300); });
-  const Vec3 down = disk_.normal_sum();
-  return dot(mean, down) < 0 ? -down : mean;
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.

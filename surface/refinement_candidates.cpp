@@ -14,16 +14,16 @@ constexpr double kCoarseEdge = 1.5;
 // The middle of an edge may be this near to a vertex, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
 
-// A landmark is not inserted so near to a vertex (mesh-space units),
+// A landmark is not inserted so near to a vertex (mesh-space units).
 constexpr double kLandmarkToVertex = 0.3;
-// and must be less far off E's triangles than this many times its distance from the next one.
-constexpr double kLandmarkMove = 2;
+// The radius that stands for its ball's, in distances from the next triangle: folded disks lie farther off it.
+constexpr double kLandmarkRadius = 2;
 
 }  // namespace
 
-RefinementCandidate landmark_candidate(const MissedLandmark& missed) {
-  const double radius = kLandmarkMove * std::sqrt(missed.squared_distance);
-  return {missed.point, radius, kLandmarkToVertex, missed.triangle, kNoSide, kNoSide, true};
+RefinementCandidate landmark_candidate(const MissedLandmark& missed, double r_min) {
+  const double radius = kLandmarkRadius * std::sqrt(missed.squared_distance);
+  return {missed.point, radius, std::max(kLandmarkToVertex, r_min), missed.triangle, kNoSide, kNoSide, true};
 }
 
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,

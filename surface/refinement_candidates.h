@@ -21,8 +21,8 @@ struct RefinementCandidate {
   bool is_landmark = false;
 };
 
-// A landmark, for the triangle next to it.
-RefinementCandidate landmark_candidate(const MissedLandmark& missed);
+// A landmark, for the triangle next to it, unless a vertex is nearer than 0.3 mesh-space units and `r_min`.
+RefinementCandidate landmark_candidate(const MissedLandmark& missed, double r_min);
 
 // A point of the boundary curve between the ends of a boundary edge of the box's face, if the edge is longer than
 // `r_min`: the hit nearest to its midpoint on the bisector within the face.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,10 +45,10 @@ class Repair {
   bool mend(std::int32_t max_rounds, Controls& controls);
   void finish(bool is_assembled, std::int32_t max_rounds, Controls& controls);
   void mend_left_out(std::int32_t max_rounds, Controls& controls);
-  [[nodiscard]] std::vector<std::uint32_t> left_out() const {
-    return crossings_left_out(result_.mesh, dents_, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
+  [[nodiscard]] std::vector<std::uint32_t> left_out(std::span<const Box3> boxes) const {
+    return crossings_left_out(result_.mesh, boxes, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
   }
-  Ending take_ending() { return {std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), stats_}; }
+  Ending take_ending();
   void return_to(Ending ending);
   bool ends_without_intruders();
   bool assemble(const KeptMeshes& kept);
@@ -90,6 +91,7 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
     if (!assemble(kept)) polygonize_rest();
     if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
   }
+  stats_.dents_removed = 0;
   if (controls.poll()) return;
   auto [removed, left] = remove_dents(result_.mesh, isosurface_);
   stats_.dents_removed = removed;
@@ -99,17 +101,25 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
 // More rounds where the topology is right and yet the mesh leaves parts of the surface out; unless they do not help.
 void Repair::mend_left_out(std::int32_t max_rounds, Controls& controls) {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
-    const std::vector<std::uint32_t> crossings = left_out();
+    const std::vector<std::uint32_t> crossings = left_out(dents_);
     if (crossings.empty()) return;
     Ending before = take_ending();
     rounds_.mend_around(crossings, controls);
     const bool is_assembled = mend(max_rounds, controls);
     const bool is_done = is_assembled || rounds_.is_done();
     if (is_done) finish(is_assembled, max_rounds, controls);
-    if (!is_done || is_polygonized_ != before.is_polygonized || left_out().size() >= crossings.size()) {
-      return return_to(std::move(before));
-    }
+    if (!is_done || controls.poll() || is_polygonized_ != before.is_polygonized) return return_to(std::move(before));
+    // Where dents were and where they are.
+    std::vector<Box3> boxes = before.dents;
+    boxes.insert(boxes.end(), dents_.begin(), dents_.end());
+    if (left_out(boxes).size() >= crossings.size()) return return_to(std::move(before));
   }
+}
+
+Repair::Ending Repair::take_ending() {
+  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), stats_};
+  stats_.intruders_removed = stats_.dents_removed = 0;
+  return ending;
 }
 
 void Repair::return_to(Ending ending) {

@@ -53,7 +53,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
   while (stats_.rounds < max_rounds && !kept_.is_done() && !controls.poll()) {
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
-    const std::int64_t round = stats_.rounds + 1;
+    const std::int64_t round = stats_.rounds - rounds_around_ + 1;
     std::vector<CellName> cells = cells_in_trouble(
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
@@ -79,6 +79,7 @@ bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
 void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
   for (const std::uint32_t crossing : crossings) kept_.reopen(topology_.crossings[crossing].component);
   mend_once(cells_around(crossings, grid_, topology_, raised_), controls);
+  ++rounds_around_;
 }
 
 // The first mesh, right or not, of a run that had to end before.

@@ -69,6 +69,7 @@ class RepairRounds {
   const IsosurfaceTopology& topology_;
   int threads_;
   RepairStats& stats_;
+  std::int64_t rounds_around_ = 0;  // of them by mend_around()
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;

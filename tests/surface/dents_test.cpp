@@ -153,8 +153,16 @@ TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
     mesh.pole_heights.resize(mesh.points.size(), 1);
     link_sides(mesh);
     const auto before = mesh.triangles;
-    EXPECT_EQ(remove_dents(mesh, *scene.isosurface).removed, 0) << v;
+    const auto [removed, left] = remove_dents(mesh, *scene.isosurface);
+    EXPECT_EQ(removed, 0) << v;
     EXPECT_EQ(mesh.triangles, before) << v;
+    // It tells of the dent that stays, and where its rim is.
+    EXPECT_TRUE(std::any_of(left.begin(), left.end(), [&](const Box3& box) {
+      return std::all_of(before.begin(), before.end(), [&](const auto& t) {
+        return std::find(t.begin(), t.end(), v) == t.end() ||
+               std::all_of(t.begin(), t.end(), [&](std::uint32_t w) { return box.contains(mesh.points[w]); });
+      });
+    })) << v;
   }
 }
 

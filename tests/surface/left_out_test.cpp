@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "surface/blocks.h"
 #include "surface/coverage.h"
 #include "surface/polygonized_components.h"
 #include "tests/support/surface_fields.h"
@@ -26,12 +27,13 @@ SurfaceMesh with_hole(const testing::Scene& scene, const Vec3& center, double ra
 }
 
 TEST(LeftOut, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
-  const auto scene = field_scene("torus", 32);
+  const auto scene = field_scene("torus", 64);
   const Vec3 center = crossing_position(scene->grid, scene->topology.crossings[500]);
   const SurfaceMesh mesh = with_hole(*scene, center, 4);
   const auto around = [](const Vec3& p, double r) { return Box3{p - Vec3{r, r, r}, p + Vec3{r, r, r}}; };
   const Vec3 elsewhere = crossing_position(scene->grid, scene->topology.crossings[5]);
   const std::vector<Box3> boxes = {around(center, 2), around(center + Vec3{1, 1, 0}, 2), around(elsewhere, 2)};
+  ASSERT_GT(mesh.triangles.size(), kBlockSize);
   const MeshCover cover(mesh);
   std::vector<std::uint32_t> expected;
   for (std::uint32_t i = 0; i < scene->topology.crossings.size(); ++i) {

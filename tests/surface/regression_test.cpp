@@ -1,10 +1,14 @@
 // Inputs that once went wrong, from tests/regression, and fields made like them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
@@ -68,6 +72,28 @@ TEST(Regression, NoPartOfTheSurfaceIsLeftOut) {
     EXPECT_TRUE(verification.proven) << name;
     EXPECT_LT(verification.distance.isosurface_to_mesh.max_voxels, 0.9) << name;
   }
+}
+
+// A plate with one smooth side and a rough one: the tip of a finger stood out of stage 2's mesh by more than a voxel.
+TEST(Regression, NoFingerStandsOutOfTheMesh) {
+  Rng rng(214);
+  const auto noise = [&] { return 20 * (2 * rng.uniform() - 1); };
+  const std::array<double, 11> levels = {100, 115, 132, 148, 215, 255, 199};
+  const std::int32_t size = 32;
+  std::vector<float> samples;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    for (std::int32_t i = 0; i < size * size; ++i) {
+      const double rough = noise();
+      samples.push_back(static_cast<float>(k < 4 ? levels[k] + rough : levels[k]));
+    }
+  }
+  const ScalarGrid grid({size, size, static_cast<std::int32_t>(levels.size())}, std::move(samples));
+  MeshingOptions options;
+  options.parameters.stage2.r_min = 0.026;
+  const MeshingResult result = mesh_isosurface(grid, 150.2, options);
+  const Verification verification = verify_mesh(result.mesh, grid, 150.2);
+  EXPECT_TRUE(verification.proven);
+  EXPECT_LT(verification.distance.isosurface_to_mesh.max_voxels, 0.9);
 }
 
 // Each was not proven once.
