@@ -82,7 +82,7 @@ void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Control
   ++rounds_around_;
 }
 
-// The first mesh, right or not, of a run that had to end before.
+// Its copies moved apart, with the poles of the samples as they are.
 SurfaceMesh RepairRounds::as_it_is() {
   BuiltMesh built = mesh_->built;
   separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box());

@@ -49,7 +49,7 @@ class RepairRounds {
     mesh_.reset();
     round_.reset();
   }
-  // The latest mesh, right or not, of a run that had to end.
+  // The first mesh, right or not, of a run that had to end before any round.
   SurfaceMesh as_it_is();
 
  private:
