@@ -8,6 +8,7 @@
 #include "experiments/experiment_keys.h"
 #include "experiments/text_table.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/io/sha256.h"
 #include "volume/io/volume_file.h"
 

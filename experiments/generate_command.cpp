@@ -10,6 +10,7 @@
 #include "experiments/files.h"
 #include "experiments/text_table.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {

@@ -21,13 +21,6 @@
 
 namespace deliso {
 
-// Sets the clearance of every vertex.
-void set_clearances(RefinementMesh& mesh);
-// Takes clearances away near places where triangles came to meet.
-void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
-// Takes all clearances away: then every star is tested against all triangles around it, so that none comes to cross.
-void distrust_all(RefinementMesh& mesh);
-
 class CrossingGuard {
  public:
   // Keeps a reference to a mesh with clearances, and a few bytes for each of its triangles.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/memory.h"
-#include "surface/crossing_guard.h"
+#include "surface/clearances.h"
 #include "surface/refinement.h"
 #include "surface/refinement_crossings.h"
 #include "surface/refinement_planes.h"

@@ -22,7 +22,7 @@ struct RefinementMesh {
   struct Vertex {
     Vec3 point;
     double pole_height = 0;
-    float clearance = 0;          // a bound of the distance to other sheets (crossing_guard.h)
+    float clearance = 0;          // a bound of the distance to other sheets (clearances.h)
     std::uint32_t attempt = 0;    // whose rim passes here,
     std::uint32_t rim_place = 0;  // and the place in it of the edge that leaves here
     bool is_suspect = false;      // a corner of a triangle that lies far off the surface (crossing_guard.h)

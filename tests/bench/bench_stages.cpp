@@ -22,6 +22,7 @@
 #include "surface/refine.h"
 #include "volume/analytic_fields.h"
 #include "volume/exact_topology.h"
+#include "volume/field_slices.h"
 #include "volume/io/volume_file.h"
 
 namespace {

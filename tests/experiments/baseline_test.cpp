@@ -9,6 +9,7 @@
 #include "experiments/record_file.h"
 #include "tests/support/run_examples.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/marching_cubes.h"
 
 namespace deliso::testing {

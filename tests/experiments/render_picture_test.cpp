@@ -16,7 +16,7 @@
 #include "experiments/mesh_shape.h"
 #include "experiments/picture.h"
 #include "tests/support/sphere_pictures.h"
-#include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 
 namespace deliso::testing {
 namespace {

@@ -13,7 +13,7 @@
 #include "experiments/mesh_shape.h"
 #include "raycast/isosurface.h"
 #include "tests/support/sphere_pictures.h"
-#include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/marching_cubes.h"
 
 namespace deliso::testing {

@@ -9,7 +9,7 @@
 #include "experiments/record_file.h"
 #include "experiments/run_progress.h"
 #include "tests/support/run_examples.h"
-#include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/io/sha256.h"
 #include "volume/io/volume_file.h"
 

@@ -10,6 +10,7 @@
 #include "experiments/sample_histogram.h"
 #include "tests/support/program_runner.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso::testing {

@@ -16,6 +16,7 @@
 #include "tests/support/raycast_fields.h"
 #include "volume/analytic_fields.h"
 #include "volume/exact_topology.h"
+#include "volume/field_slices.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso::testing {

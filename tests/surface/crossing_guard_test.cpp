@@ -7,6 +7,7 @@
 
 #include "delaunay/base/rng.h"
 #include "delaunay/triangle_contact.h"
+#include "surface/clearances.h"
 #include "surface/link_sides.h"
 
 namespace deliso {

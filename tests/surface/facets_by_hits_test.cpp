@@ -7,6 +7,7 @@
 #include "delaunay/base/check.h"
 #include "surface/deliso.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 
 namespace deliso {
 namespace {

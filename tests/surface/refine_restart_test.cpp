@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/crossing_guard.h"
+#include "surface/clearances.h"
 #include "surface/link_sides.h"
 #include "surface/refine.h"
 #include "surface/refinement.h"

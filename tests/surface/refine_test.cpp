@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/clearances.h"
 #include "surface/refinement.h"
 #include "tests/support/refine_runs.h"
 #include "tests/support/surface_fields.h"

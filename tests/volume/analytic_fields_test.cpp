@@ -1,5 +1,6 @@
 // The built-in fields: their topology by a second method, their values at known points, their sizes and seeds.
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 
 #include "tests/support/volume_files.h"
 #include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
 #include "volume/io/input_file.h"
 #include "volume/io/nrrd.h"
 #include "volume/io/volume_file.h"
