@@ -22,13 +22,13 @@ void for_each_block(std::size_t count, int threads, Body&& body, std::size_t blo
             [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
 }
 
-// One share of a row of elements per thread, of kBlockSize elements or more: for work whose cost depends on where the
-// row is cut, but whose result does not.
+// One share of a row of elements per thread, of so many elements at least: for work whose cost depends on where the row
+// is cut, but whose result does not.
 class Shares {
  public:
-  Shares(std::size_t elements, int threads)
+  Shares(std::size_t elements, int threads, std::size_t fewest = kBlockSize)
       : elements_(elements),
-        count_(std::clamp(elements / kBlockSize, std::size_t{1}, static_cast<std::size_t>(std::max(threads, 1)))) {}
+        count_(std::clamp(elements / fewest, std::size_t{1}, static_cast<std::size_t>(std::max(threads, 1)))) {}
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t begin(std::size_t share) const { return share * elements_ / count_; }  // share <= count()
 

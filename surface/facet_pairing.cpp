@@ -14,6 +14,8 @@ namespace {
 
 // Counts of ways around edges, per facet; a facet has one edge and a half.
 constexpr std::size_t kCountsPerFacet = 8;
+// A thread is worth its start for so many facets.
+constexpr std::size_t kFewestFacets = 2048;
 
 // From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
 // next restricted facet; both are seen from inside that sector.
@@ -54,7 +56,7 @@ FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
   find_places();
   // Guards may share an edge with two facets that are not ours.
   if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
-  pair_sides();
+  pair_sides(threads);
   is_split_.resize(delaunay_.vertex_count());
   find_split_vertices(std::vector<bool>(delaunay_.vertex_count(), true));
 }
@@ -116,7 +118,8 @@ bool FacetPairing::update() {
   touched_.clear();
   touched_vertices_.clear();
   forget_sides_between(has_changed);
-  pair_sides();
+  constexpr int kThread = 1;  // few sides are left
+  pair_sides(kThread);
   find_split_vertices(has_changed);
   return true;
 }
@@ -213,7 +216,7 @@ void FacetPairing::pair_uncontested_sides(int threads) {
     const std::uint64_t edge = std::uint64_t{high} << 32 | low;
     return ways[edge * std::uint64_t{0x9E3779B97F4A7C15} >> shift];
   };
-  const Shares shares(facets_.size(), threads);
+  const Shares shares(facets_.size(), threads, kFewestFacets);
   const auto count_way = [&](std::uint8_t& flags) {
     if (shares.count() == 1) {
       flags = flags == 0 ? kOne : kMore;
@@ -228,11 +231,7 @@ void FacetPairing::pair_uncontested_sides(int threads) {
         if (facet.known[side]) continue;
         const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
         const std::uint32_t place = place_of(partner);
-        if (place == kNoPlace || (first <= place && place < last)) {
-          join(facet, side, partner, false);
-        } else {
-          facet.across[side] = side_across(facet, side, place);
-        }
+        join(facet, side, {place, first <= place && place < last}, false);
         if (i < place) count_way(ways_around(facet, side));
       }
     }
@@ -244,29 +243,29 @@ void FacetPairing::pair_uncontested_sides(int threads) {
   });
 }
 
-void FacetPairing::pair_sides() {
-  for (PairedFacet& facet : facets_) {
-    for (unsigned side = 0; side < 3; ++side) {
-      if (!facet.known[side]) pair_side(facet, side);
+void FacetPairing::pair_sides(int threads) {
+  const Shares shares(facets_.size(), threads, kFewestFacets);
+  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      PairedFacet& facet = facets_[i];
+      for (unsigned side = 0; side < 3; ++side) {
+        if (facet.known[side]) continue;
+        const PairingAcross across = paired_across(restricted_, facet.facet, facet.vertices[side]);
+        const std::uint32_t place = place_of(across.partner);
+        join(facet, side, {place, first <= place && place < last}, across.is_contested);
+      }
     }
-  }
+  });
 }
 
-// Pairs a side with another one, which thereby is paired, too.
-void FacetPairing::pair_side(PairedFacet& facet, unsigned side) {
-  const PairingAcross across = paired_across(restricted_, facet.facet, facet.vertices[side]);
-  join(facet, side, across.partner, across.is_contested);
-}
-
-void FacetPairing::join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested) {
+// Pairs a side with that of a partner, which thereby is paired, too, where it is in the same share.
+void FacetPairing::join(PairedFacet& facet, unsigned side, const Partner& partner, bool is_contested) {
   facet.contested[side] = is_contested;
   facet.known[side] = true;
-  facet.across[side] = kNoSide;
-  const std::uint32_t place = place_of(partner);
-  if (place == kNoPlace) return;
+  facet.across[side] = partner.place == kNoPlace ? kNoSide : side_across(facet, side, partner.place);
+  if (partner.place == kNoPlace || !partner.is_in_share) return;
 
-  PairedFacet& there = facets_[place];
-  facet.across[side] = side_across(facet, side, place);
+  PairedFacet& there = facets_[partner.place];
   const unsigned i = facet.across[side] & 3u;
   there.across[i] = 4 * static_cast<std::uint32_t>(&facet - facets_.data()) + side;
   there.contested[i] = is_contested;

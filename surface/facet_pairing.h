@@ -71,9 +71,12 @@ class FacetPairing {
   void forget_sides_between(const std::vector<bool>& has_changed);
   void find_split_vertices(const std::vector<bool>& has_changed);
   void pair_uncontested_sides(int threads);
-  void pair_sides();
-  void pair_side(PairedFacet& facet, unsigned side);
-  void join(PairedFacet& facet, unsigned side, FacetId partner, bool is_contested);
+  void pair_sides(int threads);
+  struct Partner {
+    std::uint32_t place = kNoPlace;  // in facets()
+    bool is_in_share = false;        // of the thread that asks
+  };
+  void join(PairedFacet& facet, unsigned side, const Partner& partner, bool is_contested);
   [[nodiscard]] TriangleSide side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const;
 
   const SignedDelaunay& restricted_;

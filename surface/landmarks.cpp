@@ -43,6 +43,12 @@ class LandmarkSearch {
     return squared_distance_to_triangle(p, a, b, c);
   }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
+  // How near a landmark has to be to a triangle, and a box that holds all that is so near.
+  struct Vicinity {
+    double reach = 0;
+    Box3 box;
+  };
+  [[nodiscard]] Vicinity vicinity_of(std::uint32_t triangle) const;
 
   const RefinementMesh& mesh_;
   const BallOf& ball_of_;
@@ -60,6 +66,19 @@ double LandmarkSearch::reach_of(std::uint32_t triangle) const {
   return std::max(least_, std::min(kTimesHeight * h, std::sqrt(squared_edge)));
 }
 
+// Most triangles have a small ball, around which nearly always nothing is asked about: then their corners, which lie
+// all over the memory, are not needed.
+LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) const {
+  constexpr double kSmall = kLong * kLong / 4;  // a squared radius; no edge is longer than the ball is wide
+  constexpr double kRounding = 1.01;
+  const SurfaceDelaunayBall& ball = mesh_.triangles[triangle].ball;
+  if (ball.squared_radius > 0 && ball.squared_radius < kSmall) {
+    return {least_, widened({ball.center, ball.center}, kRounding * std::sqrt(ball.squared_radius) + least_)};
+  }
+  const double reach = reach_of(triangle);
+  return {reach, widened(mesh_.box_of(triangle), reach)};
+}
+
 // Those that no triangle is as near to as it would have to be.
 std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) const {
   if (landmarks.empty()) return {};
@@ -67,8 +86,8 @@ std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) 
   std::vector<std::uint8_t> is_near(landmarks.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const double reach = reach_of(t);
-      blocks.for_each_near(widened(mesh_.box_of(t), reach), [&](std::uint32_t i) {
+      const auto [reach, box] = vicinity_of(t);
+      blocks.for_each_near(box, [&, reach = reach](std::uint32_t i) {
         const std::atomic_ref near(is_near[i]);
         if (near.load(std::memory_order_relaxed) != 0) return;
         if (squared_distance_to(landmarks[i], t) <= reach * reach) near.store(1, std::memory_order_relaxed);

@@ -22,7 +22,8 @@ struct MissedLandmark {
   double squared_distance = 0;
 };
 
-// B_sigma of a triangle of the mesh; may be asked by several threads at a time.
+// B_sigma of a triangle of the mesh; may be asked by several threads at a time. What the mesh keeps as a ball must hold
+// its triangle, too, or have no radius.
 using BallOf = std::function<SurfaceDelaunayBall(std::uint32_t triangle)>;
 
 // The landmarks that a mesh has no triangle near, farthest first. Near is within `least` or 0.8 mesh-space units,

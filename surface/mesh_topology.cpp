@@ -229,7 +229,8 @@ MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
     if (task == 0) return find_components(mesh, topology);
     corners.emplace(mesh);
   });
-  const Shares vertices(mesh.points.size(), threads);
+  constexpr int kSharesPerThread = 4;  // some take longer than others: the oldest vertices are far from each other
+  const Shares vertices(mesh.points.size(), kSharesPerThread * threads);
   std::vector<StarCensus> parts(vertices.count(), StarCensus(mesh, *corners, topology));
   vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) parts[share].look_at(static_cast<std::uint32_t>(v));

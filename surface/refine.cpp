@@ -1,6 +1,8 @@
 #include "surface/refine.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -34,6 +36,19 @@ struct Task {
   RefineStats& stats;
 };
 
+// The threads that parts share, as long as there are parts for them; the last ones have more than one each.
+class SharedThreads {
+ public:
+  SharedThreads(int threads, std::size_t parts) : threads_(threads), parts_left_(static_cast<int>(parts)) {}
+  void part_ends() { --parts_left_; }
+  // Those that a part may use.
+  [[nodiscard]] int count() const { return std::max(1, threads_ / std::max(1, parts_left_.load())); }
+
+ private:
+  int threads_;
+  std::atomic<int> parts_left_;
+};
+
 std::int64_t count_of(const SelfIntersections& found) { return found.crossing_pairs + found.touching_pairs; }
 
 void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
@@ -44,10 +59,11 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
 
 // Refines a part; where more triangles came to meet than before, takes all back and does it again, with no trust around
 // them, and at last with none at all. What has the fewest such pairs stays.
-void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, int threads,
+void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, const SharedThreads& threads,
                  RefineStats& stats) {
   const auto meeting = [&] {
-    return round == Round::kFirst ? meeting_pairs(part.mesh, threads) : meeting_pairs_of_renewed(part.mesh, threads);
+    return round == Round::kFirst ? meeting_pairs(part.mesh, threads.count())
+                                  : meeting_pairs_of_renewed(part.mesh, threads.count());
   };
   RefinementChange least;
   std::int64_t fewest = 0, before = 0;
@@ -55,7 +71,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
     Refinement refinement(part, task.isosurface, task.options, counted);
-    refinement.run(controls, threads);
+    refinement.run(controls, threads.count());
     if (round == Round::kLater) release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
@@ -74,7 +90,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     if (is_best && fewest <= before) return;
     RefinementChange change = refinement.take_back();
     if (is_best) least = std::move(change);
-    if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads));
+    if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
       distrust_all(part.mesh);
@@ -91,10 +107,12 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::spa
   std::vector<RefineStats> counted(slabs.size());
   const double share = 1.0 / static_cast<double>(slabs.size());
   std::vector<Controls> limits(slabs.size(), task.controls.for_part(share, mesh.vertices.size()));
+  SharedThreads threads(task.options.threads, slabs.size());
   const auto refine = [&](std::size_t k, RefinementPart& part) {
     if (k + kSlabsNearPeak >= slabs.size()) release_free_memory();
     limits[k].part_begins_with(part.mesh.vertices.size());
-    refine_part(part, Round::kFirst, task, limits[k], 1, counted[k]);
+    refine_part(part, Round::kFirst, task, limits[k], threads, counted[k]);
+    threads.part_ends();
   };
   RefinementSlabs(mesh, slabs, work).refine_each(refine, task.options.threads);
   release_free_memory();
@@ -108,7 +126,7 @@ void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
   std::swap(whole.mesh, mesh);
   whole.landmarks = task.options.landmarks;
   RefineStats counted;
-  refine_part(whole, round, task, task.controls, task.options.threads, counted);
+  refine_part(whole, round, task, task.controls, {task.options.threads, 1}, counted);
   std::swap(whole.mesh, mesh);
   task.stats.add(counted);
 }
@@ -139,7 +157,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     balls->clear();
     for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
   }
-  refined.move_to(mesh);
+  refined.move_to(mesh, options.threads);
 }
 
 }  // namespace deliso

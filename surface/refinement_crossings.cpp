@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
-#include "delaunay/base/parallel.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
 namespace {
 
-constexpr std::size_t kTrianglesPerTask = 16384;
 constexpr std::size_t kAhead = 16;  // triangles: their first corner is the newest, far from those of the others
 
 // Gives triangles whose corners are vertices of `from` the points of these.
@@ -97,11 +96,11 @@ SelfIntersections meeting_pairs(const RefinementMesh& mesh, int threads) {
 }
 
 SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threads) {
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<std::uint32_t> renewed;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (mesh.triangles[t].is_renewed()) renewed.push_back(t);
-  }
+  using Places = std::vector<std::uint32_t>;
+  const std::size_t count = mesh.triangles.size();
+  const Places renewed = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
+    if (mesh.triangles[t].is_renewed()) found.push_back(static_cast<std::uint32_t>(t));
+  });
   if (renewed.empty()) return {};
   Box3 all;
   for (const std::uint32_t t : renewed) {
@@ -111,21 +110,16 @@ SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threa
   for (const std::uint32_t t : renewed) marks.add(mesh.box_of(t));
 
   // Whatever meets a renewed triangle reaches into a cell that one of them reaches into.
-  std::vector<std::uint8_t> is_near(count);
-  run_tasks((count + kTrianglesPerTask - 1) / kTrianglesPerTask, threads, [&](std::size_t task) {
-    const std::size_t end = std::min<std::size_t>((task + 1) * kTrianglesPerTask, count);
-    for (std::size_t t = task * kTrianglesPerTask; t < end; ++t) {
-      if (t + kAhead < end) __builtin_prefetch(&mesh.vertices[mesh.triangles[t + kAhead].corners[0]]);
-      is_near[t] = marks.reached_by(mesh.box_of(static_cast<std::uint32_t>(t))) ? 1 : 0;
-    }
+  const Places near = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
+    if (t + kAhead < count) __builtin_prefetch(&mesh.vertices[mesh.triangles[t + kAhead].corners[0]]);
+    const auto triangle = static_cast<std::uint32_t>(t);
+    if (marks.reached_by(mesh.box_of(triangle))) found.push_back(triangle);
   });
-  const auto near = static_cast<std::size_t>(std::count(is_near.begin(), is_near.end(), 1));
   TriangleMesh taken;
   std::vector<std::uint8_t> is_renewed;
-  taken.triangles.reserve(near);
-  is_renewed.reserve(near);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (is_near[t] == 0) continue;
+  taken.triangles.reserve(near.size());
+  is_renewed.reserve(near.size());
+  for (const std::uint32_t t : near) {
     taken.triangles.push_back(mesh.triangles[t].corners);
     is_renewed.push_back(mesh.triangles[t].is_renewed() ? 1 : 0);
   }

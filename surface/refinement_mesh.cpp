@@ -1,5 +1,7 @@
 #include "surface/refinement_mesh.h"
 
+#include "delaunay/base/parallel.h"
+
 namespace deliso {
 
 RefinementMesh::RefinementMesh(const SurfaceMesh& mesh)
@@ -23,21 +25,20 @@ void RefinementMesh::forget_attempts() {
 }
 
 // What is not needed any more goes at once: the peak of a whole run may lie here.
-void RefinementMesh::move_to(SurfaceMesh& mesh) {
+void RefinementMesh::move_to(SurfaceMesh& mesh, int threads) {
+  const auto copy = [](const auto& from, auto& to, auto member) {
+    to.reserve(from.size());
+    for (const auto& element : from) to.push_back(element.*member);
+  };
   mesh = {};
-  mesh.points.reserve(vertices.size());
-  mesh.pole_heights.reserve(vertices.size());
-  for (const Vertex& v : vertices) {
-    mesh.points.push_back(v.point);
-    mesh.pole_heights.push_back(v.pole_height);
-  }
+  run_tasks(2, threads, [&](std::size_t task) {
+    task == 0 ? copy(vertices, mesh.points, &Vertex::point) : copy(vertices, mesh.pole_heights, &Vertex::pole_height);
+  });
   LargeArray<Vertex>().swap(vertices);
-  mesh.triangles.reserve(triangles.size());
-  mesh.neighbours.reserve(triangles.size());
-  for (const Triangle& t : triangles) {
-    mesh.triangles.push_back(t.corners);
-    mesh.neighbours.push_back(t.neighbours);
-  }
+  run_tasks(2, threads, [&](std::size_t task) {
+    task == 0 ? copy(triangles, mesh.triangles, &Triangle::corners)
+              : copy(triangles, mesh.neighbours, &Triangle::neighbours);
+  });
   LargeArray<Triangle>().swap(triangles);
 }
 

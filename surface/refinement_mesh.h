@@ -82,7 +82,7 @@ struct RefinementMesh {
   // Clears what a refinement that is over has noted: attempts and generations.
   void forget_attempts();
   // Writes points, pole heights, triangles and neighbours to `mesh`; this mesh is empty afterwards.
-  void move_to(SurfaceMesh& mesh);
+  void move_to(SurfaceMesh& mesh, int threads = 1);
 };
 
 }  // namespace deliso

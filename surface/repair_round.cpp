@@ -14,6 +14,7 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
+constexpr std::size_t kVerticesAtOnce = 2048;
 
 // Of a component whose main piece has the right topology, and yet not all of it.
 void make_partial(ComponentMatch& match, std::uint32_t component) {
@@ -44,14 +45,15 @@ void RepairRound::find_components(std::size_t first_vertex) {
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
   covered_by_.resize(component_of_vertex_.size(), kNoFacet);
-  for_each_block(component_of_vertex_.size() - first_vertex, threads_, [&](std::size_t first, std::size_t last) {
+  const auto find = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first_vertex + first; i < first_vertex + last; ++i) {
       if (restricted_->is_virtual(VertexId(i))) continue;
       const Vec3& p = restricted_->delaunay().point(VertexId(i));
       const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
       component_of_vertex_[i] = component_of(grid_, isosurface.isovalue(), topology_, index_point).value_or(0);
     }
-  });
+  };
+  for_each_block(component_of_vertex_.size() - first_vertex, threads_, find, kVerticesAtOnce);
 }
 
 bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,

@@ -56,6 +56,18 @@ TEST(FacetPairing, FollowsChangedSignsAsIfMadeAnew) {
   }
 }
 
+TEST(FacetPairing, IsTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({18, 17, 15}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    Rng rng(seed);
+    turn_some(restricted, 300, rng);
+    const FacetPairing one(restricted, 1);
+    ASSERT_GT(one.facets().size(), 5u * 2048);  // one share of them for each thread
+    for (const int threads : {2, 3, 5}) expect_same(FacetPairing(restricted, threads), one, seed);
+  }
+}
+
 // Counts the restricted facets at every edge, those with virtual vertices included.
 TEST(FacetPairing, ContestedEdgesHaveMoreThanTwoRestrictedFacets) {
   std::size_t contested = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -51,7 +52,11 @@ TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
     }
     RefinementMesh mesh(soup);
     for (RefinementMesh::Triangle& t : mesh.triangles) {
-      t.ball.center = mesh.vertices[t.corners[0]].point + Vec3{2 * rng.uniform(), 0, 0};
+      const std::array<Vec3, 3> corners = mesh.corner_points(t.corners);
+      t.ball.center = corners[0] + Vec3{2 * rng.uniform(), 0, 0};
+      if (rng.uniform() < 0.5) continue;
+      for (const Vec3& p : corners)
+        t.ball.squared_radius = std::max(t.ball.squared_radius, squared_distance(p, t.ball.center));
     }
     const BallOf ball_of = [&](std::uint32_t t) { return mesh.triangles[t].ball; };
     std::vector<Vec3> landmarks(1000);
