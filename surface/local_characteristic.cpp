@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "surface/facet_pairing.h"
@@ -10,6 +12,46 @@
 namespace deliso {
 
 namespace {
+
+// A few tetrahedra, at times many: where samples lie in planes far apart, hundreds meet at a vertex.
+class TetSet {
+ public:
+  void clear() {
+    std::fill(table_.begin(), table_.end(), kFree);
+    size_ = 0;
+  }
+  // Returns whether it was not there yet.
+  bool insert(TetId t) {
+    if (2 * ++size_ > table_.size()) grow();
+    std::uint32_t& slot = slot_of(t.value);
+    if (slot == t.value) {
+      --size_;
+      return false;
+    }
+    slot = t.value;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+
+  // Where a number is, or is to go.
+  std::uint32_t& slot_of(std::uint32_t number) {
+    const std::size_t last = table_.size() - 1;
+    std::size_t at = (number * std::size_t{0x9E3779B97F4A7C15} >> 32) & last;
+    while (table_[at] != kFree && table_[at] != number) at = (at + 1) & last;
+    return table_[at];
+  }
+  void grow() {
+    const std::vector<std::uint32_t> old = std::exchange(table_, std::vector(2 * table_.size(), kFree));
+    for (const std::uint32_t number : old) {
+      if (number != kFree) slot_of(number) = number;
+    }
+  }
+
+  std::vector<std::uint32_t> table_ = std::vector(64, kFree);  // a power of two of them, half of it in use at most
+  std::size_t size_ = 0;
+};
 
 // V - E + F of the simplices of the mesh whose vertices all belong to some tetrahedra. Signs of these change nothing
 // else: an umbrella, which is a vertex of the mesh, lies in the star of its vertex, an edge's facets around the edge.
@@ -19,7 +61,7 @@ class LocalMesh {
       : restricted_(restricted), delaunay_(restricted.delaunay()) {
     for (const TetId t : tets) {
       for (const VertexId v : delaunay_.vertices(t)) {
-        if (!restricted_.is_virtual(v) && !holds(v)) vertices_.push_back({v, t});
+        if (!restricted_.is_virtual(v) && !holds(v)) add(v, t);
       }
     }
   }
@@ -27,8 +69,9 @@ class LocalMesh {
   // Twice the characteristic: an edge counts half for each of its two sides.
   [[nodiscard]] std::int64_t doubled_characteristic() {
     std::int64_t doubled = 0;
-    for (const auto& [v, t] : vertices_) {
-      find_facets_around(v, t);
+    for (const Star& star : vertices_) {
+      const VertexId v = star.vertex;
+      find_facets_around(star);
       doubled += 2 * count_umbrellas(v);
       for (const FacetId f : facets_) doubled += doubled_facet(f, v);
     }
@@ -36,41 +79,58 @@ class LocalMesh {
   }
 
  private:
-  struct Place {
+  struct Star {
     VertexId vertex;
-    TetId tet;  // one that has it
+    std::size_t first, last;  // of the tetrahedra around it, in stars_
   };
 
   [[nodiscard]] bool holds(VertexId v) const {
-    return std::any_of(vertices_.begin(), vertices_.end(), [v](const Place& place) { return place.vertex == v; });
+    return std::any_of(vertices_.begin(), vertices_.end(), [v](const Star& star) { return star.vertex == v; });
   }
   [[nodiscard]] bool is_in_mesh(FacetId f) const {
     const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
     return std::none_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); });
   }
-  void find_facets_around(VertexId v, TetId from);
+  void add(VertexId v, TetId from);
+  void find_facets_around(const Star& star);
   [[nodiscard]] std::int64_t count_umbrellas(VertexId v);
   [[nodiscard]] std::int64_t doubled_facet(FacetId f, VertexId at) const;
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  std::vector<Place> vertices_;
-  std::vector<TetId> star_;
+  std::vector<Star> vertices_;
+  std::vector<TetId> stars_;
+  TetSet in_star_;
   std::vector<FacetId> facets_;  // of the mesh around one vertex, seen from above
   std::vector<std::size_t> umbrella_;
 };
 
-void LocalMesh::find_facets_around(VertexId v, TetId from) {
-  star_.assign(1, from);
-  facets_.clear();
-  for (std::size_t at = 0; at < star_.size(); ++at) {
-    const TetId t = star_[at];
+// A vertex with the tetrahedra around it, one of which is known.
+void LocalMesh::add(VertexId v, TetId from) {
+  const std::size_t first = stars_.size();
+  in_star_.clear();
+  in_star_.insert(from);
+  stars_.push_back(from);
+  for (std::size_t at = first; at < stars_.size(); ++at) {
+    const TetId t = stars_[at];
     for (unsigned face = 0; face < 4; ++face) {
       if (delaunay_.vertices(t)[face] == v) continue;
       const TetId next = delaunay_.neighbour(t, face);
-      if (std::find(star_.begin(), star_.end(), next) == star_.end()) star_.push_back(next);
+      if (in_star_.insert(next)) stars_.push_back(next);
+    }
+  }
+  vertices_.push_back({v, first, stars_.size()});
+}
+
+void LocalMesh::find_facets_around(const Star& star) {
+  facets_.clear();
+  for (std::size_t at = star.first; at < star.last; ++at) {
+    const TetId t = stars_[at];
+    if (!restricted_.is_above(t)) continue;
+    for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(t, face);
-      if (restricted_.is_above(t) && restricted_.is_restricted(f) && is_in_mesh(f)) facets_.push_back(f);
+      if (delaunay_.vertices(t)[face] == star.vertex || !restricted_.is_restricted(f) || !is_in_mesh(f)) continue;
+      facets_.push_back(f);
     }
   }
 }
