@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
-#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -224,17 +223,10 @@ void FacetPairing::pair_uncontested_sides(int threads) {
       std::atomic_ref(flags).fetch_or(kMore, std::memory_order_relaxed);
     }
   };
-  shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      PairedFacet& facet = facets_[i];
-      for (unsigned side = 0; side < 3; ++side) {
-        if (facet.known[side]) continue;
-        const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
-        const std::uint32_t place = place_of(partner);
-        join(facet, side, {place, first <= place && place < last}, false);
-        if (i < place) count_way(ways_around(facet, side));
-      }
-    }
+  for_each_unknown_side(shares, threads, [&](PairedFacet& facet, unsigned side, const Share& share) {
+    const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
+    const std::uint32_t place = join(facet, side, {partner, false}, share);
+    if (number_of(facet) < place) count_way(ways_around(facet, side));
   });
   shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -245,31 +237,38 @@ void FacetPairing::pair_uncontested_sides(int threads) {
 
 void FacetPairing::pair_sides(int threads) {
   const Shares shares(facets_.size(), threads, kFewestFacets);
+  for_each_unknown_side(shares, threads, [&](PairedFacet& facet, unsigned side, const Share& share) {
+    join(facet, side, paired_across(restricted_, facet.facet, facet.vertices[side]), share);
+  });
+}
+
+// Calls visit(facet, side, share) for the sides that are not known, share by share.
+template <class Visit>
+void FacetPairing::for_each_unknown_side(const Shares& shares, int threads, Visit&& visit) {
   shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      PairedFacet& facet = facets_[i];
       for (unsigned side = 0; side < 3; ++side) {
-        if (facet.known[side]) continue;
-        const PairingAcross across = paired_across(restricted_, facet.facet, facet.vertices[side]);
-        const std::uint32_t place = place_of(across.partner);
-        join(facet, side, {place, first <= place && place < last}, across.is_contested);
+        if (!facets_[i].known[side]) visit(facets_[i], side, Share{first, last});
       }
     }
   });
 }
 
-// Pairs a side with that of a partner, which thereby is paired, too, where it is in the same share.
-void FacetPairing::join(PairedFacet& facet, unsigned side, const Partner& partner, bool is_contested) {
-  facet.contested[side] = is_contested;
+// Pairs a side with that of its partner, which thereby is paired, too, where it is in the same share. Returns the
+// partner's place.
+std::uint32_t FacetPairing::join(PairedFacet& facet, unsigned side, const PairingAcross& across, const Share& share) {
+  const std::uint32_t place = place_of(across.partner);
+  facet.contested[side] = across.is_contested;
   facet.known[side] = true;
-  facet.across[side] = partner.place == kNoPlace ? kNoSide : side_across(facet, side, partner.place);
-  if (partner.place == kNoPlace || !partner.is_in_share) return;
+  facet.across[side] = place == kNoPlace ? kNoSide : side_across(facet, side, place);
+  if (place < share.first || place >= share.last) return place;
 
-  PairedFacet& there = facets_[partner.place];
+  PairedFacet& there = facets_[place];
   const unsigned i = facet.across[side] & 3u;
-  there.across[i] = 4 * static_cast<std::uint32_t>(&facet - facets_.data()) + side;
-  there.contested[i] = is_contested;
+  there.across[i] = 4 * number_of(facet) + side;
+  there.contested[i] = across.is_contested;
   there.known[i] = true;
+  return place;
 }
 
 // The side of another facet that has the same edge; it runs the other way over there.

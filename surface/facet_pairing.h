@@ -6,10 +6,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "surface/blocks.h"
 #include "surface/signed_delaunay.h"
 #include "surface/surface_mesh.h"
 
@@ -72,11 +74,16 @@ class FacetPairing {
   void find_split_vertices(const std::vector<bool>& has_changed);
   void pair_uncontested_sides(int threads);
   void pair_sides(int threads);
-  struct Partner {
-    std::uint32_t place = kNoPlace;  // in facets()
-    bool is_in_share = false;        // of the thread that asks
+  // The facets that one thread pairs.
+  struct Share {
+    std::size_t first = 0, last = 0;
   };
-  void join(PairedFacet& facet, unsigned side, const Partner& partner, bool is_contested);
+  template <class Visit>
+  void for_each_unknown_side(const Shares& shares, int threads, Visit&& visit);
+  std::uint32_t join(PairedFacet& facet, unsigned side, const PairingAcross& across, const Share& share);
+  [[nodiscard]] std::uint32_t number_of(const PairedFacet& facet) const {
+    return static_cast<std::uint32_t>(&facet - facets_.data());
+  }
   [[nodiscard]] TriangleSide side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const;
 
   const SignedDelaunay& restricted_;
