@@ -68,7 +68,8 @@ class Separation {
   [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy, bool is_stubborn) const;
   [[nodiscard]] Vec3 within_box_face(const Vec3& at, Vec3 d) const;
   [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
-  [[nodiscard]] int conflicts(std::uint32_t copy);
+  [[nodiscard]] int conflicts(std::uint32_t copy, int most = std::numeric_limits<int>::max());
+  [[nodiscard]] int unavoidable_conflicts(std::uint32_t copy) const;
   [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
 
   [[nodiscard]] bool has_area_at(std::uint32_t t) const {
@@ -141,6 +142,7 @@ double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
 void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   const std::uint32_t v = copy.vertex;
   Vec3 best = mesh_.points[v];
+  const int least = unavoidable_conflicts(v);
   std::vector<Vec3> homes = copy.other_homes;
   homes.insert(homes.begin(), home_[v]);
   for (const Vec3& home : homes) {
@@ -148,9 +150,9 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
     mesh_.points[v] = home;
     for (const Vec3& towards : directions(v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
-        if (fewest == 0) break;
+        if (fewest <= least) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
-        const int left = conflicts(v);
+        const int left = conflicts(v, fewest);
         if (left >= fewest) continue;
         fewest = left;
         best = mesh_.points[v];
@@ -213,11 +215,12 @@ std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const
 }
 
 // Counts pairs of a triangle at this copy and one around its group that meet where they should not. Copies of a
-// neighbouring vertex may still share their place, so touching counts less.
-int Separation::conflicts(std::uint32_t copy) {
+// neighbouring vertex may still share their place, so touching counts less. Counts no further than `most`.
+int Separation::conflicts(std::uint32_t copy, int most) {
   look_again_at(copy);
   int count = 0;
   for (const std::uint32_t s : around_.fan(copy)) {
+    if (count >= most) break;
     if (!around_.is_at(s, copy)) continue;
     if (!has_area_at(s)) {
       count += kCrossingWeight;
@@ -230,6 +233,27 @@ int Separation::conflicts(std::uint32_t copy) {
       if (contact == TriangleContact::kTouching) ++count;
       if (contact == TriangleContact::kCrossing) count += kCrossingWeight;
     }
+  }
+  return count;
+}
+
+// A bound of conflicts(copy) wherever the copy is: other corners of its triangles may stand where vertices around do.
+int Separation::unavoidable_conflicts(std::uint32_t copy) const {
+  int count = 0;
+  for (const std::uint32_t s : around_.fan(copy)) {
+    if (!around_.is_at(s, copy)) continue;
+    const auto stands_at_corner = [&](std::uint32_t v) {
+      return std::any_of(mesh_.triangles[s].begin(), mesh_.triangles[s].end(), [&](std::uint32_t corner) {
+        return corner != copy && corner != v && mesh_.points[corner] == mesh_.points[v];
+      });
+    };
+    int touching = 0;
+    for (const Surrounding& t : surroundings_) {
+      const auto& corners = mesh_.triangles[t.triangle];
+      if (!t.has_area || around_.is_at(t.triangle, copy)) continue;
+      if (std::any_of(corners.begin(), corners.end(), stands_at_corner)) ++touching;
+    }
+    count += std::min(touching, kCrossingWeight);
   }
   return count;
 }

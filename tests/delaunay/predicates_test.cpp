@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -142,6 +143,18 @@ TEST_P(Predicates, StaticFilterDoesNotChangeTheSignOfOrient3d) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, Predicates, testing::Range<std::size_t>(0, kinds().size()));
+
+TEST(Orient3d, IsZeroWhereTwoPointsAreOne) {
+  const std::array<Vec3, 3> points = {Vec3{0.1, 0.7, 1e-9}, Vec3{-3.3, 0.2, 5e7}, Vec3{0.3, 1.1, -2.9}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      std::array<Vec3, 4> p;
+      std::size_t next = 0;
+      for (std::size_t k = 0; k < 4; ++k) p[k] = k == j ? p[i] : points[next++];
+      EXPECT_EQ(orient3d(p[0], p[1], p[2], p[3]), 0) << i << " and " << j;
+    }
+  }
+}
 
 TEST(Orient3d, IsPositiveOnTheSideOfTheNormal) {
   EXPECT_GT(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 0);

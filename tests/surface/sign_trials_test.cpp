@@ -78,6 +78,30 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
   EXPECT_GT(seen.size(), 4u);
 }
 
+// Nearly all of them move the mesh and leave its topology as it is, which is seen without building anything.
+TEST(LocalCharacteristic, OfEveryTetrahedronAloneAndWithANeighbour) {
+  int nothing = 0, something = 0;
+  for (const auto& scene : {noise_scene({4, 3, 4}, 11), noise_scene({3, 3, 4}, 12), field_scene("gyroid", 6)}) {
+    SignedDelaunay restricted = dense(*scene);
+    const Tetrahedralization& delaunay = restricted.delaunay();
+    const std::int64_t before = characteristic(restricted);
+    for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
+      const TetId t(i);
+      if (!delaunay.is_live(t)) continue;
+      const TetId beside = delaunay.neighbour(t, i % 4);
+      for (const std::vector<TetId>& tets : {std::vector<TetId>{t}, std::vector<TetId>{t, beside}}) {
+        const std::int64_t change = change_of_characteristic(restricted, tets);
+        for (const TetId one : tets) restricted.overturn_sign(one);
+        ASSERT_EQ(change, characteristic(restricted) - before) << scene->name << " tetrahedron " << i;
+        for (const TetId one : tets) restricted.overturn_sign(one);
+        ++(change == 0 ? nothing : something);
+      }
+    }
+  }
+  EXPECT_GT(nothing, 500);
+  EXPECT_GT(something, 50);
+}
+
 TEST(DisputedClusters, AreTheFacetConnectedSetsOfOtherSign) {
   const auto scene = noise_scene({8, 8, 8}, 3);
   SignedDelaunay restricted = dense(*scene);
