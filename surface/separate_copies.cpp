@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 #include <unordered_map>
 
 #include "delaunay/triangle_contact.h"
+#include "surface/copy_directions.h"
 #include "surface/copy_groups.h"
 #include "surface/group_surroundings.h"
 
@@ -19,9 +19,6 @@ namespace {
 constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
 static_assert(kDistances.back() < kHairsBreadth);
 constexpr double kEdgeFraction = 0.05;
-// A direction is good when it makes at least this sine with every triangle of the fan.
-constexpr double kLeastSine = 0.05;
-constexpr int kSteps = 200;
 constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
 constexpr int kSweeps = 3;
@@ -31,7 +28,13 @@ constexpr int kStubbornSweeps = 2;
 class Separation {
  public:
   Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
-      : mesh_(mesh), groups_(groups), around_(mesh, groups, origin_of), box_(box) {
+      : mesh_(mesh),
+        groups_(groups),
+        around_(mesh, groups, origin_of),
+        box_(box),
+        triangles_(groups.size()),
+        settled_at_(groups.size(), 0),
+        moved_at_(groups.empty() ? 0 : mesh.points.size(), 0) {
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       chosen_.push_back(i);
       for (const Copy& copy : groups_[i]) home_[copy.vertex] = mesh_.points[copy.vertex];
@@ -62,12 +65,11 @@ class Separation {
     bool had_conflicts = false;  // some copy had, when its turn came
   };
   Sweep sweep_over_groups(bool all, bool is_stubborn);
+  const std::vector<std::uint32_t>& triangles_around(std::size_t group);
+  [[nodiscard]] bool is_settled(std::size_t group);
   void find_surroundings(std::size_t group);
   void look_again_at(std::uint32_t copy);
   void move(const Copy& copy, int fewest, bool is_stubborn);
-  [[nodiscard]] std::vector<Vec3> directions(std::uint32_t copy, bool is_stubborn) const;
-  [[nodiscard]] Vec3 within_box_face(const Vec3& at, Vec3 d) const;
-  [[nodiscard]] std::optional<Vec3> direction(std::uint32_t copy, double side) const;
   [[nodiscard]] int conflicts(std::uint32_t copy, int most = std::numeric_limits<int>::max());
   [[nodiscard]] int unavoidable_conflicts(std::uint32_t copy) const;
   [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
@@ -84,21 +86,33 @@ class Separation {
   std::vector<Surrounding> surroundings_;         // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;  // where each copy came from
   std::vector<std::size_t> chosen_;               // groups to separate, ascending
+
+  std::vector<std::vector<std::uint32_t>> triangles_;  // around each group, once they have been asked for
+  std::uint32_t turn_ = 0;                             // of a group at which something may move, counted through
+  std::vector<std::uint32_t> settled_at_;              // of each group: the last turn that found no conflicts; or 0
+  std::vector<std::uint32_t> moved_at_;                // of each vertex: the last turn that moved it; or 0
 };
 
 // Moves all copies, or those with conflicts.
 Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   Sweep sweep;
   for (const std::size_t i : chosen_) {
+    ++turn_;
+    if (is_settled(i)) continue;
     find_surroundings(i);
+    bool has_conflicts = false;
     for (const Copy& copy : groups_[i]) {
       const Vec3 before = mesh_.points[copy.vertex];
       const int now = all ? std::numeric_limits<int>::max() : conflicts(copy.vertex);
       if (now == 0) continue;
       move(copy, now, is_stubborn);
-      sweep.had_conflicts = true;
-      sweep.has_moved |= mesh_.points[copy.vertex] != before;
+      has_conflicts = true;
+      if (mesh_.points[copy.vertex] == before) continue;
+      moved_at_[copy.vertex] = turn_;
+      sweep.has_moved = true;
     }
+    sweep.had_conflicts |= has_conflicts;
+    settled_at_[i] = has_conflicts ? 0 : turn_;
   }
   return sweep;
 }
@@ -107,16 +121,31 @@ Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
 // move none of its copies.
 void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
   const auto visit_vertices_around = [&](std::size_t group, const auto& visit) {
-    for (const std::uint32_t t : around_.triangles(group)) {
+    for (const std::uint32_t t : triangles_around(group)) {
       for (const std::uint32_t v : mesh_.triangles[t]) visit(v);
     }
   };
   chosen_ = groups_that_matter(groups_, visit_vertices_around, is_wanted);
 }
 
+const std::vector<std::uint32_t>& Separation::triangles_around(std::size_t group) {
+  if (triangles_[group].empty()) triangles_[group] = around_.triangles(group);
+  return triangles_[group];
+}
+
+// Whether no copy had conflicts and nothing around has moved since.
+bool Separation::is_settled(std::size_t group) {
+  if (settled_at_[group] == 0) return false;
+  const std::vector<std::uint32_t>& triangles = triangles_around(group);
+  return std::none_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+    const auto& v = mesh_.triangles[t];
+    return std::any_of(v.begin(), v.end(), [&](std::uint32_t q) { return moved_at_[q] > settled_at_[group]; });
+  });
+}
+
 void Separation::find_surroundings(std::size_t group) {
   surroundings_.clear();
-  for (const std::uint32_t t : around_.triangles(group)) surroundings_.push_back({t, box_of(mesh_, t), has_area_at(t)});
+  for (const std::uint32_t t : triangles_around(group)) surroundings_.push_back({t, box_of(mesh_, t), has_area_at(t)});
 }
 
 // A copy may have moved, and the triangles at it with it.
@@ -148,7 +177,7 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   for (const Vec3& home : homes) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
-    for (const Vec3& towards : directions(v, is_stubborn)) {
+    for (const Vec3& towards : directions_apart(mesh_, around_, box_, v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest <= least) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
@@ -161,57 +190,6 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   }
   mesh_.points[v] = best;
   look_again_at(v);
-}
-
-// Directions to try, the most promising first: towards either side of the whole fan; then, for a fan that no direction
-// sees as a whole or where these did not help, a few all around.
-std::vector<Vec3> Separation::directions(std::uint32_t copy, bool is_stubborn) const {
-  std::vector<Vec3> directions;
-  for (const double side : {1.0, -1.0}) {
-    if (const auto d = direction(copy, side)) directions.push_back(*d);
-  }
-  if (directions.size() == 2 && !is_stubborn) return directions;
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const Vec3 d = within_box_face(mesh_.points[copy], Vec3{z * 1.0, y * 1.0, x * 1.0});
-        if (norm(d) > 0) directions.push_back(d / norm(d));
-      }
-    }
-  }
-  return directions;
-}
-
-Vec3 Separation::within_box_face(const Vec3& at, Vec3 d) const {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (at[axis] == box_.low[axis] || at[axis] == box_.high[axis]) d[axis] = 0;
-  }
-  return d;
-}
-
-// A direction towards one side of all triangles at the copy, which is at home (perceptron steps towards the triangle
-// that sees it least).
-std::optional<Vec3> Separation::direction(std::uint32_t copy, double side) const {
-  std::vector<Vec3> normals;
-  Vec3 sum;
-  for (const std::uint32_t t : around_.fan(copy)) {
-    if (!around_.is_at(t, copy)) continue;
-    const auto& v = mesh_.triangles[t];
-    const Vec3 n = cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]);
-    if (!(norm(n) > 0)) continue;
-    normals.push_back(side / norm(n) * n);
-    sum += normals.back();
-  }
-  const Vec3& at = mesh_.points[copy];
-  Vec3 d = within_box_face(at, sum);
-  for (int step = 0; step < kSteps && norm(d) > 0; ++step) {
-    d = d / norm(d);
-    const auto least = std::min_element(normals.begin(), normals.end(),
-                                        [&](const Vec3& a, const Vec3& b) { return dot(a, d) < dot(b, d); });
-    if (dot(*least, d) >= kLeastSine) return d;
-    d += within_box_face(at, (2 * kLeastSine - dot(*least, d)) * *least);
-  }
-  return std::nullopt;
 }
 
 // Counts pairs of a triangle at this copy and one around its group that meet where they should not. Copies of a
@@ -229,9 +207,11 @@ int Separation::conflicts(std::uint32_t copy, int most) {
     const Box3 box = box_of(mesh_, s);
     for (const Surrounding& t : surroundings_) {
       if (s == t.triangle || !box.meets(t.box) || !t.has_area) continue;
+      const bool is_at_copy = around_.is_at(t.triangle, copy);
+      if (is_at_copy && t.triangle < s) continue;  // counted from there
       const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t.triangle]);
-      if (contact == TriangleContact::kTouching) ++count;
-      if (contact == TriangleContact::kCrossing) count += kCrossingWeight;
+      if (contact == TriangleContact::kNone) continue;
+      count += (is_at_copy ? 2 : 1) * (contact == TriangleContact::kTouching ? 1 : kCrossingWeight);
     }
   }
   return count;
