@@ -114,7 +114,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::spa
     refine_part(part, Round::kFirst, task, limits[k], threads, counted[k]);
     threads.part_ends();
   };
-  RefinementSlabs(mesh, slabs, work).refine_each(refine, task.options.threads);
+  RefinementSlabs(mesh, slabs, work, task.options.threads).refine_each(refine);
   release_free_memory();
   task.controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
@@ -143,7 +143,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
   set_clearances(refined);
   const std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
-  const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles);
+  const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);
   if (slabs.size() == 1) {
     refine_whole(refined, Round::kFirst, task);
   } else {

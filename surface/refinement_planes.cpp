@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "delaunay/base/box3.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -27,25 +28,34 @@ std::size_t longest_axis(const RefinementMesh& mesh) {
 // Work along an axis: how much lies below a place, by the middles of triangles.
 class WorkAlong {
  public:
-  WorkAlong(const RefinementMesh& mesh, std::span<const float> work, std::size_t axis) {
-    spans_.reserve(work.size());
-    for (std::uint32_t t = 0; t < work.size(); ++t) {
-      const auto [a, b, c] = mesh.corner_points(mesh.triangles[t].corners);
-      const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-      spans_.push_back({0.5 * low + 0.5 * high, low, high, 0, work[t]});
-    }
-    std::sort(spans_.begin(), spans_.end(), [](const Span& a, const Span& b) {
-      return std::tie(a.middle, a.low, a.work) < std::tie(b.middle, b.low, b.work);
+  WorkAlong(const RefinementMesh& mesh, std::span<const float> work, std::size_t axis, int threads)
+      : spans_(work.size()) {
+    for_each_block(work.size(), threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t) {
+        const auto [a, b, c] = mesh.corner_points(mesh.triangles[t].corners);
+        const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+        spans_[t] = {0.5 * low + 0.5 * high, low, high, work[t]};
+      }
     });
-    // Every triangle costs a little, even when nothing is inserted.
-    for (Span& span : spans_) span.below = total_ += kTriangle + span.work;
+    fill_bins();
   }
 
   // Where the work below reaches a part of all.
   [[nodiscard]] double place_of(double part) const {
-    const auto at = std::lower_bound(spans_.begin(), spans_.end(), part * total_,
-                                     [](const Span& span, double below) { return span.below < below; });
-    return at == spans_.end() ? spans_.back().middle : at->middle;
+    const double wanted = part * bins_.back().below;
+    const auto bin = std::lower_bound(bins_.begin() + 1, bins_.end() - 1, wanted,
+                                      [](const Bin& one, double below) { return one.below < below; });
+    std::vector<Span> spans;
+    for (std::size_t i = (bin - 1)->end; i < bin->end; ++i) spans.push_back(spans_[by_bin_[i]]);
+    std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+      return std::tie(a.middle, a.low, a.work) < std::tie(b.middle, b.low, b.work);
+    });
+    double below = (bin - 1)->below;
+    for (const Span& span : spans) {
+      below += span.all_work();
+      if (!(below < wanted)) return span.middle;
+    }
+    return spans.back().middle;
   }
 
   // Of places between `low` and `high` the one whose plane cuts through the least work, the nearest to `fair` of these.
@@ -69,26 +79,57 @@ class WorkAlong {
   }
 
  private:
-  static constexpr double kTriangle = 0.5;  // in insertions
+  static constexpr std::size_t kBins = 4096;
 
   struct Span {
     double middle, low, high;
-    double below;
     float work;
+    std::uint32_t bin = 0;
+
+    // Every triangle costs a little, even when nothing is inserted.
+    [[nodiscard]] double all_work() const { return 0.5 + work; }
   };
+  // The end of its spans in by_bin_, and their work and that of all bins below.
+  struct Bin {
+    std::size_t end = 0;
+    double below = 0;
+  };
+
+  // By their middles; so only those of one bin need be sorted when a place is asked for.
+  void fill_bins() {
+    const auto [first, last] = std::minmax_element(spans_.begin(), spans_.end(),
+                                                   [](const Span& a, const Span& b) { return a.middle < b.middle; });
+    const double low = first->middle, size = last->middle - low;
+    const double bins_per_unit = size > 0 ? kBins / size : 0;
+    for (Span& span : spans_) {
+      span.bin = static_cast<std::uint32_t>(std::min((span.middle - low) * bins_per_unit, kBins - 1.0));
+      ++bins_[span.bin + 1].end;
+      bins_[span.bin + 1].below += span.all_work();
+    }
+    for (std::size_t i = 1; i < bins_.size(); ++i) {
+      bins_[i].end += bins_[i - 1].end;
+      bins_[i].below += bins_[i - 1].below;
+    }
+    std::vector<std::size_t> next(kBins);
+    for (std::size_t i = 0; i < kBins; ++i) next[i] = bins_[i].end;
+    by_bin_.resize(spans_.size());
+    for (std::uint32_t i = 0; i < spans_.size(); ++i) by_bin_[next[spans_[i].bin]++] = i;
+  }
+
   std::vector<Span> spans_;
-  double total_ = 0;
+  std::vector<std::uint32_t> by_bin_;                    // spans in the order of their bins
+  std::vector<Bin> bins_ = std::vector<Bin>(kBins + 1);  // behind an empty one
 };
 
 }  // namespace
 
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
-                                      std::size_t slab_triangles) {
+                                      std::size_t slab_triangles, int threads) {
   const std::size_t wanted = (mesh.triangles.size() + slab_triangles / 2) / slab_triangles;
   std::vector<Slab> slabs(std::clamp<std::size_t>(wanted, 1, kMostSlabs));
   if (slabs.size() == 1) return slabs;
   const std::size_t axis = longest_axis(mesh);
-  const WorkAlong along(mesh, work, axis);
+  const WorkAlong along(mesh, work, axis, threads);
   const auto count = static_cast<double>(slabs.size());
   for (std::size_t k = 0; k < slabs.size(); ++k) {
     slabs[k].axis = axis;

@@ -14,8 +14,8 @@
 namespace deliso {
 
 // At most 8 slabs next to each other of `slab_triangles` or more, about; a small mesh is one. `work` estimates the
-// insertions that each triangle needs.
+// insertions that each triangle needs. The same for any number of threads.
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
-                                      std::size_t slab_triangles);
+                                      std::size_t slab_triangles, int threads = 1);
 
 }  // namespace deliso

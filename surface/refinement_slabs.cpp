@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "delaunay/base/parallel.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -17,36 +18,48 @@ constexpr double kMostGrowth = 32;
 
 }  // namespace
 
-RefinementSlabs::RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work)
+RefinementSlabs::RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work,
+                                 int threads)
     : whole_(whole),
       slabs_(slabs),
+      threads_(threads),
       origins_(slabs.size()),
       refined_(slabs.size()),
       local_triangle_(whole.triangles.size(), kNoSide),
       local_vertex_(whole.vertices.size(), kNoSide) {
   if (slabs_.empty()) return;
-  find_triangles();
+  find_triangles(threads);
   make_room(work);
 }
 
-// The triangles that meet each slab: those that its planes meet come first.
-void RefinementSlabs::find_triangles() {
-  const std::size_t axis = slabs_.front().axis;
-  std::vector<std::vector<std::uint32_t>> within(slabs_.size());
-  for (std::uint32_t t = 0; t < whole_.triangles.size(); ++t) {
-    const auto [a, b, c] = whole_.corner_points(whole_.triangles[t].corners);
-    const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-    for (std::size_t k = 0; k < slabs_.size(); ++k) {
-      const Slab& slab = slabs_[k];
-      if (high < slab.low || slab.high < low) continue;
-      const bool is_within = slab.low < low && high < slab.high;
-      (is_within ? within[k] : origins_[k].triangles).push_back(t);
+// The triangles that meet each slab: those that its planes meet come first. Found block by block.
+void RefinementSlabs::find_triangles(int threads) {
+  struct Found {
+    std::vector<std::uint32_t> cut, within;
+  };
+  const std::size_t axis = slabs_.front().axis, count = whole_.triangles.size();
+  std::vector<std::vector<Found>> found(count / kBlockSize + 1, std::vector<Found>(slabs_.size()));
+  for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+    std::vector<Found>& in_block = found[first / kBlockSize];
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      const auto [a, b, c] = whole_.corner_points(whole_.triangles[t].corners);
+      const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+      for (std::size_t k = 0; k < slabs_.size(); ++k) {
+        const Slab& slab = slabs_[k];
+        if (high < slab.low || slab.high < low) continue;
+        const bool is_within = slab.low < low && high < slab.high;
+        (is_within ? in_block[k].within : in_block[k].cut).push_back(t);
+      }
     }
-  }
+  });
   for (std::size_t k = 0; k < slabs_.size(); ++k) {
     std::vector<std::uint32_t>& own = origins_[k].triangles;
+    const auto append = [&](const std::vector<std::uint32_t>& some) {
+      own.insert(own.end(), some.begin(), some.end());
+    };
+    for (const std::vector<Found>& in_block : found) append(in_block[k].cut);
     origins_[k].frozen = static_cast<std::uint32_t>(own.size());
-    own.insert(own.end(), within[k].begin(), within[k].end());
+    for (const std::vector<Found>& in_block : found) append(in_block[k].within);
   }
 }
 
@@ -65,8 +78,8 @@ void RefinementSlabs::make_room(std::span<const float> work) {
   whole_.triangles.reserve(with_rest(whole_.triangles.size() + 2 * insertions));
 }
 
-void RefinementSlabs::refine_each(const RefinePart& refine, int threads) {
-  run_tasks(slabs_.size(), threads, [&](std::size_t k) {
+void RefinementSlabs::refine_each(const RefinePart& refine) {
+  run_tasks(slabs_.size(), threads_, [&](std::size_t k) {
     RefinementPart part = cut_out(k);
     refine(k, part);
     hand_in(k, std::move(part));

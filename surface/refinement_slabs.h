@@ -31,13 +31,13 @@ class RefinementSlabs {
 
   // Disjoint slabs of a mesh whose balls are known. `work` estimates the insertions that each triangle needs: there is
   // room for them. Keeps a reference to the mesh.
-  RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work);
+  RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>& slabs, std::span<const float> work, int threads);
 
   // Cuts out part after part, has each refined, on several threads at a time, and puts it back in place of what was cut
   // out. Old vertices keep their places; new ones come in the order of the slabs. The memory of a part that is back
   // serves a later one, so that as a rule all parts together need little more than the whole; only parts that wait for
   // an earlier one are kept beside it. To be called once; after an exception the whole is of no use.
-  void refine_each(const RefinePart& refine, int threads);
+  void refine_each(const RefinePart& refine);
 
  private:
   // Where the first triangles and vertices of a part are in the whole.
@@ -48,7 +48,7 @@ class RefinementSlabs {
     std::size_t insertions = 0;  // that are expected
   };
 
-  void find_triangles();
+  void find_triangles(int threads);
   void make_room(std::span<const float> work);
   [[nodiscard]] RefinementPart cut_out(std::size_t slab);
   void fill(RefinementMesh& mesh, Origin& origin);
@@ -58,6 +58,7 @@ class RefinementSlabs {
 
   RefinementMesh& whole_;
   std::vector<Slab> slabs_;
+  int threads_;
   std::vector<Origin> origins_;
 
   // One thread at a time cuts out or puts back.

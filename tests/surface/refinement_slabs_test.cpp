@@ -49,17 +49,15 @@ TEST(RefinementSlabs, PartsAreApartAndJoinToWhatWasCut) {
   const std::vector<Slab> cut = slabs_of_equal_work(whole, std::vector<float>(whole.triangles.size(), 1), 8192);
   ASSERT_EQ(cut.size(), 4u);
   std::atomic<std::size_t> free_triangles = 0;
-  RefinementSlabs slabs(whole, cut, std::vector<float>(whole.triangles.size(), 1));
-  slabs.refine_each(
-      [&](std::size_t k, const RefinementPart& part) {
-        EXPECT_EQ(part.slab.low, cut[k].low);
-        EXPECT_GT(part.frozen, 0u);
-        for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) {
-          for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.slab.contains(part.mesh.corner(t, i)));
-        }
-        free_triangles += part.mesh.triangles.size() - part.frozen;
-      },
-      2);
+  RefinementSlabs slabs(whole, cut, std::vector<float>(whole.triangles.size(), 1), 2);
+  slabs.refine_each([&](std::size_t k, const RefinementPart& part) {
+    EXPECT_EQ(part.slab.low, cut[k].low);
+    EXPECT_GT(part.frozen, 0u);
+    for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) EXPECT_TRUE(part.slab.contains(part.mesh.corner(t, i)));
+    }
+    free_triangles += part.mesh.triangles.size() - part.frozen;
+  });
   EXPECT_GT(free_triangles, mesh.triangles.size() * 9 / 10);
   SurfaceMesh joined;
   whole.move_to(joined);
@@ -105,8 +103,9 @@ TEST(RefinementSlabs, WhatPartsAddStaysLinked) {
   RefinementMesh whole(mesh);
   const std::vector<float> work(whole.triangles.size(), 1);
   const std::vector<Slab> cut = slabs_of_equal_work(whole, work, 8192);
-  RefinementSlabs(whole, cut, work)
-      .refine_each([](std::size_t, RefinementPart& part) { split_two_triangles(part); }, 1);
+  RefinementSlabs(whole, cut, work, 1).refine_each([](std::size_t, RefinementPart& part) {
+    split_two_triangles(part);
+  });
   SurfaceMesh joined;
   whole.move_to(joined);
   EXPECT_EQ(testing::surface_mesh_defect(joined), "");
@@ -131,7 +130,7 @@ TEST(RefinementSlabs, ItDoesNotMatterWhichPartIsRefinedFirst) {
       }
       ++done;
     };
-    RefinementSlabs(whole, cut, work).refine_each(refine, threads);
+    RefinementSlabs(whole, cut, work, threads).refine_each(refine);
     return whole;
   };
   const RefinementMesh expected = refined(1);
@@ -156,8 +155,8 @@ TEST(RefinementSlabs, TrianglesBeyondThemStayAsTheyAre) {
   RefinementMesh whole(mesh);
   const std::vector<Slab> apart = {{1, 3.5, 9.25}, {1, 20, 31.5}};
   std::size_t cut_out = 0;
-  RefinementSlabs slabs(whole, apart, std::vector<float>(whole.triangles.size()));
-  slabs.refine_each([&](std::size_t, const RefinementPart& part) { cut_out += part.mesh.triangles.size(); }, 1);
+  RefinementSlabs slabs(whole, apart, std::vector<float>(whole.triangles.size()), 1);
+  slabs.refine_each([&](std::size_t, const RefinementPart& part) { cut_out += part.mesh.triangles.size(); });
   EXPECT_EQ(cut_out, 80u * (7 + 13));  // the rows of squares that the slabs meet, planes included
   SurfaceMesh joined;
   whole.move_to(joined);
