@@ -55,8 +55,9 @@ class TetSet {
 
 // Whether turning over the sign of a tetrahedron moves the mesh from one part of its boundary to the other and changes
 // nothing else, as at a simple point of a digital image (Kong and Rosenfeld, Digital topology, 1989). Certain only when
-// true: the facets of the mesh at the tetrahedron form a disk, and no other facet is at an edge of it that this disk
-// has, has had or will have within.
+// true: one, two or three of its facets are in the mesh, a disk; every edge on the rim of this disk has one facet more,
+// and no other facet is at an edge of the tetrahedron. So each edge keeps what two facets it has, or gets or loses
+// both, and each vertex keeps its umbrellas but for one of three facets that comes or goes with its three edges.
 class SimpleTet {
  public:
   explicit SimpleTet(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}

@@ -79,6 +79,7 @@ class WorkAlong {
   }
 
  private:
+  static constexpr double kTriangle = 0.5;  // in insertions: every triangle costs a little, even when nothing goes in
   static constexpr std::size_t kBins = 4096;
 
   struct Span {
@@ -86,10 +87,9 @@ class WorkAlong {
     float work;
     std::uint32_t bin = 0;
 
-    // Every triangle costs a little, even when nothing is inserted.
-    [[nodiscard]] double all_work() const { return 0.5 + work; }
+    [[nodiscard]] double all_work() const { return kTriangle + work; }
   };
-  // The end of its spans in by_bin_, and their work and that of all bins below.
+  // Where its spans end in by_bin_, and how much work they and those of all bins below are.
   struct Bin {
     std::size_t end = 0;
     double below = 0;
