@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,8 +20,10 @@ namespace deliso {
 
 namespace {
 
-// More rounds for what the mesh leaves out, though its topology is right, begin so often at most.
+// More rounds for what the mesh leaves out or where it crosses, though its topology is right, begin so often at most.
 constexpr int kMostReopenings = 2;
+// Crossing triangles are looked for around so many of their pairs.
+constexpr std::size_t kMostPairs = 256;
 
 class Repair {
  public:
@@ -39,12 +42,19 @@ class Repair {
     AssembledMesh result;
     std::vector<bool> is_polygonized;  // of each component in it
     std::vector<Box3> dents;           // left in it
+    bool is_apart = false;
     RepairStats stats;
   };
 
   bool mend(std::int32_t max_rounds, Controls& controls);
   void finish(bool is_assembled, std::int32_t max_rounds, Controls& controls);
+  void mend_crossing(std::int32_t max_rounds, Controls& controls);
   void mend_left_out(std::int32_t max_rounds, Controls& controls);
+  std::optional<Ending> mend_around(std::span<const std::uint32_t> crossings, std::int32_t max_rounds,
+                                    Controls& controls);
+  [[nodiscard]] SelfIntersections crossing_triangles() const {
+    return self_intersections(result_.mesh.points, result_.mesh.triangles, kMostPairs, threads_);
+  }
   [[nodiscard]] std::vector<std::uint32_t> left_out(std::span<const Box3> boxes) const {
     return crossings_left_out(result_.mesh, boxes, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
   }
@@ -63,15 +73,17 @@ class Repair {
   AssembledMesh result_;              // at last
   std::vector<bool> is_polygonized_;  // of each component in it
   std::vector<Box3> dents_;           // left in it
+  bool is_apart_ = false;             // its triangles are known not to cross
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   if (controls.stopped()) return rounds_.as_it_is();
   finish(mend(max_rounds, controls), max_rounds, controls);
+  mend_crossing(max_rounds, controls);
   mend_left_out(max_rounds, controls);
   rounds_.end();
   SurfaceMesh& mesh = result_.mesh;
-  polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
+  if (!is_apart_) polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(mesh.points.size());
   return std::move(mesh);
@@ -98,26 +110,50 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
   dents_ = std::move(left);
 }
 
+// More rounds where the topology is right and yet triangles cross; unless they do not help.
+void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
+  for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
+    const SelfIntersections found = crossing_triangles();
+    is_apart_ = found.crossing_pairs == 0;
+    const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing);
+    if (crossings.empty()) return;
+    std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
+    if (!before) return;
+    if (crossing_triangles().crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
+  }
+}
+
 // More rounds where the topology is right and yet the mesh leaves parts of the surface out; unless they do not help.
 void Repair::mend_left_out(std::int32_t max_rounds, Controls& controls) {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = left_out(dents_);
     if (crossings.empty()) return;
-    Ending before = take_ending();
-    rounds_.mend_around(crossings, controls);
-    const bool is_assembled = mend(max_rounds, controls);
-    const bool is_done = is_assembled || rounds_.is_done();
-    if (is_done) finish(is_assembled, max_rounds, controls);
-    if (!is_done || controls.poll() || is_polygonized_ != before.is_polygonized) return return_to(std::move(before));
+    std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
+    if (!before) return;
     // Where dents were and where they are.
-    std::vector<Box3> boxes = before.dents;
+    std::vector<Box3> boxes = before->dents;
     boxes.insert(boxes.end(), dents_.begin(), dents_.end());
-    if (left_out(boxes).size() >= crossings.size()) return return_to(std::move(before));
+    if (left_out(boxes).size() >= crossings.size()) return return_to(*std::move(before));
   }
 }
 
+// Rounds that begin around some crossings. What there was before, if they have led to a mesh that is right, too; else
+// nothing, and all is as it was.
+std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings, std::int32_t max_rounds,
+                                                  Controls& controls) {
+  Ending before = take_ending();
+  rounds_.mend_around(crossings, controls);
+  const bool is_assembled = mend(max_rounds, controls);
+  const bool is_done = is_assembled || rounds_.is_done();
+  if (is_done) finish(is_assembled, max_rounds, controls);
+  if (is_done && !controls.poll() && is_polygonized_ == before.is_polygonized) return before;
+  return_to(std::move(before));
+  return std::nullopt;
+}
+
 Repair::Ending Repair::take_ending() {
-  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), stats_};
+  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), std::exchange(is_apart_, false),
+                stats_};
   stats_.intruders_removed = stats_.dents_removed = 0;
   return ending;
 }
@@ -127,14 +163,18 @@ void Repair::return_to(Ending ending) {
   result_ = std::move(ending.result);
   is_polygonized_ = std::move(ending.is_polygonized);
   dents_ = std::move(ending.dents);
+  is_apart_ = ending.is_apart;
   stats_ = ending.stats;
   stats_.rounds = rounds;
 }
 
-// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out.
+// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out. Where it
+// is the crossing of triangles that is wrong, the next round is to sample around them.
 bool Repair::ends_without_intruders() {
   if (!rounds_.is_done_but_for_mixing()) return false;
-  if (assemble(rounds_.kept()) && take_intruders_out()) return true;
+  const bool is_whole = assemble(rounds_.kept());
+  if (is_whole && take_intruders_out()) return true;
+  if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing));
   result_ = {};
   stats_.intruders_removed = 0;
   return false;

@@ -58,6 +58,8 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
          round != kRoundOfAllTrouble, round_->evidence(), round_->located(facts_.critical_places()), threads_});
+    cells.insert(cells.end(), along_.begin(), along_.end());
+    along_.clear();
     if (!mend_once(std::move(cells), controls)) break;
   }
   return false;
@@ -77,9 +79,30 @@ bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
 }
 
 void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
-  for (const std::uint32_t crossing : crossings) kept_.reopen(topology_.crossings[crossing].component);
+  reopen(crossings);
   mend_once(cells_around(crossings, grid_, topology_, raised_), controls);
   ++rounds_around_;
+}
+
+void RepairRounds::take_along(std::span<const std::uint32_t> crossings) {
+  reopen(crossings);
+  along_ = cells_around(crossings, grid_, topology_, raised_);
+}
+
+// Their components.
+void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
+  for (const std::uint32_t crossing : crossings) kept_.reopen(topology_.crossings[crossing].component);
+}
+
+std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs) const {
+  std::vector<std::uint32_t> found;
+  for (const TrianglePair& pair : pairs) {
+    topology_.index.for_each_crossing_of_cell(raised_.cell_of(pair.position),
+                                              [&](std::uint32_t crossing) { found.push_back(crossing); });
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 // Its copies moved apart, with the poles of the samples as they are.

@@ -17,6 +17,7 @@
 #include "surface/repair_round.h"
 #include "surface/repair_samples.h"
 #include "surface/sample_lattice.h"
+#include "surface/self_intersection.h"
 #include "surface/surface_facts.h"
 
 namespace deliso {
@@ -32,6 +33,10 @@ class RepairRounds {
   // Reopens the components of some crossings that the mesh leaves out, with a round that samples the surface around
   // these. Then mend() may go on.
   void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
+  // The same, but beside what else is in trouble when the next round of mend() begins.
+  void take_along(std::span<const std::uint32_t> crossings);
+  // The grid-edge crossings (places in topology.crossings) of the cells in which triangles meet, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs) const;
 
   // What the rounds have kept, with pole heights.
   const KeptMeshes& kept() {
@@ -54,6 +59,7 @@ class RepairRounds {
 
  private:
   bool mend_once(std::vector<CellName> cells, Controls& controls);
+  void reopen(std::span<const std::uint32_t> crossings);
   void resample();
   bool try_rule(SignRule rule);
   bool take(RepairRound::Attempt& attempt);
@@ -70,6 +76,7 @@ class RepairRounds {
   int threads_;
   RepairStats& stats_;
   std::int64_t rounds_around_ = 0;  // of them by mend_around()
+  std::vector<CellName> along_;     // cells that the next round raises, too
   SampleLattice lattice_;
   RaisedCells raised_;
   std::optional<RepairRound> round_;

@@ -74,6 +74,15 @@ TEST(Regression, NoPartOfTheSurfaceIsLeftOut) {
   }
 }
 
+// Copies of a vertex that cannot be moved apart made triangles cross, and the whole component came from marching cubes.
+TEST(Regression, TrianglesThatCrossAreMendedByMoreSamples) {
+  const ScalarGrid grid = read_volume(kInputs / "crossing_copies.nrrd");
+  const MeshingResult result = mesh_isosurface(grid, 0.5, {});
+  EXPECT_EQ(result.repair.components_polygonized, 0);
+  EXPECT_EQ(result.certificate.verdict, Verdict::kHomeomorphic);
+  EXPECT_EQ(self_intersections(result.mesh).crossing_pairs, 0);
+}
+
 // A plate with one smooth side and a rough one: the tip of a finger stood out of stage 2's mesh by more than a voxel.
 TEST(Regression, NoFingerStandsOutOfTheMesh) {
   Rng rng(214);
