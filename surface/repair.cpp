@@ -115,7 +115,7 @@ void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
     const SelfIntersections found = crossing_triangles();
     is_apart_ = found.crossing_pairs == 0;
-    const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing);
+    const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing, result_.mesh);
     if (crossings.empty()) return;
     std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
     if (!before) return;
@@ -174,7 +174,7 @@ bool Repair::ends_without_intruders() {
   if (!rounds_.is_done_but_for_mixing()) return false;
   const bool is_whole = assemble(rounds_.kept());
   if (is_whole && take_intruders_out()) return true;
-  if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing));
+  if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};
   stats_.intruders_removed = 0;
   return false;

@@ -6,6 +6,7 @@
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/left_out.h"
+#include "surface/mesh_pieces.h"
 #include "surface/poles.h"
 #include "surface/separate_copies.h"
 #include "surface/sign_rules.h"
@@ -94,11 +95,19 @@ void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
   for (const std::uint32_t crossing : crossings) kept_.reopen(topology_.crossings[crossing].component);
 }
 
-std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs) const {
+std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs,
+                                                      const SurfaceMesh& mesh) const {
+  std::vector<std::uint32_t> triangles;
+  for (const TrianglePair& pair : pairs) triangles.insert(triangles.end(), {pair.first, pair.second});
+  std::vector<bool> is_met(topology_.components.size(), false);
+  for (const std::uint32_t c : components_at(mesh, vertices_of(mesh, triangles), grid_, isosurface_, topology_)) {
+    if (c < is_met.size()) is_met[c] = true;
+  }
   std::vector<std::uint32_t> found;
   for (const TrianglePair& pair : pairs) {
-    topology_.index.for_each_crossing_of_cell(raised_.cell_of(pair.position),
-                                              [&](std::uint32_t crossing) { found.push_back(crossing); });
+    topology_.index.for_each_crossing_of_cell(raised_.cell_of(pair.position), [&](std::uint32_t crossing) {
+      if (is_met[topology_.crossings[crossing].component]) found.push_back(crossing);
+    });
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -35,8 +35,10 @@ class RepairRounds {
   void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
   // The same, but beside what else is in trouble when the next round of mend() begins.
   void take_along(std::span<const std::uint32_t> crossings);
-  // The grid-edge crossings (places in topology.crossings) of the cells in which triangles meet, ascending.
-  [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs) const;
+  // The grid-edge crossings (places in topology.crossings) of the cells in which triangles of a mesh meet, ascending;
+  // of the components that corners of these lie on.
+  [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
+                                                        const SurfaceMesh& mesh) const;
 
   // What the rounds have kept, with pole heights.
   const KeptMeshes& kept() {
