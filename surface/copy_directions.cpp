@@ -1,6 +1,7 @@
 #include "surface/copy_directions.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <span>
 

@@ -22,11 +22,10 @@ FacetId next_restricted_facet(const SignedDelaunay& restricted, FacetId f, Verte
   const Tetrahedralization& delaunay = restricted.delaunay();
   const bool is_above = restricted.is_above(f.tet());
   for (;;) {
-    const auto& v = delaunay.vertices(f.tet());
-    const FacetId g(f.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
+    const FacetId g = facet_opposite(delaunay, f.tet(), third);
     const FacetId beyond = delaunay.mirror(g);
     if (restricted.is_above(beyond.tet()) != is_above) return g;
-    third = v[f.face()];
+    third = delaunay.vertices(f.tet())[f.face()];
     f = beyond;
   }
 }

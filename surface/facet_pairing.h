@@ -26,6 +26,12 @@ struct PairedFacet {
   std::array<bool, 3> known;           // whether the two above are
 };
 
+// The facet of a tetrahedron opposite one of its vertices: with it a walk around an edge goes on.
+inline FacetId facet_opposite(const Tetrahedralization& delaunay, TetId t, VertexId vertex) {
+  const auto& v = delaunay.vertices(t);
+  return {t, v[0] == vertex ? 0u : v[1] == vertex ? 1u : v[2] == vertex ? 2u : 3u};
+}
+
 // The paired facets as a mesh that still has to be given its vertices (build_triangle_mesh.h).
 struct PairedTriangles {
   std::vector<FacetId> facets;                          // of each triangle, ascending

@@ -92,9 +92,8 @@ class SimpleTet {
       if (restricted_.is_above(in.tet()) != is_above && ++count == kMany) return kMany;
       if (in.tet() == t) return count;
       is_above = restricted_.is_above(in.tet());
-      const auto& v = delaunay_.vertices(in.tet());
-      out = FacetId(in.tet(), v[0] == third ? 0u : v[1] == third ? 1u : v[2] == third ? 2u : 3u);
-      third = v[in.face()];
+      out = facet_opposite(delaunay_, in.tet(), third);
+      third = delaunay_.vertices(in.tet())[in.face()];
       if (restricted_.is_virtual(third)) return kMany;
     }
   }

@@ -28,18 +28,18 @@ RefinementSlabs::RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>&
       local_triangle_(whole.triangles.size(), kNoSide),
       local_vertex_(whole.vertices.size(), kNoSide) {
   if (slabs_.empty()) return;
-  find_triangles(threads);
+  find_triangles();
   make_room(work);
 }
 
 // The triangles that meet each slab: those that its planes meet come first. Found block by block.
-void RefinementSlabs::find_triangles(int threads) {
+void RefinementSlabs::find_triangles() {
   struct Found {
     std::vector<std::uint32_t> cut, within;
   };
   const std::size_t axis = slabs_.front().axis, count = whole_.triangles.size();
   std::vector<std::vector<Found>> found(count / kBlockSize + 1, std::vector<Found>(slabs_.size()));
-  for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+  for_each_block(count, threads_, [&](std::size_t first, std::size_t last) {
     std::vector<Found>& in_block = found[first / kBlockSize];
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
       const auto [a, b, c] = whole_.corner_points(whole_.triangles[t].corners);

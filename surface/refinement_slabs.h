@@ -48,7 +48,7 @@ class RefinementSlabs {
     std::size_t insertions = 0;  // that are expected
   };
 
-  void find_triangles(int threads);
+  void find_triangles();
   void make_room(std::span<const float> work);
   [[nodiscard]] RefinementPart cut_out(std::size_t slab);
   void fill(RefinementMesh& mesh, Origin& origin);

@@ -112,14 +112,18 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
 
 // More rounds where the topology is right and yet triangles cross; unless they do not help.
 void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
+  if (!rounds_.may_go_on(max_rounds) || controls.poll()) return;
+  SelfIntersections found = crossing_triangles();
+  is_apart_ = found.crossing_pairs == 0;
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
-    const SelfIntersections found = crossing_triangles();
-    is_apart_ = found.crossing_pairs == 0;
     const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing, result_.mesh);
     if (crossings.empty()) return;
     std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
     if (!before) return;
-    if (crossing_triangles().crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
+    SelfIntersections left = crossing_triangles();
+    if (left.crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
+    found = std::move(left);
+    is_apart_ = found.crossing_pairs == 0;
   }
 }
 

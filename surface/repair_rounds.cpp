@@ -1,6 +1,7 @@
 #include "surface/repair_rounds.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "delaunay/base/memory.h"
@@ -92,7 +93,9 @@ void RepairRounds::take_along(std::span<const std::uint32_t> crossings) {
 
 // Their components.
 void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
-  for (const std::uint32_t crossing : crossings) kept_.reopen(topology_.crossings[crossing].component);
+  std::set<std::uint32_t> components;
+  for (const std::uint32_t crossing : crossings) components.insert(topology_.crossings[crossing].component);
+  for (const std::uint32_t c : components) kept_.reopen(c);
 }
 
 std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs,
