@@ -113,13 +113,13 @@ MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
   if (mesh_.triangles.empty()) return Cover::kNone;
   // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
   const auto [reached, squared_reached] = walk_towards(p, guess);
-  if (squared_reached < kClose * kClose) {
-    guess = reached;
-    return Cover::kClose;
-  }
-  // The nearest of all is no farther than that; a little more, so that the one reached is found as well.
-  const auto [nearest, squared] =
-      tree_.nearest(p, 1.001 * squared_reached, [&](std::uint32_t t) { return squared_distance_to(p, t); });
+  if (squared_reached < kNear * kNear) guess = reached;
+  if (squared_reached < kClose * kClose) return Cover::kClose;
+  // The nearest of all is no farther than that (a little more, so that the one reached is found as well); or, when it
+  // is near enough already, only a close one matters.
+  const double bound = squared_reached < kNear * kNear ? kClose * kClose : 1.001 * squared_reached;
+  const auto [nearest, squared] = tree_.nearest(p, bound, [&](std::uint32_t t) { return squared_distance_to(p, t); });
+  if (nearest == BoxTree::kNone) return Cover::kFar;
   if (squared < kNear * kNear) {
     guess = nearest;
     return squared < kClose * kClose ? Cover::kClose : Cover::kFar;
@@ -129,18 +129,25 @@ MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
 }
 
 std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
-  std::pair<std::uint32_t, double> best = {start, squared_distance_to(p, start)};
-  if (mesh_.neighbours.empty()) return best;
-  for (int step = 0; step < kLongestWalk && best.second >= kClose * kClose; ++step) {
-    const std::uint32_t from = best.first;
-    for (const TriangleSide side : mesh_.neighbours[from]) {
+  const auto look_at = [&](std::uint32_t triangle) {
+    const auto [a, b, c] = mesh_.triangles[triangle];
+    return near_sides_of_triangle(p, mesh_.points[a], mesh_.points[b], mesh_.points[c]);
+  };
+  std::uint32_t at = start;
+  NearSides here = look_at(at);
+  if (mesh_.neighbours.empty()) return {at, here.squared_distance};
+  bool goes_on = true;
+  for (int step = 0; goes_on && step < kLongestWalk && here.squared_distance >= kClose * kClose; ++step) {
+    goes_on = false;
+    for (unsigned i = 0; i < here.count && !goes_on; ++i) {
+      const TriangleSide side = mesh_.neighbours[at][here.sides[i]];
       if (side == kNoSide) continue;
-      const double squared = squared_distance_to(p, side >> 2);
-      if (squared < best.second) best = {side >> 2, squared};
+      const NearSides there = look_at(side >> 2);
+      goes_on = there.squared_distance < here.squared_distance;
+      if (goes_on) at = side >> 2, here = there;
     }
-    if (best.first == from) break;
   }
-  return best;
+  return {at, here.squared_distance};
 }
 
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "surface/box_tree.h"
 
@@ -39,19 +41,40 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
   return squared_distance(p, a + t * (b - a));
 }
 
-}  // namespace
-
-double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  // Above the inside: the distance to the plane. Elsewhere, and for triangles without area: to the nearest edge.
+// Where p lies above the inside of a triangle that has an area: the square of its height.
+std::optional<double> squared_height_above_inside(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = cross(b - a, c - a);
   const double area = squared_norm(n);
-  if (area > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
-      dot(cross(a - c, p - c), n) >= 0) {
-    const double height = dot(p - a, n);
-    return height * height / area;
-  }
-  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
-                   squared_distance_to_segment(p, c, a)});
+  if (!(area > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
+        dot(cross(a - c, p - c), n) >= 0))
+    return std::nullopt;
+  const double height = dot(p - a, n);
+  return height * height / area;
+}
+
+// Side i lies across from corner i.
+std::array<double, 3> squared_distances_to_sides(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {squared_distance_to_segment(p, b, c), squared_distance_to_segment(p, c, a),
+          squared_distance_to_segment(p, a, b)};
+}
+
+}  // namespace
+
+// Above the inside: the distance to the plane. Elsewhere, and for triangles without area: to the nearest edge.
+double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (const auto squared_height = squared_height_above_inside(p, a, b, c)) return *squared_height;
+  const auto [to_bc, to_ca, to_ab] = squared_distances_to_sides(p, a, b, c);
+  return std::min({to_ab, to_bc, to_ca});
+}
+
+NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (const auto squared_height = squared_height_above_inside(p, a, b, c)) return {*squared_height, 0, {}};
+  const std::array<double, 3> to_sides = squared_distances_to_sides(p, a, b, c);
+  unsigned nearest = to_sides[1] < to_sides[0] ? 1 : 0;
+  unsigned next = 1 - nearest;
+  if (to_sides[2] < to_sides[next]) next = 2;
+  if (to_sides[next] < to_sides[nearest]) std::swap(nearest, next);
+  return {to_sides[nearest], 2, {nearest, next}};
 }
 
 DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe) {

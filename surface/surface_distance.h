@@ -1,6 +1,7 @@
 // How far a mesh is from an isosurface and the isosurface from the mesh, in voxels, by sampling both.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,14 @@ struct DistanceFigure {
 
 // The squared distance from p to the triangle abc, which may be degenerate.
 double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+// The same, and the sides beyond which what is nearer to p may lie: the two nearest ones, the nearest first, where p
+// does not lie above the inside; else none. Side i lies across from corner i.
+struct NearSides {
+  double squared_distance = 0;
+  unsigned count = 0;
+  std::array<unsigned, 2> sides{};
+};
+NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // Referenced vertices to the isosurface; the mean is over vertices. All in voxel space.
 DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
