@@ -82,20 +82,20 @@ bool CrossingGuard::is_tight(std::uint32_t triangle) const {
       std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])}));
 }
 
-CrossingGuard::StarTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
+CrossingGuard::PlacedTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
   const std::array<Vec3, 3> points = {p, mesh_.vertices[edge.from].point, mesh_.vertices[edge.to].point};
   return {{static_cast<std::uint32_t>(mesh_.vertices.size()), edge.from, edge.to}, points, box_of(points)};
 }
 
-bool CrossingGuard::meets(const StarTriangle& s, const StarTriangle& t) {
+bool CrossingGuard::meets(const PlacedTriangle& s, const PlacedTriangle& t) {
   return s.box.meets(t.box) && has_area(t.points) &&
          triangle_contact(s.corners, s.points, t.corners, t.points) != TriangleContact::kNone;
 }
 
-bool CrossingGuard::meets(const StarTriangle& s, std::uint32_t triangle) const {
+CrossingGuard::PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) const {
   const auto& corners = mesh_.triangles[triangle].corners;
   const std::array<Vec3, 3> points = mesh_.corner_points(corners);
-  return meets(s, {corners, points, box_of(points)});
+  return {corners, points, box_of(points)};
 }
 
 // The clearance of p by those of the rim's vertices; returns the least of all.
@@ -124,9 +124,10 @@ bool CrossingGuard::folds(const Vec3& p, std::span<const RimEdge> rim) {
     const Vec3 &from = mesh_.vertices[edge.from].point, &to = mesh_.vertices[edge.to].point;
     const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[beyond].corners);
     if (dot(cross(from - p, to - p), cross(b - a, c - a)) >= 0) continue;
+    const PlacedTriangle across = placed(beyond);
     for (const RimEdge& other : rim) {
-      const StarTriangle s = star_triangle(p, other);
-      if (has_area(s.points) && meets(s, beyond)) return true;
+      const PlacedTriangle s = star_triangle(p, other);
+      if (has_area(s.points) && meets(s, across)) return true;
     }
   }
   return false;
@@ -138,7 +139,7 @@ bool CrossingGuard::lies_around(const Vec3& p, const Vec3& up) const {
   if (star_.front().corners[1] != star_.back().corners[2]) return false;
   const Vec3 across = cross(up, star_.front().points[1] - p);
   int turns = 0;
-  for (const StarTriangle& s : star_) {
+  for (const PlacedTriangle& s : star_) {
     const Vec3 from = s.points[1] - p, to = s.points[2] - p;
     if (!(dot(cross(from, to), up) > 0)) return false;
     turns += dot(across, from) < 0 && dot(across, to) >= 0 ? 1 : 0;
@@ -168,7 +169,7 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   for (const RimEdge& edge : rim) {
     const float clearance =
         std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
-    const StarTriangle& s = star_.emplace_back(star_triangle(p, edge));
+    const PlacedTriangle& s = star_.emplace_back(star_triangle(p, edge));
     if (!deliso::is_tight(s.points, clearance)) continue;
     if (!has_area(s.points)) return true;
     tight_in_star_.push_back(star_.size() - 1);
@@ -182,7 +183,9 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   tight_.append_near(box, near_);
   return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t t) {
     if (mesh_.triangles[t].attempt == disk.attempt()) return false;
-    return std::any_of(tight_in_star_.begin(), tight_in_star_.end(), [&](std::size_t i) { return meets(star_[i], t); });
+    const PlacedTriangle other = placed(t);
+    return std::any_of(tight_in_star_.begin(), tight_in_star_.end(),
+                       [&](std::size_t i) { return meets(star_[i], other); });
   });
 }
 

@@ -39,8 +39,8 @@ class CrossingGuard {
   void distrust(std::uint32_t triangle);
 
  private:
-  // A triangle of the star that is tested against others.
-  struct StarTriangle {
+  // A triangle, of the mesh or of a star, that is tested against others.
+  struct PlacedTriangle {
     std::array<std::uint32_t, 3> corners;
     std::array<Vec3, 3> points;
     Box3 box;
@@ -50,19 +50,19 @@ class CrossingGuard {
   [[nodiscard]] bool lies_around(const Vec3& p, const Vec3& up) const;
   [[nodiscard]] bool star_meets_itself() const;
   [[nodiscard]] bool folds(const Vec3& p, std::span<const RimEdge> rim);
-  [[nodiscard]] StarTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
+  [[nodiscard]] PlacedTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
+  [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const;
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;
   [[nodiscard]] float trusted_clearance(std::uint32_t vertex) const {
     const RefinementMesh::Vertex& v = mesh_.vertices[vertex];
     return v.is_suspect ? 0 : v.clearance;
   }
-  [[nodiscard]] bool meets(const StarTriangle& s, std::uint32_t triangle) const;
-  [[nodiscard]] static bool meets(const StarTriangle& s, const StarTriangle& t);
+  [[nodiscard]] static bool meets(const PlacedTriangle& s, const PlacedTriangle& t);
 
   RefinementMesh& mesh_;
   TightTriangles tight_;
   float new_clearance_ = 0;
-  std::vector<StarTriangle> star_;
+  std::vector<PlacedTriangle> star_;
   std::vector<std::size_t> tight_in_star_;
   std::vector<std::uint32_t> near_;
 };
