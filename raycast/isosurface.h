@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "delaunay/base/box3.h"
@@ -83,6 +84,9 @@ class Isosurface {
   // hits on sheets that face the other way are passed over.
   [[nodiscard]] std::optional<double> nearest_falling_hit(const Line& line, double reach,
                                                           SearchCounters& counters) const;
+  // The same for several lines, hits[i] for lines[i]: what one search waits for, others need not.
+  void nearest_falling_hits(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits,
+                            SearchCounters& counters) const;
 
  private:
   struct Segment;
@@ -91,7 +95,7 @@ class Isosurface {
   [[nodiscard]] CellCorners relative_corners(const Vec3& p, Vec3& uvw) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
-  [[nodiscard]] std::optional<double> hit_in_start_cell(const Line& line, double reach) const;
+  void hits_in_start_cells(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
 

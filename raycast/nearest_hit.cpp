@@ -1,8 +1,12 @@
 // The hit of a line nearest to its origin: in the cell where it starts, or from there outward.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "raycast/active_cells.h"
@@ -16,6 +20,9 @@
 namespace deliso {
 
 namespace {
+
+// So many searches are made side by side.
+constexpr std::size_t kTogether = 8;
 
 // The candidate nearest to t = 0; of two at the same distance the one at positive t.
 struct Nearest {
@@ -52,13 +59,21 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
 }
 
 // Most hits that are asked for lie close to t = 0, and are found so in a third of the time. Schwarze's solver does
-// without: it is there to be compared.
-std::optional<double> Isosurface::hit_in_start_cell(const Line& line, double reach) const {
-  if (options_.solver != CubicSolver::kBracketed || !box_.contains(line.origin)) return std::nullopt;
-  Vec3 u;
-  const CellCorners corners = relative_corners(line.origin, u);
-  const std::optional<double> t = falling_hit_around(corners, u, scaled(line.direction, inverse_step_));
-  return t && std::abs(*t) <= reach ? t : std::nullopt;
+// without: it is there to be compared. At most kTogether lines.
+void Isosurface::hits_in_start_cells(std::span<const Line> lines, double reach,
+                                     std::span<std::optional<double>> hits) const {
+  if (options_.solver != CubicSolver::kBracketed || !options_.incremental) return;
+  std::array<std::pair<CellCorners, Vec3>, kTogether> cells;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    auto& [corners, u] = cells[i];
+    corners = relative_corners(lines[i].origin, u);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!box_.contains(lines[i].origin)) continue;
+    const auto& [corners, u] = cells[i];
+    const std::optional<double> t = falling_hit_around(corners, u, scaled(lines[i].direction, inverse_step_));
+    if (t && std::abs(*t) <= reach) hits[i] = t;
+  }
 }
 
 std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double reach, std::uint64_t& solves) const {
@@ -109,27 +124,34 @@ std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double 
   return nearest.within(reach);
 }
 
-// A start cell without a hit counts when the walks solve it.
 std::optional<double> Isosurface::nearest_falling_hit(const Line& line, double reach, SearchCounters& counters) const {
-  std::uint64_t solves = 0;
   std::optional<double> hit;
-  if (!options_.incremental) {
-    hit = nearest_on_line(line, reach, solves);
-  } else {
-    hit = hit_in_start_cell(line, reach);
-    if (hit) {
-      solves = 1;
-    } else {
-      hit = nearest_outward(line, reach, solves);
-    }
+  nearest_falling_hits({&line, 1}, reach, {&hit, 1}, counters);
+  return hit;
+}
+
+// A start cell without a hit counts when the walks solve it.
+void Isosurface::nearest_falling_hits(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits,
+                                      SearchCounters& counters) const {
+  for (std::size_t first = 0; first < lines.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, lines.size() - first);
+    const auto some = hits.subspan(first, count);
+    std::fill(some.begin(), some.end(), std::nullopt);
+    hits_in_start_cells(lines.subspan(first, count), reach, some);
   }
-  ++counters.searches;
-  counters.solves += solves;
-  if (hit) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::uint64_t solves = 1;
+    if (!hits[i]) {
+      solves = 0;
+      hits[i] =
+          options_.incremental ? nearest_outward(lines[i], reach, solves) : nearest_on_line(lines[i], reach, solves);
+    }
+    ++counters.searches;
+    counters.solves += solves;
+    if (!hits[i]) continue;
     ++counters.searches_hit;
     counters.solves_hit += solves;
   }
-  return hit;
 }
 
 }  // namespace deliso

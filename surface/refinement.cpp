@@ -171,11 +171,13 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
   if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
   if (guard_->crosses(p, -gradient, moved, disk_)) return Refusal::kCrossingTriangle;
   star_pole_height_ = inherited_pole_height(p, closed);
-  star_.clear();
+  shapes_.clear();
   for (const RimEdge& edge : disk_.rim()) {
     const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
-    star_.push_back(measure(p, a.point, b.point, (star_pole_height_ + a.pole_height + b.pole_height) / 3));
+    shapes_.push_back({{p, a.point, b.point}, (star_pole_height_ + a.pole_height + b.pole_height) / 3});
   }
+  star_.resize(shapes_.size());
+  measure(shapes_, star_);
   return std::nullopt;
 }
 

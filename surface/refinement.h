@@ -1,8 +1,10 @@
 // One pass of stage 2 over a mesh or a part of it (Dey and Levine, section 3.2): queue, disk, star, criteria.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -69,7 +71,14 @@ class Refinement {
   void learn(std::uint32_t triangle, const NewTriangle& measured);
   void queue(std::uint32_t triangle, const NewTriangle& measured);
 
-  [[nodiscard]] NewTriangle measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole);
+  // What is measured of a triangle.
+  struct Shape {
+    std::array<Vec3, 3> corners;
+    double mean_pole = 0;
+  };
+  [[nodiscard]] NewTriangle measure(const Shape& shape);
+  void measure(std::span<const Shape> shapes, std::span<NewTriangle> measured);
+  void measure_few(std::span<const Shape> shapes, std::span<NewTriangle> measured);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
   [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
   [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
@@ -77,7 +86,7 @@ class Refinement {
   // B_sigma as it is kept; or found anew, the same to the last bit.
   [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
     if (options_.store_hits) return mesh_.triangles[triangle].ball;
-    return measure(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2), 1).ball;
+    return measure({mesh_.corner_points(mesh_.triangles[triangle].corners), 1}).ball;
   }
 
   RefinementPart& part_;
@@ -88,7 +97,8 @@ class Refinement {
   RankedQueue queue_;
   RefinementDisk disk_;                 // E
   std::optional<CrossingGuard> guard_;  // while it runs
-  std::vector<NewTriangle> star_;       // D, one for each edge of E's rim
+  std::vector<Shape> shapes_;           // D, one for each edge of E's rim,
+  std::vector<NewTriangle> star_;       // and what is measured of it
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   // What is changed: each triangle as it was at the start, and how many vertices there were.
   class Start {

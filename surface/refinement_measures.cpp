@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "delaunay/constructions.h"
@@ -13,22 +16,56 @@ namespace deliso {
 namespace {
 
 constexpr double kMostExpected = 1e6;  // insertions for one triangle
+constexpr std::size_t kTogether = 8;   // triangles
 
 }  // namespace
 
-// Ball and badness of the triangle pab; a dual line without a falling hit gives its circumball and no further
-// refinement.
-Refinement::NewTriangle Refinement::measure(const Vec3& p, const Vec3& a, const Vec3& b, double mean_pole) {
-  const Circumcircle circle = circumcircle(p, a, b);
-  const Vec3 normal = cross(a - p, b - p);
-  if (!std::isfinite(circle.radius) || !(norm(normal) > 0))
-    return {{p, 0}, false, 0, 0};  // nothing can be measured on it
-  const Line dual{circle.center, normal / norm(normal)};
-  const auto t = isosurface_.nearest_falling_hit(dual, isosurface_.box().diagonal(), stats_.search);
-  if (!t) return {{circle.center, circle.radius * circle.radius}, false, 0, circle.radius};
-  const Vec3 x = dual.at(*t);
-  const double shortest = std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
-  return {{x, squared_distance(x, p)}, true, badness(std::abs(*t), circle.radius, shortest, mean_pole), circle.radius};
+Refinement::NewTriangle Refinement::measure(const Shape& shape) {
+  NewTriangle measured;
+  measure({&shape, 1}, {&measured, 1});
+  return measured;
+}
+
+// Balls and badness of triangles; a dual line without a falling hit gives its circumball and no further refinement.
+void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
+  for (std::size_t first = 0; first < shapes.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, shapes.size() - first);
+    measure_few(shapes.subspan(first, count), measured.subspan(first, count));
+  }
+}
+
+// At most kTogether, step by step for all of them: none waits for the roots and quotients of another.
+void Refinement::measure_few(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
+  std::array<Circumcircle, kTogether> circles;
+  std::array<Line, kTogether> duals;
+  std::array<std::size_t, kTogether> of{};  // the shape that a dual line belongs to
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const auto& [p, a, b] = shapes[i].corners;
+    circles[i] = circumcircle(p, a, b);
+    const Vec3 normal = cross(a - p, b - p);
+    const double length = norm(normal);
+    measured[i] = {{p, 0}, false, 0, 0};  // when nothing can be measured on it
+    duals[count] = {circles[i].center, normal / length};
+    of[count] = i;
+    count += std::isfinite(circles[i].radius) && length > 0 ? 1 : 0;
+  }
+  std::array<std::optional<double>, kTogether> hits;
+  isosurface_.nearest_falling_hits(std::span(duals).first(count), isosurface_.box().diagonal(), hits, stats_.search);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = of[k];
+    const auto& [p, a, b] = shapes[i].corners;
+    const double radius = circles[i].radius;
+    if (!hits[k]) {
+      measured[i] = {{circles[i].center, radius * radius}, false, 0, radius};
+      continue;
+    }
+    const Vec3 x = duals[k].at(*hits[k]);
+    const double shortest =
+        std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
+    measured[i] = {
+        {x, squared_distance(x, p)}, true, badness(std::abs(*hits[k]), radius, shortest, shapes[i].mean_pole), radius};
+  }
 }
 
 // The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
@@ -74,8 +111,7 @@ std::vector<float> Refinement::measure_all(int threads) {
   for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
     Refinement block(part_, isosurface_, options_, counted[first / kBlockSize]);
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[t].corners);
-      const NewTriangle now = block.measure(a, b, c, mean_pole_height(t));
+      const NewTriangle now = block.measure({mesh_.corner_points(mesh_.triangles[t].corners), mean_pole_height(t)});
       block.learn(t, now);
       if (!mesh_.triangles[t].is_coarse()) continue;
       // Radii have to get smaller by the badness; r_min may end it before.
