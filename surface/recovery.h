@@ -64,6 +64,8 @@ class Recovery {
   [[nodiscard]] double geometric_badness(const DualEdge& edge) const;
   [[nodiscard]] double mean_pole_height(const DualEdge& edge) const;
 
+  // Vertices on the faces of the volume's box.
+  [[nodiscard]] double count_on_box() const;
   // A round of run_in_slabs(), with planes across an axis: returns how many were inserted.
   std::int64_t run_round(std::size_t axis, Controls& controls);
   [[nodiscard]] std::vector<Violation> take_waiting();

@@ -17,8 +17,10 @@ namespace {
 
 // Slabs of a round. The more there are, the more insertions are in the way of a plane.
 constexpr std::size_t kSlabs = 2;
-// From so many vertices on most conflict regions are small enough to lie within a slab.
+// From so many vertices on most conflict regions are small enough to lie within a slab: where there are more than
+// these, and so many times those on the box, which alone make tetrahedra from one face of it to another.
 constexpr std::size_t kFewestVertices = 256;
+constexpr double kTimesBoundary = 1.25;
 // A round is worth its while when so many triangles wait for refinement, and this part of the number of vertices, and
 // when it inserts that part.
 constexpr std::size_t kFewestWaiting = 128;
@@ -31,11 +33,20 @@ constexpr double kMostGrowth = 0.5;
 }  // namespace
 
 void Recovery::run_in_slabs(Controls& controls) {
-  run(controls, kFewestVertices);
+  run(controls, std::max(kFewestVertices, static_cast<std::size_t>(kTimesBoundary * count_on_box())));
   for (std::size_t round = 0; !controls.stopped(); ++round) {
     const double enough = kLeastGrowth * static_cast<double>(delaunay_.vertex_count());
     if (static_cast<double>(run_round(round % 3, controls)) < enough) return;
   }
+}
+
+double Recovery::count_on_box() const {
+  double count = 0;
+  for (std::size_t i = 0; i < delaunay_.vertex_count(); ++i) {
+    const VertexId v(i);
+    if (!restricted_.is_virtual(v) && SignedDelaunay::on_box(isosurface_.box(), delaunay_.point(v))) ++count;
+  }
+  return count;
 }
 
 std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
