@@ -17,23 +17,12 @@ namespace deliso {
 
 namespace {
 
-constexpr double kNear = 0.8;  // mesh-space units
-constexpr double kClose = 0.5;
-// How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
-constexpr double kRadiusFraction = 0.3;
 // How far a sample may be left out by the mesh. Stage 1 leaves out crossings that are nearer to a sample than
 // stage1.size_bound_voxels (0.3), so the crossings around it lie less than a voxel off the mesh, too.
 constexpr double kSampleReach = 0.65;
-constexpr int kLongestWalk = 16;         // triangles
 constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
-
-double squared_longest_edge(const SurfaceMesh& mesh, std::uint32_t t) {
-  const auto& v = mesh.triangles[t];
-  const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-  return std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
-}
 
 // The blocks of space near some points: a cheap way to see that a small triangle is far from all of them.
 class NearBlocks {
@@ -82,14 +71,6 @@ class NearBlocks {
   std::vector<bool> is_near_;
 };
 
-// The circumradius or, of a sliver, whose circumradius tells nothing, the longest edge.
-double extent(const SurfaceMesh& mesh, std::uint32_t t) {
-  const auto& v = mesh.triangles[t];
-  const double radius = circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
-  const double edge = std::sqrt(squared_longest_edge(mesh, t));
-  return radius < edge ? radius : edge;
-}
-
 // All that a triangle covers lies in it.
 Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
   constexpr Vec3 kReach{kSampleReach, kSampleReach, kSampleReach};
@@ -98,57 +79,6 @@ Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
 }
 
 }  // namespace
-
-MeshCover::MeshCover(const SurfaceMesh& mesh, int threads)
-    : mesh_(mesh),
-      tree_(
-          mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); }, threads) {}
-
-double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
-  const auto& v = mesh_.triangles[triangle];
-  return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
-}
-
-MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
-  if (mesh_.triangles.empty()) return Cover::kNone;
-  // From triangle to triangle across sides, ever nearer: most points have a triangle close by that is found so.
-  const auto [reached, squared_reached] = walk_towards(p, guess);
-  if (squared_reached < kNear * kNear) guess = reached;
-  if (squared_reached < kClose * kClose) return Cover::kClose;
-  // The nearest of all is no farther than that (a little more, so that the one reached is found as well); or, when it
-  // is near enough already, only a close one matters.
-  const double bound = squared_reached < kNear * kNear ? kClose * kClose : 1.001 * squared_reached;
-  const auto [nearest, squared] = tree_.nearest(p, bound, [&](std::uint32_t t) { return squared_distance_to(p, t); });
-  if (nearest == BoxTree::kNone) return Cover::kFar;
-  if (squared < kNear * kNear) {
-    guess = nearest;
-    return squared < kClose * kClose ? Cover::kClose : Cover::kFar;
-  }
-  const double reach = kRadiusFraction * extent(mesh_, nearest);
-  return squared <= reach * reach ? Cover::kFar : Cover::kNone;
-}
-
-std::pair<std::uint32_t, double> MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
-  const auto look_at = [&](std::uint32_t triangle) {
-    const auto [a, b, c] = mesh_.triangles[triangle];
-    return near_sides_of_triangle(p, mesh_.points[a], mesh_.points[b], mesh_.points[c]);
-  };
-  std::uint32_t at = start;
-  NearSides here = look_at(at);
-  if (mesh_.neighbours.empty()) return {at, here.squared_distance};
-  bool goes_on = true;
-  for (int step = 0; goes_on && step < kLongestWalk && here.squared_distance >= kClose * kClose; ++step) {
-    goes_on = false;
-    for (unsigned i = 0; i < here.count && !goes_on; ++i) {
-      const TriangleSide side = mesh_.neighbours[at][here.sides[i]];
-      if (side == kNoSide) continue;
-      const NearSides there = look_at(side >> 2);
-      goes_on = there.squared_distance < here.squared_distance;
-      if (goes_on) at = side >> 2, here = there;
-    }
-  }
-  return {at, here.squared_distance};
-}
 
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle) {
   if (!box_around(mesh, triangle).contains(p)) return false;
@@ -215,8 +145,9 @@ std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& 
   const std::vector<std::uint32_t> asked = std::move(suspects);
   std::vector<MeshCover::Cover> covers(asked.size());
   for_each_block(asked.size(), threads, [&](std::size_t first, std::size_t last) {
-    std::uint32_t guess = 0;
-    for (std::size_t i = first; i < last; ++i) covers[i] = cover.look(position(asked[i]), guess);
+    std::vector<Vec3> points;
+    for (std::size_t i = first; i < last; ++i) points.push_back(position(asked[i]));
+    cover.look_at_all(points, std::span(covers).subspan(first, last - first));
   });
   suspects.clear();
   for (std::size_t i = 0; i < asked.size(); ++i) {

@@ -5,40 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <utility>
 #include <vector>
 
-#include "surface/box_tree.h"
+#include "surface/mesh_cover.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/surface_mesh.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
-
-// The triangles of a mesh by place, for asking whether many points of the surface lie near them.
-class MeshCover {
- public:
-  // Keeps a reference to the mesh. Many questions are answered faster when its triangles have neighbours.
-  explicit MeshCover(const SurfaceMesh& mesh, int threads = 1);
-
-  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (of a
-  // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. The search
-  // begins at the triangle `guess`, which becomes the one that covers p, if any: a good guess for a point nearby. The
-  // answer does not depend on it.
-  [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const { return look(p, guess) != Cover::kNone; }
-  // The same, and whether it is within 0.5 units.
-  enum class Cover : std::uint8_t { kNone, kFar, kClose };
-  [[nodiscard]] Cover look(const Vec3& p, std::uint32_t& guess) const;
-
- private:
-  [[nodiscard]] double squared_distance_to(const Vec3& p, std::uint32_t triangle) const;
-  // Where a walk over the mesh that comes ever nearer to p ends, or was given up; and its squared distance.
-  [[nodiscard]] std::pair<std::uint32_t, double> walk_towards(const Vec3& p, std::uint32_t start) const;
-
-  const SurfaceMesh& mesh_;
-  BoxTree tree_;
-};
 
 // Whether a sample lies within 0.65 mesh-space units of a triangle.
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);

@@ -1,6 +1,7 @@
 // The mesh between the stages and after them: triangles that know their neighbours. No tetrahedra any more.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -30,6 +31,11 @@ inline Box3 box_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
   Box3 box;
   for (const std::uint32_t v : mesh.triangles[triangle]) box.extend(mesh.points[v]);
   return box;
+}
+inline double squared_longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Vec3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
+  return std::max({squared_distance(p, q), squared_distance(q, r), squared_distance(r, p)});
 }
 
 // The corners that sides joined by `across` (which names the side across a side, or kNoSide) make one vertex with a

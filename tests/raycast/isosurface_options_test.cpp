@@ -106,6 +106,32 @@ TEST(Isosurface, NearestFallingHitIsTheNearestOfAllHitsWithEveryOption) {
   }
 }
 
+TEST(Isosurface, SearchesSideBySideFindWhatEachFindsAlone) {
+  for (const CubicSolver solver : {CubicSolver::kBracketed, CubicSolver::kSchwarze}) {
+    for (const Case& c : cases()) {
+      for (SearchOptions options : all_options()) {
+        options.solver = solver;
+        const Isosurface surface(c.grid, c.isovalue, options);
+        Rng rng(23);
+        for (const std::size_t count : {0, 1, 8, 9, 27}) {
+          std::vector<Line> lines;
+          for (std::size_t i = 0; i < count; ++i) lines.push_back(random_line(surface, rng));
+          std::vector<std::optional<double>> hits(count, 1e9);
+          SearchCounters together, alone;
+          surface.nearest_falling_hits(lines, 5, hits, together);
+          for (std::size_t i = 0; i < count; ++i) {
+            ASSERT_EQ(hits[i], surface.nearest_falling_hit(lines[i], 5, alone)) << describe(lines[i], -5, 5);
+          }
+          EXPECT_EQ(together.searches, alone.searches);
+          EXPECT_EQ(together.solves, alone.solves);
+          EXPECT_EQ(together.searches_hit, alone.searches_hit);
+          EXPECT_EQ(together.solves_hit, alone.solves_hit);
+        }
+      }
+    }
+  }
+}
+
 TEST(Isosurface, SchwarzeFindsTheSameHitsExceptNearTouches) {
   for (const Case& c : cases()) {
     SearchOptions options;
