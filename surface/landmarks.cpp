@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "delaunay/base/box3.h"
 #include "surface/blocks.h"
@@ -43,10 +44,14 @@ class LandmarkSearch {
     return squared_distance_to_triangle(p, a, b, c);
   }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
-  // How near a landmark has to be to a triangle, and a box that holds all that is so near.
+  // How near a landmark has to be to a triangle. All that is so near lies in a box, and not far from a plane.
   struct Vicinity {
     double reach = 0;
     Box3 box;
+    Vec3 on_plane, normal;
+    double most_off = std::numeric_limits<double>::infinity();  // in lengths of the normal
+
+    [[nodiscard]] bool may_hold(const Vec3& p) const { return std::abs(dot(normal, p - on_plane)) <= most_off; }
   };
   [[nodiscard]] Vicinity vicinity_of(std::uint32_t triangle) const;
 
@@ -67,16 +72,29 @@ double LandmarkSearch::reach_of(std::uint32_t triangle) const {
 }
 
 // Most triangles have a small ball, around which nearly always nothing is asked about: then their corners, which lie
-// all over the memory, are not needed.
+// all over the memory, are not needed. The box of a large one is mostly far off its plane.
 LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) const {
   constexpr double kSmall = kLong * kLong / 4;  // a squared radius; no edge is longer than the ball is wide
   constexpr double kRounding = 1.01;
+  constexpr double kLeastArea = 1e-6;  // of the square of the box's diagonal, for a plane that rounding leaves alone
   const SurfaceDelaunayBall& ball = mesh_.triangles[triangle].ball;
+  Vicinity vicinity;
   if (ball.squared_radius > 0 && ball.squared_radius < kSmall) {
-    return {least_, widened({ball.center, ball.center}, kRounding * std::sqrt(ball.squared_radius) + least_)};
+    vicinity.reach = least_;
+    vicinity.box = widened({ball.center, ball.center}, kRounding * std::sqrt(ball.squared_radius) + least_);
+    return vicinity;
   }
-  const double reach = reach_of(triangle);
-  return {reach, widened(mesh_.box_of(triangle), reach)};
+  const Box3 box = mesh_.box_of(triangle);
+  vicinity.reach = reach_of(triangle);
+  vicinity.box = widened(box, vicinity.reach);
+  const auto [a, b, c] = corners(triangle);
+  const Vec3 normal = cross(b - a, c - a);
+  const double area = norm(normal);
+  if (!(area > kLeastArea * squared_norm(box.size()))) return vicinity;
+  vicinity.on_plane = a;
+  vicinity.normal = normal;
+  vicinity.most_off = kRounding * vicinity.reach * area;
+  return vicinity;
 }
 
 // Those that no triangle is as near to as it would have to be.
@@ -86,11 +104,12 @@ std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) 
   std::vector<std::uint8_t> is_near(landmarks.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const auto [reach, box] = vicinity_of(t);
-      blocks.for_each_near(box, [&, reach = reach](std::uint32_t i) {
+      const Vicinity vicinity = vicinity_of(t);
+      const double most = vicinity.reach * vicinity.reach;
+      blocks.for_each_near(vicinity.box, [&](std::uint32_t i) {
         const std::atomic_ref near(is_near[i]);
-        if (near.load(std::memory_order_relaxed) != 0) return;
-        if (squared_distance_to(landmarks[i], t) <= reach * reach) near.store(1, std::memory_order_relaxed);
+        if (near.load(std::memory_order_relaxed) != 0 || !vicinity.may_hold(landmarks[i])) return;
+        if (squared_distance_to(landmarks[i], t) <= most) near.store(1, std::memory_order_relaxed);
       });
     }
   });

@@ -12,8 +12,12 @@ namespace {
 
 constexpr double kSmallest = 1;  // boxes smaller than this (mesh-space units) share a level
 // Cells are numbered up to this far from the origin; beyond it they run together.
-constexpr double kFarthest = 1e9;
-constexpr double kManyCells = 4096;
+constexpr double kFarthest = 0x1p22 - 1;
+// Where a box meets more cells than this, only those are looked at that blocks of eight along each axis hold; where it
+// meets many blocks, all blocks are gone through.
+constexpr double kFewCells = 64;
+constexpr double kManyBlocks = 512;
+constexpr int kBlockShift = 3;
 
 // Of a number from 1 up, also an infinite one.
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
@@ -55,34 +59,79 @@ bool TightTriangles::meet(const FloatBox& a, const FloatBox& b) {
   return all != 0;
 }
 
-// The cells of a level that a box meets; when they are very many, those that have been used instead.
-template <class Visit>
-void TightTriangles::for_each_key(const Box3& box, int level, Visit&& visit) const {
+double TightTriangles::Range::count() const {
   double count = 1;
-  std::array<std::int32_t, 3> low{}, high{};
-  const double scale = scale_of(level);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
-    low[axis] = place(box.low[axis]);
-    high[axis] = place(box.high[axis]);
-    count *= high[axis] - low[axis] + 1.0;
-  }
-  if (count > kManyCells) {
-    std::vector<std::uint64_t> keys;
-    for (const Cell& cell : cells_) {
-      if (cell.key != kNoKey && cell.key >> 57 == static_cast<std::uint64_t>(level)) keys.push_back(cell.key);
-    }
-    for (const std::uint64_t key : keys) visit(key);
-    return;
-  }
-  constexpr std::uint64_t kBits = 0x7FFFF;
+  for (std::size_t axis = 0; axis < 3; ++axis) count *= high[axis] - low[axis] + 1.0;
+  return count;
+}
+
+bool TightTriangles::Range::contains(const Place& place) const {
+  bool all = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) all = all && low[axis] <= place[axis] && place[axis] <= high[axis];
+  return all;
+}
+
+template <class Visit>
+void TightTriangles::Range::for_each(Visit&& visit) const {
   for (std::int32_t z = low[2]; z <= high[2]; ++z) {
     for (std::int32_t y = low[1]; y <= high[1]; ++y) {
-      for (std::int32_t x = low[0]; x <= high[0]; ++x) {
-        visit(static_cast<std::uint64_t>(level) << 57 | (static_cast<std::uint64_t>(z) & kBits) << 38 |
-              (static_cast<std::uint64_t>(y) & kBits) << 19 | (static_cast<std::uint64_t>(x) & kBits));
-      }
+      for (std::int32_t x = low[0]; x <= high[0]; ++x) visit(Place{x, y, z});
     }
+  }
+}
+
+TightTriangles::Range TightTriangles::cells_of(const Box3& box, int level) {
+  const double scale = scale_of(level);
+  const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
+  return {{place(box.low.x), place(box.low.y), place(box.low.z)},
+          {place(box.high.x), place(box.high.y), place(box.high.z)}};
+}
+
+TightTriangles::Range TightTriangles::blocks_of(const Range& cells) {
+  Range blocks;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    blocks.low[axis] = cells.low[axis] >> kBlockShift;
+    blocks.high[axis] = cells.high[axis] >> kBlockShift;
+  }
+  return blocks;
+}
+
+std::uint64_t TightTriangles::cell_key(int level, const Place& place) {
+  constexpr std::uint64_t kBits = 0x7FFFF;
+  const auto bits = [&](std::size_t axis) { return static_cast<std::uint64_t>(place[axis]) & kBits; };
+  return static_cast<std::uint64_t>(level) << 57 | bits(2) << 38 | bits(1) << 19 | bits(0);
+}
+
+std::uint64_t TightTriangles::block_key(int level, const Place& place) {
+  return std::uint64_t{1} << 63 | cell_key(level, place);
+}
+
+// Calls visit(cell) for those cells of a level that have been used, and maybe for others.
+template <class Visit>
+void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& visit) const {
+  const auto look_at = [&](const Place& place) { visit(cells_[place_of(cell_key(level, place))]); };
+  if (cells.count() <= kFewCells) {
+    cells.for_each(look_at);
+    return;
+  }
+  const auto look_into = [&](const Place& block) {
+    Range within;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t first = block[axis] << kBlockShift;
+      within.low[axis] = std::max(cells.low[axis], first);
+      within.high[axis] = std::min(cells.high[axis], first + (1 << kBlockShift) - 1);
+    }
+    within.for_each(look_at);
+  };
+  const Range blocks = blocks_of(cells);
+  if (blocks.count() <= kManyBlocks) {
+    blocks.for_each([&](const Place& block) {
+      if (cells_[place_of(block_key(level, block))].key != kNoKey) look_into(block);
+    });
+    return;
+  }
+  for (const Place& block : blocks_[static_cast<std::size_t>(level)]) {
+    if (blocks.contains(block)) look_into(block);
   }
 }
 
@@ -94,16 +143,21 @@ std::size_t TightTriangles::place_of(std::uint64_t key) const {
   return place;
 }
 
-TightTriangles::Cell& TightTriangles::cell_at(std::uint64_t key) {
-  std::size_t place = place_of(key);
-  if (cells_[place].key == kNoKey) {
-    if (2 * ++used_ > cells_.size()) {
-      grow();
-      place = place_of(key);
-    }
-    cells_[place].key = key;
+// False when it is there already.
+bool TightTriangles::insert(std::uint64_t key) {
+  if (cells_[place_of(key)].key == key) return false;
+  if (2 * ++used_ > cells_.size()) grow();
+  cells_[place_of(key)].key = key;
+  return true;
+}
+
+TightTriangles::Cell& TightTriangles::cell_at(int level, const Place& place) {
+  const std::uint64_t key = cell_key(level, place);
+  if (insert(key)) {
+    const Place block = {place[0] >> kBlockShift, place[1] >> kBlockShift, place[2] >> kBlockShift};
+    if (insert(block_key(level, block))) blocks_[static_cast<std::size_t>(level)].push_back(block);
   }
-  return cells_[place];
+  return cells_[place_of(key)];
 }
 
 void TightTriangles::grow() {
@@ -121,15 +175,15 @@ void TightTriangles::add(std::uint32_t triangle, const Box3& box) {
   seen_[triangle] = 1;
   ++kept_at_[static_cast<std::size_t>(level)];
   const Entry entry{rounded_outward(box), triangle};
-  for_each_key(box, level, [&](std::uint64_t key) { cell_at(key).entries.push_back(entry); });
+  cells_of(box, level).for_each([&](const Place& place) { cell_at(level, place).entries.push_back(entry); });
 }
 
 void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
   seen_[triangle] = 0;
   --kept_at_[static_cast<std::size_t>(level)];
-  for_each_key(box, level, [&](std::uint64_t key) {
-    auto& entries = cells_[place_of(key)].entries;
+  cells_of(box, level).for_each([&](const Place& cell) {
+    auto& entries = cells_[place_of(cell_key(level, cell))].entries;
     std::size_t place = 0;
     while (place < entries.size() && entries[place].triangle != triangle) ++place;
     if (place == entries.size()) return;
@@ -143,8 +197,8 @@ void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& fo
   const FloatBox rounded = rounded_outward(box);
   for (int level = 0; level < kLevels; ++level) {
     if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
-    for_each_key(box, level, [&](std::uint64_t key) {
-      const auto& entries = cells_[place_of(key)].entries;
+    for_each_used_cell(cells_of(box, level), level, [&](const Cell& cell) {
+      const std::vector<Entry>& entries = cell.entries;
       // Which of them are found cannot be foretold: all are written, and what is not found is overwritten.
       std::size_t count = found.size();
       found.resize(count + entries.size());

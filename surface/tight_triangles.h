@@ -34,22 +34,38 @@ class TightTriangles {
     std::vector<Entry> entries;
   };
   static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
-  static constexpr int kLevels = 64;
+  static constexpr int kLevels = 63;
+
+  // Cells of a level, or blocks of them: those from one to another along each axis.
+  using Place = std::array<std::int32_t, 3>;
+  struct Range {
+    Place low{}, high{};
+    [[nodiscard]] double count() const;
+    [[nodiscard]] bool contains(const Place& place) const;
+    template <class Visit>
+    void for_each(Visit&& visit) const;
+  };
 
   static int level_of(const Box3& box);
   static FloatBox rounded_outward(const Box3& box);
   static bool meet(const FloatBox& a, const FloatBox& b);
-  template <class Visit>
-  void for_each_key(const Box3& box, int level, Visit&& visit) const;
+  static Range cells_of(const Box3& box, int level);
+  static Range blocks_of(const Range& cells);
+  static std::uint64_t cell_key(int level, const Place& place);
+  static std::uint64_t block_key(int level, const Place& place);
   [[nodiscard]] std::size_t place_of(std::uint64_t key) const;
-  Cell& cell_at(std::uint64_t key);
+  Cell& cell_at(int level, const Place& place);
+  bool insert(std::uint64_t key);
   void grow();
+  template <class Visit>
+  void for_each_used_cell(const Range& cells, int level, Visit&& visit) const;
 
-  // A hash table with open addressing; cells stay when they get empty.
+  // A hash table with open addressing, of cells and of the blocks that hold some; both stay when they get empty.
   std::vector<Cell> cells_ = std::vector<Cell>(64);
   std::size_t used_ = 0;
-  std::array<std::size_t, kLevels> kept_at_{};  // triangles at each level
-  std::vector<std::uint32_t> seen_;             // of each triangle: 0 when not held, else the last search that met it
+  std::array<std::vector<Place>, kLevels> blocks_;  // those that are used
+  std::array<std::size_t, kLevels> kept_at_{};      // triangles at each level
+  std::vector<std::uint32_t> seen_;  // of each triangle: 0 when not held, else the last search that met it
   std::uint32_t search_ = 1;
 };
 
