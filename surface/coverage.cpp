@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "delaunay/base/box3.h"
-#include "delaunay/constructions.h"
 #include "surface/blocks.h"
 #include "surface/link_sides.h"
 #include "surface/sides_of_facets.h"
