@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "raycast/active_cells.h"
@@ -63,15 +62,15 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
 void Isosurface::hits_in_start_cells(std::span<const Line> lines, double reach,
                                      std::span<std::optional<double>> hits) const {
   if (options_.solver != CubicSolver::kBracketed || !options_.incremental) return;
-  std::array<std::pair<CellCorners, Vec3>, kTogether> cells;
+  std::array<CellCorners, kTogether> corners;
+  std::array<Vec3, kTogether> place;  // within the cell
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    auto& [corners, u] = cells[i];
-    corners = relative_corners(lines[i].origin, u);
+    if (box_.contains(lines[i].origin)) corners[i] = relative_corners(lines[i].origin, place[i]);
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!box_.contains(lines[i].origin)) continue;
-    const auto& [corners, u] = cells[i];
-    const std::optional<double> t = falling_hit_around(corners, u, scaled(lines[i].direction, inverse_step_));
+    const Vec3 direction = scaled(lines[i].direction, inverse_step_);
+    const std::optional<double> t = falling_hit_around(corners[i], place[i], direction);
     if (t && std::abs(*t) <= reach) hits[i] = t;
   }
 }

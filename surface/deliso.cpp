@@ -203,6 +203,15 @@ void refute_facets(Certificate& certificate) {
       "The restricted facets bound no set of tetrahedra: they are given as they are, without stage 2.");
 }
 
+// The whole refinement with the tetrahedra kept: the paper's 3D column.
+void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, const Lengths& lengths,
+                  Controls& controls, MeshingResult& result) {
+  std::vector<double> pole_heights =
+      timed(result.poles, [&] { return compute_poles(restricted, parameters.stage2.pole_height); });
+  timed(result.recover,
+        [&] { recover(restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
+}
+
 // Stage 1 and repair alone look up crossings.
 void drop_crossings(IsosurfaceTopology& topology) {
   std::vector<EdgeCrossing>().swap(topology.crossings);
@@ -214,6 +223,7 @@ void drop_crossings(IsosurfaceTopology& topology) {
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
   check_parameters(parameters);
+  const Vec3 spacing = spacing_to_use(parameters, grid.spacing());
   Controls controls(parameters.budget, options.stop, options.progress);
 
   // The exact topology first: it says what a regular isovalue is.
@@ -225,7 +235,6 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
   const IsosurfaceTopology& topology = regular.topology;
   result.isovalue_used = regular.isovalue;
-  const Vec3 spacing = parameters.spacing == SpacingUse::kIgnore ? Vec3{1, 1, 1} : grid.spacing();
   const auto isosurface = timed(result.index, [&] {
     return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search, spacing);
   });
@@ -246,12 +255,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     return recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls,
                        result.recover);
   });
-  if (parameters.algorithm == Algorithm::kFull3d) {
-    std::vector<double> pole_heights =
-        timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
-    timed(result.recover,
-          [&] { recover(*restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
-  }
+  if (parameters.algorithm == Algorithm::kFull3d) refine_in_3d(*restricted, parameters, lengths, controls, result);
   take_counters(*restricted, result.recover);
 
   // The tetrahedra and the facts go as soon as the surface mesh stands; of the topology the components stay.

@@ -64,8 +64,9 @@ MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
   const double bound = reached.squared < kNear * kNear ? kClose * kClose : 1.001 * reached.squared;
   const auto [triangle, squared] = tree_.nearest(p, bound, [&](std::uint32_t t) { return squared_distance_to(p, t); });
   if (triangle == BoxTree::kNone) return Cover::kFar;
-  if (squared < kNear * kNear) guess = triangle;
-  return cover_by({triangle, squared});
+  const Cover cover = cover_by({triangle, squared});
+  if (cover != Cover::kNone) guess = triangle;
+  return cover;
 }
 
 MeshCover::Nearest MeshCover::walk_towards(const Vec3& p, std::uint32_t start) const {
@@ -107,7 +108,6 @@ void MeshCover::look_at_all(std::span<const Vec3> points, std::span<Cover> cover
       if (larger.diagonal() > kDiagonal) break;
       box = larger;
     }
-    end = std::max(end, first + 1);
     const auto run = points.subspan(first, end - first);
     const auto answers = covers.subspan(first, end - first);
     if (run.size() >= kFewestTogether && is_coarse(guess) && look_together(run, box, answers, guess)) continue;
@@ -160,9 +160,9 @@ bool MeshCover::look_together(std::span<const Vec3> run, const Box3& box, std::s
                               std::uint32_t& guess) const {
   const Vec3 middle = 0.5 * box.low + 0.5 * box.high;
   const Nearest reached = walk_towards(middle, guess);
-  guess = reached.triangle;
   const auto [triangle, squared] =
       tree_.nearest(middle, 1.001 * reached.squared, [&](std::uint32_t t) { return squared_distance_to(middle, t); });
+  guess = triangle == BoxTree::kNone ? reached.triangle : triangle;
   const Candidates candidates(*this, box, std::sqrt(squared));
   if (!candidates.are_few()) return false;
   for (std::size_t i = 0; i < run.size(); ++i) covers[i] = cover_by(candidates.nearest_to(run[i]));

@@ -18,13 +18,13 @@ class MeshCover {
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (of a
   // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. The search
   // begins at the triangle `guess`, which becomes the one that covers p, if any: a good guess for a point nearby. The
-  // answer does not depend on it.
+  // answer does not depend on it, unless triangles of different radii are equally near, to rounding.
   [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const { return look(p, guess) != Cover::kNone; }
   // The same, and whether it is within 0.5 units.
   enum class Cover : std::uint8_t { kNone, kFar, kClose };
   [[nodiscard]] Cover look(const Vec3& p, std::uint32_t& guess) const;
-  // covers[i] = look(points[i]): faster than one by one where points that follow each other lie near each other and
-  // triangles are large.
+  // covers[i] = look(points[i]), with the same reservation: faster than one by one where points that follow each other
+  // lie near each other and triangles are large.
   void look_at_all(std::span<const Vec3> points, std::span<Cover> covers) const;
 
  private:

@@ -1,5 +1,8 @@
 #include "surface/parameters.h"
 
+#include <algorithm>
+#include <sstream>
+
 #include "delaunay/base/check.h"
 
 namespace deliso {
@@ -14,6 +17,18 @@ void check_parameters(const Parameters& parameters) {
         "stage1.one_sign_per_tetrahedron: false gives facets that only the certificate can judge; it needs certify = "
         "true, stage1.coverage = false and repair.max_rounds = 0");
   }
+}
+
+Vec3 spacing_to_use(const Parameters& parameters, const Vec3& of_volume) {
+  if (parameters.spacing == SpacingUse::kIgnore) return {1, 1, 1};
+  constexpr double kMostTimes = 1000;
+  const auto [smallest, largest] = std::minmax({of_volume.x, of_volume.y, of_volume.z});
+  if (largest <= kMostTimes * smallest) return of_volume;
+  std::ostringstream message;
+  message << "the volume's spacing is " << of_volume.x << " " << of_volume.y << " " << of_volume.z
+          << ", the largest more than " << kMostTimes
+          << " times the smallest: expected spacings nearer to each other, or the parameter spacing = \"ignore\"";
+  throw InputError(message.str());
 }
 
 }  // namespace deliso

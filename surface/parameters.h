@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "delaunay/base/vec3.h"
 #include "raycast/search_options.h"
 
 namespace deliso {
@@ -72,5 +73,9 @@ inline bool repairs(const Parameters& parameters) { return parameters.certify &&
 
 // Throws InputError when some parameters contradict each other.
 void check_parameters(const Parameters& parameters);
+
+// The distances of samples to mesh with: those of the volume, or 1. Throws InputError when they differ by a factor
+// above 1000: a mesh adapted to the smallest grows with the square of that factor.
+Vec3 spacing_to_use(const Parameters& parameters, const Vec3& of_volume);
 
 }  // namespace deliso

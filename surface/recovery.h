@@ -65,7 +65,7 @@ class Recovery {
   [[nodiscard]] double mean_pole_height(const DualEdge& edge) const;
 
   // Vertices on the faces of the volume's box.
-  [[nodiscard]] double count_on_box() const;
+  [[nodiscard]] std::size_t count_on_box() const;
   // A round of run_in_slabs(), with planes across an axis: returns how many were inserted.
   std::int64_t run_round(std::size_t axis, Controls& controls);
   [[nodiscard]] std::vector<Violation> take_waiting();

@@ -19,12 +19,14 @@ std::string text(const Dims& dims) {
   return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]);
 }
 
-std::string text(const Vec3& v) {
+std::string text(double x) {
   std::ostringstream out;
   out.precision(17);
-  out << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  out << x;
   return out.str();
 }
+
+std::string text(const Vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
 
 template <class Sample>
 [[noreturn]] void fail_not_finite(const SampleArray<Sample>& samples, const Dims& dims) {
@@ -124,12 +126,36 @@ ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
   if (found != expected)
     throw InputError("the volume has " + std::to_string(found) + " samples, but its dimensions " + text(dims_) +
                      " need " + std::to_string(expected));
-  if (!is_finite(spacing_) || !(spacing_.x > 0 && spacing_.y > 0 && spacing_.z > 0))
-    throw InputError("the spacing is " + text(spacing_) + ": each must be positive and finite");
-  if (!is_finite(origin_) || !is_finite(box().high))
-    throw InputError("the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
-                     ": the volume's box must be finite");
+  check_places();
   range_ = visit_samples(samples_, [this](const auto& s) { return finite_range(s, dims_); });
+  check_range();
+}
+
+// Volumes, and the exact determinants of a mesh's vertices, are products of lengths.
+void ScalarGrid::check_places() const {
+  constexpr double kSmallest = 1e-100, kLargest = 1e100;
+  // A coordinate's rounding is then below 1e-4 of a spacing.
+  constexpr double kFarthest = 0x1p40;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(spacing_[axis] > 0)) throw InputError("the spacing is " + text(spacing_) + ": each must be positive");
+    if (!(spacing_[axis] >= kSmallest && spacing_[axis] <= kLargest))
+      throw InputError("the spacing is " + text(spacing_) + ": each must be from 1e-100 to 1e100");
+    const double farthest = std::max(std::abs(box().low[axis]), std::abs(box().high[axis]));
+    if (!(farthest <= kFarthest * spacing_[axis]))
+      throw InputError("the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
+                       ": places must be within 1e12 spacings of 0, coordinates cannot tell them apart beyond");
+  }
+}
+
+// Differences of samples are multiplied, and divided by each other.
+void ScalarGrid::check_range() const {
+  constexpr double kSmallest = 1e-300, kLargest = 1e300;
+  const auto [low, high] = range_;
+  const bool is_large = std::max(-low, high) > kLargest, is_small = low < high && high - low < kSmallest;
+  if (!is_large && !is_small) return;
+  throw InputError("the samples range from " + text(low) + " to " + text(high) + ": " +
+                   (is_large ? "they must be from -1e300 to 1e300" : "they must differ by 1e-300 or more") +
+                   ", scale them");
 }
 
 std::string ScalarGrid::type_name() const {

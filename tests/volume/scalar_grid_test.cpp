@@ -118,12 +118,38 @@ TEST(ScalarGrid, RefusesSampleCountsThatDoNotFitOrOverflow) {
 TEST(ScalarGrid, RefusesGeometryThatIsNotFiniteOrNotPositive) {
   const std::vector<float> samples(8);
   for (const double bad : {0.0, -1.0, kInfinity, kNaN}) {
-    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {bad, 1, 1}); }, {"spacing", "positive and finite"});
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {bad, 1, 1}); }, {"spacing", "must be"});
     expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, bad}); }, {"spacing"});
   }
   for (const double bad : {kInfinity, -kInfinity, kNaN})
-    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1}, {0, bad, 0}); }, {"origin", "finite"});
-  expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1e308, 1, 1}, {1e308, 0, 0}); }, {"box"});
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1}, {0, bad, 0}); }, {"origin"});
+}
+
+// Where coordinates or products of lengths would lose what they are to tell.
+TEST(ScalarGrid, RefusesGeometryBeyondWhatDoublesCanTell) {
+  const std::vector<float> samples(8);
+  for (const double bad : {1e-101, 1e101, 5e-324, 1e308}) {
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, bad, 1}); }, {"spacing", "1e-100 to 1e100"});
+  }
+  for (const double bad : {2e12, -2e12, 1e308}) {
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1}, {0, 0, bad}); }, {"origin", "spacing"});
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1e-3}, {0, 0, bad / 1000}); }, {"origin"});
+  }
+  const ScalarGrid far({2, 2, 2}, samples, {1e-100, 1e100, 1}, {1e-90, -1e110, 1e12});
+  EXPECT_EQ(far.box().low, (Vec3{1e-90, -1e110, 1e12}));
+}
+
+TEST(ScalarGrid, RefusesSamplesTooLargeOrTooCloseToComputeWith) {
+  std::vector<double> samples(8, 0.0);
+  for (const double bad : {1.1e300, -1.1e300, 1.7e308}) {
+    samples[3] = bad;
+    expect_input_error([&] { ScalarGrid({2, 2, 2}, samples); }, {"range", "-1e300 to 1e300", "scale"});
+  }
+  samples[3] = 1e-301;
+  expect_input_error([&] { ScalarGrid({2, 2, 2}, samples); }, {"0 to 1e-301", "1e-300 or more"});
+  samples[3] = 1e-300;
+  EXPECT_EQ(ScalarGrid({2, 2, 2}, samples).range().second, 1e-300);
+  EXPECT_EQ(ScalarGrid({2, 2, 2}, std::vector<double>(8, 5e-324)).range().first, 5e-324) << "all samples are equal";
 }
 
 TEST(ScalarGrid, NamesTheFirstSampleThatIsNotFinite) {
