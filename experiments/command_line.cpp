@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 #include <vector>
 
@@ -113,6 +114,14 @@ void check_isovalue(const ScalarGrid& grid, double isovalue) {
   if (low < isovalue && isovalue <= high) return;
   throw InputError("--isovalue: the isosurface at " + number_text(isovalue) + " has no point, the data's range is " +
                    number_text(low) + " to " + number_text(high));
+}
+
+void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {
+  if (used == isovalue) return;
+  const bool is_sample = regular_isovalue(grid, isovalue) != isovalue;
+  std::cerr << "deliso: " << (is_sample ? "a sample" : "a saddle of the interpolant") << " equals the isovalue "
+            << shortest_text(isovalue) << ", so the isosurface is singular; used " << shortest_text(used)
+            << " instead\n";
 }
 
 }  // namespace deliso

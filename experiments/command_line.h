@@ -33,4 +33,7 @@ ScalarGrid load_volume(const VolumeOptions& options);
 // Throws InputError naming the range of the data unless the isosurface has a point: low < isovalue <= high.
 void check_isovalue(const ScalarGrid& grid, double isovalue);
 
+// Says on stderr, when another isovalue was used, which one and why.
+void remark_isovalue(const ScalarGrid& grid, double isovalue, double used);
+
 }  // namespace deliso

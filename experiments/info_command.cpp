@@ -9,6 +9,7 @@
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/files.h"
+#include "experiments/output_names.h"
 #include "experiments/record.h"
 #include "experiments/sample_histogram.h"
 #include "experiments/text_table.h"
@@ -82,6 +83,7 @@ void print_info(const Json& report, const ScalarGrid& grid, const SampleHistogra
 
 ExitCode run_info(const InfoCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
   const ScalarGrid grid = load_volume(options.volume);
   const SampleHistogram histogram = sample_histogram(grid);
   const Json report = info_report(options.volume, grid, histogram);

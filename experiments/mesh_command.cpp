@@ -13,8 +13,10 @@
 #include "experiments/commands.h"
 #include "experiments/config.h"
 #include "experiments/files.h"
+#include "experiments/output_names.h"
 #include "experiments/progress_bar.h"
 #include "experiments/record.h"
+#include "experiments/rounded_output.h"
 #include "experiments/stop_signal.h"
 #include "experiments/text_table.h"
 #include "surface/deliso.h"
@@ -58,21 +60,22 @@ void check_outputs(const MeshCommandOptions& options) {
   check_mesh_output(options.output, "-o");
   if (!options.stage1_output.empty()) {
     check_mesh_output(options.stage1_output, "--stage1-out");
-    if (std::filesystem::path(options.stage1_output) == std::filesystem::path(options.output)) {
-      throw InputError("--stage1-out: names the same file as -o, '" + options.output + "'");
-    }
   }
   if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
+                 {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
 }
 
 void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const MeshingResult& result) {
-  // The report first in memory: a failure there must leave no mesh behind.
+  // The report first in memory, or where it cannot be taken back: a failure there must leave no mesh behind.
   const std::string report = options.report.empty() ? "" : json_text(mesh_report(run, result));
+  const bool is_file = std::filesystem::is_regular_file(options.report) || !std::filesystem::exists(options.report);
+  if (!is_file) write_text(report, options.report);
   write_mesh(result.mesh, options.output, options.ascii);
   if (!options.stage1_output.empty() && result.stage1_mesh) {
     write_mesh(*result.stage1_mesh, options.stage1_output, options.ascii);
   }
-  if (!options.report.empty()) write_text(report, options.report);
+  if (is_file && !options.report.empty()) write_text(report, options.report);
 }
 
 void print_summary(const MeshingResult& result, int threads) {
@@ -91,10 +94,7 @@ void print_summary(const MeshingResult& result, int threads) {
 
 // What a reader of stderr must know beyond the table.
 void print_remarks(const MeshRun& run, const MeshingResult& result) {
-  if (result.isovalue_used != run.isovalue) {
-    std::cerr << "deliso: a sample equals the isovalue " << number_text(run.isovalue)
-              << ", so the isosurface is singular; used " << Json(result.isovalue_used).dump() << " instead\n";
-  }
+  remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;
@@ -126,12 +126,13 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
 
   // Mesh, watched on a terminal.
   const MeshRun run{options.volume.path, grid, isovalue, meshing};
-  const MeshingResult result = [&] {
+  MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
     return mesh_isosurface(grid, isovalue, watched);
   }();
+  if (meshing.parameters.certify) judge_rounding(result.mesh, options.output, result.certificate);
 
   write_outputs(options, run, result);
   print_summary(result, meshing.threads);

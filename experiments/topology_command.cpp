@@ -8,6 +8,7 @@
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/files.h"
+#include "experiments/output_names.h"
 #include "experiments/record.h"
 #include "experiments/text_table.h"
 #include "surface/certificate.h"
@@ -49,6 +50,7 @@ void print_counts(const std::vector<TopologyCount>& counts) {
 ExitCode run_topology(const TopologyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
   const ScalarGrid grid = load_volume(options.volume);
   check_isovalue(grid, isovalue);
   const Stopwatch stopwatch;
@@ -77,6 +79,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
     write_text(json_text(report), options.report);
   }
   print_counts(counts);
+  remark_isovalue(grid, isovalue, used);
   return ExitCode::kDone;
 }
 

@@ -6,6 +6,7 @@
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/files.h"
+#include "experiments/output_names.h"
 #include "experiments/record.h"
 #include "experiments/text_table.h"
 #include "surface/mesh_io.h"
@@ -149,6 +150,7 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   TriangleMesh mesh = read_mesh(options.mesh);
   const ScalarGrid grid = load_volume(options.volume);
   check_isovalue(grid, isovalue);
@@ -160,6 +162,7 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   const Json report = verify_report(options, grid, verification);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   print_checks(report);
+  remark_isovalue(judged, isovalue, verification.isovalue_used);
   std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
   for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
   return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;

@@ -75,6 +75,8 @@ std::string read_whole(const std::filesystem::path& path) {
 
 bool is_mesh_path(const std::filesystem::path& path) { return known_format(path).has_value(); }
 
+bool keeps_floats(const std::filesystem::path& path) { return known_format(path) == Format::kStl; }
+
 void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii) {
   switch (format_of(path)) {
     case Format::kPly:

@@ -45,6 +45,7 @@ struct RecoverStats : StageStats {
   std::int64_t approximate_geometry = 0;
   std::int64_t uncovered = 0;              // crossings far from the mesh, inserted between two runs
   std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
+  std::int64_t in_slabs = 0;               // insertions in parts of the volume that several threads refine
   std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point
   std::int64_t hits_against_signs = 0;     // dual edges whose hits contradicted the signs at their ends
   SearchCounters search;

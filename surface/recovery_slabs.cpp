@@ -87,6 +87,7 @@ std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
     stats_.add(counted[k]);
     inserted += counted[k].insertions;
   }
+  stats_.in_slabs += inserted;
   take_back(between, renamed);
   mend_blocked(blocked, renamed, controls);
   return inserted;

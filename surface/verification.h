@@ -74,7 +74,7 @@ struct Verification {
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
   double isovalue = 0;       // as asked
-  double isovalue_used = 0;  // differs only when a sample equals the isovalue
+  double isovalue_used = 0;  // differs only when a sample, or a saddle, equals the isovalue
 
   ManifoldCheck manifold;
   OrientationCheck orientation;

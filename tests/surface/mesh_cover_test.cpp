@@ -84,6 +84,23 @@ TEST(MeshCover, PointsInARowAreAnsweredLikeEachAlone) {
   }
 }
 
+// The nearest triangle of a point at the end of a row may be nearly a whole row farther from the row's middle than the
+// triangle that is nearest there.
+TEST(MeshCover, TheNearestTriangleMayBeFarFromTheMiddleOfARow) {
+  SurfaceMesh mesh;
+  // Large, across the row, two units before its middle; and small, 9.9 units behind it.
+  mesh.points = {{-2, -30, -20}, {-2, 30, -20}, {-2, 0, 40}, {9.9, -1, -1}, {9.9, 1, -1}, {9.9, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.neighbours = {{kNoSide, kNoSide, kNoSide}, {kNoSide, kNoSide, kNoSide}};
+  std::vector<Vec3> points;
+  for (double x = -4; x <= 4; ++x) points.push_back({x, 0, 0});
+  std::vector<Cover> answers(points.size(), Cover::kClose);
+  MeshCover(mesh).look_at_all(points, answers);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(answers[i], expected_cover(mesh, points[i])) << i;
+  EXPECT_EQ(answers.back(), Cover::kNone) << "the small one is nearer by a tenth, and does not cover so far";
+  EXPECT_EQ(answers[7], Cover::kFar) << "the large one is nearer, and does";
+}
+
 TEST(MeshCover, AMeshWithoutTrianglesCoversNothing) {
   const SurfaceMesh mesh;
   const MeshCover cover(mesh);

@@ -148,6 +148,7 @@ TEST(Recover, AnyNumberOfThreadsGivesTheSameVerticesAndSigns) {
     const Recovered one = run(*scene, options);
     const auto points = one.restricted->delaunay().points();
     ASSERT_GT(points.size(), 2000u);
+    EXPECT_GT(one.stats.in_slabs, one.stats.insertions / 10);
     for (std::size_t i = one.at_start; i < points.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) ASSERT_GE(distance(points[i], points[j]), 0.3);
     }
@@ -174,6 +175,7 @@ TEST(Recover, SlabsLeaveNoViolation) {
   options.size_bound = 1e-3;
   Recovered result = run(*scene, options);
   ASSERT_GT(result.stats.insertions, 2000);
+  EXPECT_GT(result.stats.in_slabs, 500);
   const std::int64_t refused = result.stats.refused_by_size_bound;
   RecoverStats again;
   Controls controls = free_run();

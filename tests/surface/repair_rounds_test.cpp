@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -115,15 +116,20 @@ TEST(RepairRounds, CrossingsWhereTrianglesMeetAreThoseOfTheirCellAndComponent) {
         mended.rounds->crossings_at(std::vector<TrianglePair>{pair, pair}, all.mesh);
     EXPECT_TRUE(std::is_sorted(crossings.begin(), crossings.end()));
     EXPECT_EQ(std::adjacent_find(crossings.begin(), crossings.end()), crossings.end());
-    for (const std::uint32_t crossing : crossings) {
-      const Vec3 place = crossing_position(mended.scene->grid, topology.crossings[crossing]);
-      for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(place[axis] - middle[axis]), 1);
-      const auto is_of = [&](std::uint32_t triangle) {
-        const auto& corners = all.mesh.triangles[triangle];
-        return std::any_of(corners.begin(), corners.end(),
-                           [&](std::uint32_t v) { return all.component[v] == topology.crossings[crossing].component; });
-      };
-      EXPECT_TRUE(is_of(pair.first) || is_of(pair.second)) << t;
+    const auto is_of = [&](std::uint32_t triangle, std::uint32_t component) {
+      const auto& corners = all.mesh.triangles[triangle];
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](std::uint32_t v) { return all.component[v] == component; });
+    };
+    for (std::uint32_t i = 0; i < topology.crossings.size(); ++i) {
+      const Vec3 place = crossing_position(mended.scene->grid, topology.crossings[i]);
+      bool expected =
+          is_of(pair.first, topology.crossings[i].component) || is_of(pair.second, topology.crossings[i].component);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double cell = std::floor(middle[axis]);
+        expected = expected && cell <= place[axis] && place[axis] <= cell + 1;
+      }
+      EXPECT_EQ(std::binary_search(crossings.begin(), crossings.end(), i), expected) << t << " " << i;
     }
     found += crossings.size();
   }

@@ -69,6 +69,23 @@ TEST(TightTriangles, FindsWhatIsNearWhileTheSetChanges) {
   }
 }
 
+// Far apart along an axis, at places whose distance is a power of two: no cell may be taken for another one.
+TEST(TightTriangles, FindsWhatIsFarFromTheOriginInBoxesOfAnySize) {
+  for (int power = 10; power <= 40; ++power) {
+    TightTriangles tight;
+    const Vec3 step{std::ldexp(1.0, power), 0, 0};
+    const Box3 here{{1, 1, 1}, {1.5, 1.5, 1.5}};
+    const Box3 there{here.low + step, here.high + step};
+    tight.add(0, here);
+    tight.add(1, there);
+    for (const double width : {0.0, 1.0, 5.0, 12.0, 100.0}) {
+      std::vector<std::uint32_t> found;
+      tight.append_near(widened(there, width), found);
+      EXPECT_EQ(found, std::vector<std::uint32_t>{1}) << power << " " << width;
+    }
+  }
+}
+
 TEST(TightTriangles, AnEmptySetHasNothingNear) {
   TightTriangles tight;
   std::vector<std::uint32_t> found;

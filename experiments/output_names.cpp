@@ -1,0 +1,45 @@
+#include "experiments/output_names.h"
+
+#include <span>
+#include <system_error>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether a write there would replace something: not where a device is.
+bool is_replaced(const fs::path& path) {
+  std::error_code error;
+  return !path.empty() && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+}
+
+bool are_same(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  // At least one of them is not there yet.
+  const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !error && whole_a == whole_b;
+}
+
+void check_apart_from(const NamedFile& output, std::span<const NamedFile> others) {
+  for (const NamedFile& other : others) {
+    if (other.path.empty() || !are_same(output.path, other.path)) continue;
+    throw InputError(output.option + ": names the same file as " + other.option + ", '" + output.path.string() + "'");
+  }
+}
+
+}  // namespace
+
+void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!is_replaced(outputs[i].path)) continue;
+    check_apart_from(outputs[i], inputs);
+    check_apart_from(outputs[i], std::span(outputs).first(i));
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,20 @@
+// No output of a command may take the place of another one, or of what the command reads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace deliso {
+
+// A file as the command line names it.
+struct NamedFile {
+  std::string option;  // what messages call it
+  std::filesystem::path path;
+};
+
+// Throws InputError when an output is the same file as an input or an earlier output, however their names are spelt,
+// links included. Empty names and devices (/dev/stdout) are left out.
+void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+}  // namespace deliso

@@ -1,0 +1,15 @@
+// What is left of a certificate in a file that cannot hold the mesh's coordinates.
+#pragma once
+
+#include <filesystem>
+
+#include "surface/certificate.h"
+#include "surface/triangle_mesh.h"
+
+namespace deliso {
+
+// STL keeps coordinates as floats. When rounding them makes vertices coincide or triangles cross, which did not before,
+// the certificate's verdict becomes kDifferent, with a sentence that says so. Nothing happens for other formats.
+void judge_rounding(const TriangleMesh& mesh, const std::filesystem::path& path, Certificate& certificate);
+
+}  // namespace deliso
