@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "delaunay/base/check.h"
+#include "experiments/stop_signal.h"
 #include "volume/io/atomic_file.h"
 #include "volume/io/input_file.h"
 
@@ -48,9 +49,11 @@ void write_text(const std::string& text, const fs::path& path) {
     if (!stream) throw InputError(path.string() + ": writing failed");
     return;
   }
+  StopHold hold;
   AtomicFile file(resolved(path));
   file.write(text);
   file.commit();
+  hold.finish();
 }
 
 void check_writable(const fs::path& path, const std::string& option) {
@@ -67,11 +70,13 @@ void check_writable(const fs::path& path, const std::string& option) {
   if (!folder.empty() && !fs::is_directory(folder, error)) {
     throw InputError(option + ": the folder of " + path.string() + " does not exist");
   }
+  const StopHold hold;
   try {
     const AtomicFile probe(resolved(path));  // never committed, so nothing stays
   } catch (const InputError& refusal) {
     throw InputError(option + ": " + refusal.what());
   }
+  hold.check();
 }
 
 }  // namespace deliso

@@ -8,6 +8,7 @@
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/files.h"
+#include "experiments/stop_signal.h"
 #include "experiments/text_table.h"
 #include "volume/analytic_fields.h"
 #include "volume/field_slices.h"
@@ -54,9 +55,14 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
     throw InputError("--encoding is \"" + options.encoding + "\", expected \"gzip\" or \"raw\"");
   }
   FieldSlices slices(field, size, seed);
-  write_volume(
-      {{size, size, size}, slices.type()}, [&slices] { return slices.next(); }, options.output,
-      is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
+  StopHold hold;
+  const auto next = [&] {
+    hold.check();
+    return slices.next();
+  };
+  write_volume({{size, size, size}, slices.type()}, next, options.output,
+               is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
+  hold.finish();
   const std::string side = std::to_string(size);
   TextTable()
       .row({"volume", options.output})

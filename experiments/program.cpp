@@ -12,6 +12,7 @@
 #include "delaunay/base/nearest_name.h"
 #include "experiments/commands.h"
 #include "experiments/program_info.h"
+#include "experiments/stop_signal.h"
 
 namespace deliso {
 namespace {
@@ -87,12 +88,15 @@ ExitCode run(int argc, const char* const* argv) {
 
 ExitCode run_program(int argc, const char* const* argv) {
   try {
+    stop_at_signals();
     const ExitCode exit_code = run(argc, argv);
     // A result that did not reach its reader (a full disk, say) is no success.
     std::cout.flush();
     return std::cout ? exit_code : fail(ExitCode::kBadInput, "cannot write to standard output");
   } catch (const InputError& error) {
     return fail(ExitCode::kBadInput, error.what());
+  } catch (const Stopped& stopped) {
+    return fail(ExitCode::kStopped, stopped.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::kBadInput, "not enough memory for this volume and these parameters");
   } catch (const std::exception& error) {

@@ -28,12 +28,12 @@ namespace {
   _exit(127);
 }
 
-// Until a file holds something, or for a minute: whoever waits for more will see that it does not.
+// Until a file or folder holds something, or for a minute: whoever waits for more will see that it does not.
 void wait_for(const std::filesystem::path& file) {
   const Stopwatch stopwatch;
   std::error_code ignored;
   while (stopwatch.seconds() < 60 &&
-         !(std::filesystem::exists(file, ignored) && std::filesystem::file_size(file, ignored) > 0)) {
+         !(std::filesystem::exists(file, ignored) && !std::filesystem::is_empty(file, ignored))) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

@@ -21,7 +21,7 @@ struct ProgramResult {
 struct SignalAfter {
   int signal = SIGINT;
   std::chrono::milliseconds delay{0};
-  std::filesystem::path file = {};  // when given, the delay begins once this file holds something
+  std::filesystem::path file = {};  // when given, the delay begins once this file or folder holds something
 };
 
 // Runs the program of this build to its end.
