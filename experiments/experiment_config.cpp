@@ -26,6 +26,15 @@ void apply_set(const StrictObject& object, Parameters& parameters) {
   }
 }
 
+// The name of the experiment, which becomes that of a folder within the one for results.
+std::string folder_name(const StrictObject& object, const fs::path& path) {
+  auto name = object.get("name", path.stem().string());
+  if (name.find('/') != std::string::npos || name.starts_with('.')) {
+    object.fail("name", "becomes the name of a folder: no '/' in it and no '.' before it, not '" + name + "'");
+  }
+  return name;
+}
+
 Variant parse_base(const StrictObject& experiment, const fs::path& folder) {
   const StrictObject object(experiment.at("base"), experiment.place_of("base"), kBaseKeys);
   Variant base;
@@ -221,7 +230,7 @@ Experiment parse_experiment(const Json& document, const fs::path& path) {
   const StrictObject object(document, path.string() + "#", kExperimentKeys);
   const fs::path folder = path.parent_path();
   Experiment experiment;
-  experiment.name = object.get("name", path.stem().string());
+  experiment.name = folder_name(object, path);
   experiment.title = object.get<std::string>("title", "");
   experiment.question = object.get<std::string>("question", "");
   experiment.notes = parse_notes(object);

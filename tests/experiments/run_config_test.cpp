@@ -46,6 +46,15 @@ TEST(RunConfig, SmallExperimentIsTaken) {
   EXPECT_EQ(planned_runs(experiment).size(), 12u);
 }
 
+// The name is that of a folder for results: it must not lead out of the one it is put into.
+TEST(RunConfig, NamesThatLeadElsewhereAreRefused) {
+  for (const std::string name : {"../../zz", "..", "/tmp/zz", "a/b", ".hidden"}) {
+    EXPECT_EQ(refusal_with("/name", name),
+              "small.json#/name becomes the name of a folder: no '/' in it and no '.' before it, not '" + name + "'");
+  }
+  EXPECT_EQ(refusal_with("/name", "table 3, v1.2"), "");
+}
+
 TEST(RunConfig, MisspeltKeysNameThePlaceAndTheNearestKey) {
   EXPECT_EQ(refusal_with("/repeat", 3), "small.json#: unknown key 'repeat', the nearest known key is 'repeats'");
   EXPECT_EQ(refusal_with("/variants/1/extend", "fine"),
