@@ -60,13 +60,25 @@ ExitCode report(const RunnerSummary& summary, const RunnerOptions& options, bool
   return summary.failed.empty() ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
+// A default folder may be missing: its data sets are then absent. One that was named must be there.
+fs::path data_folder(const RunCommandOptions& options) {
+  if (options.data.empty()) return default_data_folder(options.experiment);
+  std::error_code error;
+  if (!fs::is_directory(options.data, error)) {
+    throw InputError("--data: expected a folder with the volumes, found " +
+                     (fs::exists(options.data, error) ? options.data + ", which is no folder"
+                                                      : "no folder of the name " + options.data));
+  }
+  return options.data;
+}
+
 ExitCode run_run(const RunCommandOptions& options) {
   // The experiment and every option are judged before the first run.
   Experiment experiment = read_experiment(options.experiment);
   if (options.builtin) experiment = builtin_form(std::move(experiment));
   if (options.smoke) experiment = smoke_form(std::move(experiment));
   RunnerOptions runner;
-  runner.data_folder = options.data.empty() ? default_data_folder(options.experiment) : fs::path(options.data);
+  runner.data_folder = data_folder(options);
   runner.out_folder = options.out.empty() ? fs::path("out") / experiment.name : fs::path(options.out);
   runner.shard = parse_shard(options.shard);
   runner.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));

@@ -169,6 +169,19 @@ TEST_F(RunCommand, AbsentDataSetsAreListedAndMadeUpForLater) {
   EXPECT_EQ(present.out.find("Remarks"), std::string::npos) << present.out;
 }
 
+// A default folder may be missing, one that was named may not.
+TEST_F(RunCommand, ADataFolderThatIsNoneIsRefused) {
+  const std::vector<std::string> before = folder_.names();
+  for (const std::string name : {"none", "small.json"}) {
+    const ProgramResult result = run("out", {"--data", folder_ / name});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_MESSAGE(result.err, "--data: expected a folder");
+    EXPECT_MESSAGE(result.err, folder_ / name);
+  }
+  EXPECT_EQ(folder_.names(), before);
+}
+
 TEST_F(RunCommand, AWrongFileIsRefusedWithBothHashes) {
   const std::string expected(64, 'a');
   write_file_experiment(expected);
