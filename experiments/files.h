@@ -10,10 +10,13 @@ namespace deliso {
 std::string read_text(const std::filesystem::path& path);
 
 // Writes whole or not at all. Something that exists and is no regular file (/dev/stdout, a pipe) is written into
-// directly. Throws InputError.
+// directly; a pipe without a reader is refused. Throws InputError.
 void write_text(const std::string& text, const std::filesystem::path& path);
 
 // Throws InputError unless write_text could write there now. Leaves nothing behind. `option` is what the message names.
 void check_writable(const std::filesystem::path& path, const std::string& option);
+
+// The same for a file that is written whole and moved into place, which needs a regular file or a new one.
+void check_replaceable(const std::filesystem::path& path, const std::string& option);
 
 }  // namespace deliso

@@ -49,7 +49,7 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
                         ? field.default_size
                         : static_cast<std::int32_t>(parse_count(options.size, "--size", 2, kLargestFieldSize));
   const std::uint64_t seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
-  check_writable(options.output, "-o");
+  check_replaceable(options.output, "-o");
   const bool is_raw = options.encoding == "raw";
   if (!is_raw && options.encoding != "gzip") {
     throw InputError("--encoding is \"" + options.encoding + "\", expected \"gzip\" or \"raw\"");

@@ -52,7 +52,7 @@ void check_mesh_output(const std::filesystem::path& path, const std::string& opt
     throw InputError(option + ": a mesh file ends in " + std::string(kMeshExtensions) + ", found '" + path.string() +
                      "'");
   }
-  check_writable(path, option);
+  check_replaceable(path, option);
 }
 
 // Everything that could keep the results from being written is found before the work starts.

@@ -1,15 +1,14 @@
 #include "surface/mesh_io.h"
 
-#include <unistd.h>
-
 #include <cctype>
-#include <fstream>
 #include <optional>
+#include <span>
 #include <string>
-#include <system_error>
 
 #include "delaunay/base/check.h"
 #include "surface/mesh_io_formats.h"
+#include "volume/io/atomic_file.h"
+#include "volume/io/input_file.h"
 
 namespace deliso {
 
@@ -34,40 +33,17 @@ Format format_of(const std::filesystem::path& path) {
                    path.extension().string() + "'");
 }
 
-// Writes a temporary file beside `path` and renames it, so that no reader ever sees half a file.
+// Whole or not at all, so that no reader ever sees half a file.
 void write_whole(const std::string& bytes, const std::filesystem::path& path) {
-  std::filesystem::path temporary = path;
-  temporary += ".part" + std::to_string(::getpid());
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    if (!out) throw InputError(path.string() + ": cannot write here (no such directory, or no permission)");
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) {
-      std::filesystem::remove(temporary, error);
-      throw InputError(path.string() + ": cannot write " + std::to_string(bytes.size()) + " bytes (is the disk full?)");
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    const std::string why = error.message();
-    std::filesystem::remove(temporary, error);
-    throw InputError(path.string() + ": cannot write this file: " + why);
-  }
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 std::string read_whole(const std::filesystem::path& path) {
-  constexpr std::size_t kChunk = std::size_t{1} << 22;
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes;
-  for (std::size_t size = 0; in; bytes.resize(size)) {
-    bytes.resize(size + kChunk);
-    in.read(bytes.data() + size, kChunk);
-    size += static_cast<std::size_t>(in.gcount());
-  }
-  // A directory opens but does not read; whole files end with eof and fail, never bad.
-  if (!in.eof() || in.bad()) throw InputError(path.string() + ": cannot read this file");
+  InputFile file(path);
+  std::string bytes(file.remaining(), '\0');
+  bytes.resize(file.read(std::as_writable_bytes(std::span(bytes))));
   return bytes;
 }
 

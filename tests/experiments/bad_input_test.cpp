@@ -1,5 +1,6 @@
 // Every bad input: one line on stderr that names what is wrong, exit code 2, nothing on stdout, no file written.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -117,8 +118,8 @@ TEST_F(BadInput, MissingFileOrFolderInstead) {
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/d.ply"}, {"d.ply", "directory"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--config", "@/d.ply"}, {"d.ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--config", "@/none.json"}, {"none.json"});
-  expect_refusal({"verify", "@/none.ply", "@/v.nrrd", "--isovalue", "3"}, {"none.ply"});
-  expect_refusal({"verify", "@/d.ply", "@/v.nrrd", "--isovalue", "3"}, {"d.ply"});
+  expect_refusal({"verify", "@/none.ply", "@/v.nrrd", "--isovalue", "3"}, {"none.ply", "no such file"});
+  expect_refusal({"verify", "@/d.ply", "@/v.nrrd", "--isovalue", "3"}, {"d.ply", "not a regular file"});
 }
 
 TEST_F(BadInput, UnknownExtension) {
@@ -138,6 +139,18 @@ TEST_F(BadInput, UnwritableOutput) {
   expect_bad_mesh_options({"--isovalue", "3", "-o", "/proc/m.ply"}, {"-o", "/proc/m.ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--report", "/proc/r.json"}, {"--report"});
   expect_refusal({"generate", "sphere", "--size", "8", "-o", "@/none/g.nrrd"}, {"none"});
+}
+
+// A pipe cannot be replaced by a whole file, and one that nobody reads would keep the program waiting for ever.
+TEST_F(BadInput, PipesAsOutput) {
+  ASSERT_EQ(::mkfifo((folder_ / "m.ply").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder_ / "g.nrrd").c_str(), 0600), 0);
+  expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply"}, {"-o", "m.ply", "regular file"});
+  expect_bad_mesh_options({"--isovalue", "3", "-o", "@/n.ply", "--stage1-out", "@/m.ply"}, {"--stage1-out", "m.ply"});
+  expect_bad_mesh_options({"--isovalue", "3", "-o", "@/n.ply", "--report", "@/m.ply"},
+                          {"--report", "m.ply", "no program reads this pipe"});
+  expect_refusal({"verify", "@/m.ply", "@/v.nrrd", "--isovalue", "3"}, {"m.ply", "regular file"});
+  expect_refusal({"generate", "sphere", "--size", "8", "-o", "@/g.nrrd"}, {"-o", "g.nrrd", "regular file"});
 }
 
 TEST_F(BadInput, IsovalueOutsideTheRangeNamesTheRange) {

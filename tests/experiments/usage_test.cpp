@@ -1,5 +1,8 @@
 // What the commands print and write when all is well.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -101,6 +104,21 @@ TEST(Usage, InfoTellsWhatTheFileHolds) {
   EXPECT_GT(isovalue, 10);
   EXPECT_LT(isovalue, 100);
   EXPECT_TRUE(contains(run_deliso({"info", folder / "v.nrrd"}).out, "suggested isovalue"));
+}
+
+// A reader that waits at a pipe gets the whole report and nothing before it.
+TEST(Usage, ReportsGoIntoAPipeThatIsRead) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_deliso({"generate", "sphere", "--size", "8", "-o", folder / "v.nrrd"}).exit_code, 0);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const int pipe = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(pipe, 0);
+  const ProgramResult result = run_deliso({"info", folder / "v.nrrd", "--json", "--report", folder / "pipe"});
+  std::string report(result.out.size() + 1, '\0');
+  const ssize_t size = ::read(pipe, report.data(), report.size());
+  ::close(pipe);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report.substr(0, static_cast<std::size_t>(size)), result.out);
 }
 
 TEST(Usage, InfoReadsRawFilesAsDescribed) {

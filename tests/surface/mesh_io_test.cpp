@@ -2,6 +2,7 @@
 #include "surface/mesh_io.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
@@ -168,6 +169,35 @@ TEST_F(MeshIo, WritesWholeOrNotAtAll) {
   write_bytes("mesh.ply", "old");
   write_mesh(mesh, file("mesh.ply"));
   expect_same_bits(read_mesh(file("mesh.ply")), mesh);
+}
+
+TEST_F(MeshIo, WhatIsNoFileIsNamed) {
+  const auto message = [this](const char* name) {
+    try {
+      read_mesh(file(name));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  fs::create_directory(file("directory.ply"));
+  ASSERT_EQ(::mkfifo(file("pipe.ply").c_str(), 0600), 0);
+  EXPECT_EQ(message("missing.ply"), file("missing.ply").string() + ": there is no such file");
+  EXPECT_EQ(message("directory.ply"), file("directory.ply").string() + ": this is not a regular file");
+  EXPECT_EQ(message("pipe.ply"), file("pipe.ply").string() + ": this is not a regular file");  // and did not wait
+  EXPECT_THROW(write_mesh(testing::tetrahedron_mesh(), file("pipe.ply")), InputError);
+  EXPECT_TRUE(fs::is_fifo(file("pipe.ply")));
+}
+
+TEST_F(MeshIo, ALinkStaysAndItsTargetIsReplaced) {
+  const TriangleMesh mesh = testing::tetrahedron_mesh();
+  fs::create_directory(file("folder"));
+  write_bytes("folder/target.ply", "old");
+  fs::create_symlink(fs::path("folder") / "target.ply", file("link.ply"));
+  write_mesh(mesh, file("link.ply"));
+  EXPECT_TRUE(fs::is_symlink(file("link.ply")));
+  EXPECT_FALSE(fs::is_symlink(file("folder") / "target.ply"));
+  expect_same_bits(read_mesh(file("folder") / "target.ply"), mesh);
 }
 
 TEST_F(MeshIo, TheEmptyMeshIsAMesh) {

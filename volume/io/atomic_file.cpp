@@ -10,9 +10,12 @@
 
 namespace deliso {
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path_, ignored);
+  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(status)) {
+    target_ = std::filesystem::canonical(path_, ignored);
+  }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw InputError(path_.string() + ": cannot write here, this is not a regular file");
   // A name of our own: "x" refuses a file that exists, so another writer's file is never touched.
@@ -20,7 +23,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   std::string suffix = std::to_string(::getpid());
   suffix.insert(0, ".part-").append("-");
   for (int n = 0; n < kTries && file_ == nullptr; ++n) {
-    temporary_ = path_;
+    temporary_ = target_;
     temporary_ += suffix + std::to_string(n);
     errno = 0;
     file_ = std::fopen(temporary_.c_str(), "wbx");
@@ -45,7 +48,7 @@ void AtomicFile::commit() {
   if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("writing failed");
   const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
   std::error_code error;
-  if (closed) std::filesystem::rename(temporary_, path_, error);
+  if (closed) std::filesystem::rename(temporary_, target_, error);
   if (!closed || error) {
     std::filesystem::remove(temporary_, error);
     fail("the file cannot be put in place");

@@ -11,7 +11,7 @@
 namespace deliso {
 
 // Writes go to a temporary file beside `path`; commit() renames it to `path`. Without a commit nothing stays behind and
-// an older file of that name is left as it was.
+// an older file of that name is left as it was. A link stays one: the file that it points to is replaced.
 class AtomicFile {
  public:
   // Throws InputError when no file can be made there, or `path` exists and is not a regular file.
@@ -30,6 +30,7 @@ class AtomicFile {
   void discard() noexcept;
 
   std::filesystem::path path_;
+  std::filesystem::path target_;  // what path_ points to when it is a link
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
 };
