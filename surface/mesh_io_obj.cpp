@@ -1,4 +1,7 @@
-// OBJ (Wavefront): `v` and `f` lines. Everything else (normals, textures, groups, materials) is skipped.
+// OBJ (Wavefront): `v` and `f` lines. Every other statement of the format (normals, textures, groups, materials, free
+// forms) is skipped; what is none is an error, so that another kind of file does not pass for an empty mesh.
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -9,6 +12,12 @@
 namespace deliso {
 
 namespace {
+
+constexpr std::array<std::string_view, 43> kSkippedStatements = {
+    "vt",     "vn",     "vp",    "p",    "l",        "g",        "s",      "o",   "mg",   "usemtl",     "mtllib",
+    "usemap", "maplib", "bevel", "lod",  "c_interp", "d_interp", "cstype", "deg", "bmat", "step",       "curv",
+    "curv2",  "surf",   "parm",  "trim", "hole",     "scrv",     "sp",     "end", "con",  "shadow_obj", "trace_obj",
+    "ctech",  "stech",  "call",  "csh",  "bsp",      "bzp",      "cdc",    "cdp", "res",  "fo"};
 
 // Reads the lines of one file. Indices may name points that come later, so the largest is checked at the end.
 class ObjParser {
@@ -22,6 +31,9 @@ class ObjParser {
         parse_point();
       } else if (keyword == "f") {
         parse_polygon();
+      } else if (!keyword.empty()) {
+        if (!is_skipped(keyword)) in_.fail("a statement of the OBJ format (v, f, vn, g, usemtl, ...)", keyword);
+        skip_statement();
       }
     } while (in_.next_line());
     if (largest_ >= static_cast<std::int64_t>(mesh_.points.size())) {
@@ -32,6 +44,19 @@ class ObjParser {
   }
 
  private:
+  static bool is_skipped(std::string_view keyword) {
+    return std::find(kSkippedStatements.begin(), kSkippedStatements.end(), keyword) != kSkippedStatements.end();
+  }
+
+  // A line that ends in a backslash goes on in the next one.
+  void skip_statement() {
+    std::string_view last;
+    do {
+      last = {};
+      for (std::string_view word = in_.word_on_line(); !word.empty(); word = in_.word_on_line()) last = word;
+    } while (last.ends_with('\\') && in_.next_line());
+  }
+
   void parse_point() {
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -95,6 +120,10 @@ std::string obj_bytes(const TriangleMesh& mesh) {
   return text;
 }
 
-TriangleMesh parse_obj(std::string_view bytes, const std::string& file) { return ObjParser(bytes, file).parse(); }
+TriangleMesh parse_obj(std::string_view bytes, const std::string& file) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before a text
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  return ObjParser(bytes, file).parse();
+}
 
 }  // namespace deliso

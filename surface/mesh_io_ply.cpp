@@ -16,6 +16,8 @@ namespace deliso {
 
 namespace {
 
+constexpr const char* kEnd = "the end of the file after the last element";
+
 // The values of a text body. What a value is used for decides how strictly it is read.
 class TextValues {
  public:
@@ -26,6 +28,9 @@ class TextValues {
     for (std::int64_t i = 0; i < count; ++i) {
       if (in_.word().empty()) in_.fail("another value", "");
     }
+  }
+  void expect_end() {
+    if (const std::string_view found = in_.word(); !found.empty()) in_.fail(kEnd, found);
   }
   [[nodiscard]] std::size_t most_items(std::size_t) const { return in_.remaining() / 2 + 1; }
   [[noreturn]] void fail(const std::string& what, std::int64_t found) const { in_.fail(what, std::to_string(found)); }
@@ -58,6 +63,9 @@ class BinaryValues {
   void skip(PlyType type, std::int64_t count) {
     const std::size_t most = in_.remaining() / ply_size_of(type) + 1;  // more than that cannot be skipped anyway
     in_.skip(std::min(static_cast<std::size_t>(count), most) * ply_size_of(type), "another value");
+  }
+  void expect_end() {
+    if (in_.remaining() > 0) in_.fail(kEnd + (", found " + std::to_string(in_.remaining())) + " bytes more");
   }
   [[nodiscard]] std::size_t most_items(std::size_t bytes_each) const { return in_.remaining() / bytes_each; }
   [[noreturn]] void fail(const std::string& what, std::int64_t found) const {
@@ -106,6 +114,7 @@ class BodyParser {
       if (element.properties.empty()) continue;
       for (std::int64_t i = 0; i < element.count; ++i) parse_item(element);
     }
+    values_.expect_end();
     return std::move(mesh_);
   }
 

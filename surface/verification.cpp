@@ -135,7 +135,9 @@ void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, Verific
   in_world(v.distance.isosurface_to_mesh, probe);
 }
 
-std::string count_of(std::int64_t count, const char* what) { return std::to_string(count) + " " + what; }
+std::string count_of(std::int64_t count, const char* one, const char* several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
 
 // One sentence for each condition that fails.
 std::vector<std::string> list_failures(const Verification& v) {
@@ -144,18 +146,21 @@ std::vector<std::string> list_failures(const Verification& v) {
   if (v.triangles == 0) {
     failures.emplace_back("the mesh has no triangle");
   } else if (!m.pass) {
-    failures.push_back("not manifold: " + count_of(m.non_manifold_edges, "edges with three or more triangles, ") +
-                       count_of(m.non_manifold_vertices, "vertices with several umbrellas, ") +
-                       count_of(m.repeated_vertices, "triangles that name a vertex twice"));
+    failures.push_back(
+        "not manifold: " +
+        count_of(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
+        count_of(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
+        count_of(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice"));
   }
   if (!v.orientation.pass) {
     failures.push_back("not oriented towards lower values: " +
-                       count_of(v.orientation.misoriented_edges, "edges whose triangles disagree, ") +
-                       count_of(v.orientation.reversed_components, "reversed components"));
+                       count_of(v.orientation.misoriented_edges, "edge whose triangles disagree, ",
+                                "edges whose triangles disagree, ") +
+                       count_of(v.orientation.reversed_components, "reversed component", "reversed components"));
   }
   if (!v.boundary.pass) {
-    failures.push_back("not closed up to the box: " +
-                       count_of(v.boundary.off_box_edges, "boundary edges off its faces"));
+    failures.push_back("not closed up to the box: " + count_of(v.boundary.off_box_edges, "boundary edge off its faces",
+                                                               "boundary edges off its faces"));
   }
   if (v.topology.verdict != Verdict::kHomeomorphic) {
     failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
@@ -163,7 +168,8 @@ std::vector<std::string> list_failures(const Verification& v) {
                               : "the topology differs from that of the isosurface");
   }
   if (!v.self_intersection.pass) {
-    failures.push_back(count_of(v.self_intersection.found.crossing_pairs, "pairs of triangles cross"));
+    failures.push_back(
+        count_of(v.self_intersection.found.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross"));
   }
   if (!v.residual.pass) {
     failures.push_back("a vertex is " + std::to_string(v.residual.distance.max_voxels) + " voxels off the isosurface");

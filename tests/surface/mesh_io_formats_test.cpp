@@ -119,5 +119,29 @@ TEST_F(MeshIo, ReadsForeignTextFormats) {
   EXPECT_EQ(off.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
+// What is not read is known and skipped, over line ends too; what is unknown is no OBJ file.
+TEST_F(MeshIo, StatementsThatAreNoneOfObjAreRefused) {
+  const TriangleMesh mesh = read_mesh(write_bytes("a.obj",
+                                                  "\xEF\xBB\xBF# a comment\n\no a b\ng c\ns 1\nusemtl m\nl 1 2\n"
+                                                  "curv2 1 2 \\\n3 4\\\n5 6\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_EQ(mesh.points.size(), 3u);
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(reading_error("a.obj", "hello, this is no mesh\n"),
+            ", line 1: expected a statement of the OBJ format (v, f, vn, g, usemtl, ...), found 'hello,'");
+  EXPECT_EQ(reading_error("a.obj", "v 0 0 0\nvn 0 0 1\n1 2 3\n"),
+            ", line 3: expected a statement of the OBJ format (v, f, vn, g, usemtl, ...), found '1'");
+}
+
+TEST_F(MeshIo, WhatFollowsTheLastElementOfAPlyFileIsRefused) {
+  const std::string text = ply_bytes(testing::tetrahedron_mesh(), true);
+  EXPECT_EQ(read_mesh(write_bytes("a.ply", text + " \n\n")).triangles.size(), 4u);
+  EXPECT_EQ(reading_error("a.ply", text + "3 0 1 2\n"),
+            ", line 19: expected the end of the file after the last element, found '3'");
+  const std::string bytes = ply_bytes(testing::tetrahedron_mesh(), false);
+  EXPECT_EQ(reading_error("a.ply", bytes + "xyz"), ", before byte " + std::to_string(bytes.size()) +
+                                                       ": expected the end of the file after the last element, found "
+                                                       "3 bytes more");
+}
+
 }  // namespace
 }  // namespace deliso

@@ -93,7 +93,8 @@ TEST(Verification, SaysWhatIsWrong) {
   EXPECT_EQ(v.orientation.reversed_components, 1);
   ASSERT_EQ(v.orientation.reversed_at.size(), 1u);
   EXPECT_NE(std::find(mesh.points.begin(), mesh.points.end(), v.orientation.reversed_at[0]), mesh.points.end());
-  EXPECT_EQ(v.failures.size(), 1u);
+  ASSERT_EQ(v.failures.size(), 1u);
+  EXPECT_EQ(v.failures[0], "not oriented towards lower values: 0 edges whose triangles disagree, 1 reversed component");
 
   TriangleMesh displaced = mesh;
   displaced.points[20] += 0.0005 * (displaced.points[20] - kCenter);
