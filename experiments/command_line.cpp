@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
-#include "experiments/text_table.h"
+#include "delaunay/base/shortest_text.h"
 #include "volume/io/sample_type.h"
 #include "volume/io/volume_file.h"
+#include "volume/isovalue_range.h"
 
 namespace deliso {
 namespace {
@@ -110,10 +111,9 @@ ScalarGrid load_volume(const VolumeOptions& options) {
 }
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {
-  const auto [low, high] = grid.range();
-  if (low < isovalue && isovalue <= high) return;
-  throw InputError("--isovalue: the isosurface at " + number_text(isovalue) + " has no point, the data's range is " +
-                   number_text(low) + " to " + number_text(high));
+  if (has_isosurface(grid, isovalue)) return;
+  throw InputError("--isovalue: the isosurface at " + shortest_text(isovalue) +
+                   " has no point: " + isovalue_range_text(grid, isovalue));
 }
 
 void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {

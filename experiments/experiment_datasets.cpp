@@ -5,12 +5,13 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
+#include "delaunay/base/shortest_text.h"
 #include "experiments/experiment_keys.h"
-#include "experiments/text_table.h"
 #include "volume/analytic_fields.h"
 #include "volume/field_slices.h"
 #include "volume/io/sha256.h"
 #include "volume/io/volume_file.h"
+#include "volume/isovalue_range.h"
 
 namespace deliso {
 namespace {
@@ -165,10 +166,9 @@ ScalarGrid load_dataset(const Dataset& dataset, const fs::path& data_folder) {
                        found + ", expected " + dataset.sha256);
     }
   }
-  const auto [low, high] = grid.range();
-  if (low < dataset.isovalue && dataset.isovalue <= high) return grid;
-  throw InputError(path.string() + ": the isosurface of " + dataset.name + " at " + number_text(dataset.isovalue) +
-                   " has no point, the data's range is " + number_text(low) + " to " + number_text(high));
+  if (has_isosurface(grid, dataset.isovalue)) return grid;
+  throw InputError(path.string() + ": the isosurface of " + dataset.name + " at " + shortest_text(dataset.isovalue) +
+                   " has no point: " + isovalue_range_text(grid, dataset.isovalue));
 }
 
 }  // namespace deliso

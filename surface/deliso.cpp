@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/memory.h"
 #include "delaunay/base/rng.h"
+#include "delaunay/base/shortest_text.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/boundary_curves.h"
 #include "surface/build_triangle_mesh.h"
@@ -21,6 +21,7 @@
 #include "surface/sides_of_facets.h"
 #include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
+#include "volume/isovalue_range.h"
 
 namespace deliso {
 
@@ -42,17 +43,13 @@ auto timed(StageStats& stage, Body body) {
 }
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {
-  const auto [low, high] = grid.range();
-  std::ostringstream message;
   if (!std::isfinite(isovalue)) {
-    message << "isovalue " << isovalue << " is not a finite number";
-  } else if (!(low < isovalue && isovalue <= high)) {
-    message << "isovalue " << isovalue << " gives a surface with no point: the data's range is " << low << " to "
-            << high;
-  } else {
-    return;
+    throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
   }
-  throw InputError(message.str());
+  if (!has_isosurface(grid, isovalue)) {
+    throw InputError("isovalue " + shortest_text(isovalue) +
+                     " gives a surface with no point: " + isovalue_range_text(grid, isovalue));
+  }
 }
 
 // Lengths of the parameters in mesh-space units.

@@ -161,6 +161,18 @@ TEST_F(BadInput, IsovalueOutsideTheRangeNamesTheRange) {
   }
 }
 
+// Numbers are shown so that they can be told apart.
+TEST_F(BadInput, IsovalueAtTheEndsOfTheRange) {
+  const auto expect = [this](const std::string& isovalue, const std::string& end) {
+    expect_bad_mesh_options({"--isovalue", isovalue, "-o", "@/m.ply"},
+                            {"isovalue " + isovalue + " gives a surface with no point", "0 to 63" + end + "\n"});
+    expect_refusal({"topology", "@/v.nrrd", "--isovalue", isovalue}, {" at " + isovalue + " ", "0 to 63" + end + "\n"});
+  };
+  expect("63.0000001", "");
+  expect("0", ", and an isovalue must lie above the minimum");
+  expect("-1e-09", ", and an isovalue must lie above the minimum");
+}
+
 TEST_F(BadInput, IsovalueThatIsNoNumber) {
   for (const std::string isovalue : {"nan", "inf", "-inf", "abc", "", "1x", "0x10", "1e999", "1 2"}) {
     SCOPED_TRACE(isovalue);

@@ -1,10 +1,9 @@
 #include "volume/io/nrrd.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
 #include "volume/io/atomic_file.h"
 #include "volume/io/gzip_stream.h"
 #include "volume/io/input_file.h"
@@ -25,14 +24,6 @@ void skip_to_data(InputFile& file, const NrrdHeader& header) {
   if (bytes <= file.remaining()) file.skip(file.remaining() - bytes);
 }
 
-// The shortest text that reads back as the same double.
-std::string text(double value) {
-  std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  DELISO_CHECK(error == std::errc(), "32 characters hold any double");
-  return {buffer.data(), end};
-}
-
 std::string header_text(const VolumeHeader& header, NrrdEncoding encoding) {
   const Dims& n = header.dims;
   const Vec3& s = header.spacing;
@@ -42,8 +33,9 @@ std::string header_text(const VolumeHeader& header, NrrdEncoding encoding) {
   out += "dimension: 3\n";
   out += "sizes: " + std::to_string(n[0]) + " " + std::to_string(n[1]) + " " + std::to_string(n[2]) + "\n";
   out += "space dimension: 3\n";
-  out += "space directions: (" + text(s.x) + ",0,0) (0," + text(s.y) + ",0) (0,0," + text(s.z) + ")\n";
-  out += "space origin: (" + text(o.x) + "," + text(o.y) + "," + text(o.z) + ")\n";
+  out += "space directions: (" + shortest_text(s.x) + ",0,0) (0," + shortest_text(s.y) + ",0) (0,0," +
+         shortest_text(s.z) + ")\n";
+  out += "space origin: (" + shortest_text(o.x) + "," + shortest_text(o.y) + "," + shortest_text(o.z) + ")\n";
   out += std::string("endian: ") + (kHostEndian == Endian::kLittle ? "little" : "big") + "\n";
   out += std::string("encoding: ") + (encoding == NrrdEncoding::kRaw ? "raw" : "gzip") + "\n";
   // A comment that puts raw samples on a multiple of their size, so that they can be mapped.
