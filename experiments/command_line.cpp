@@ -69,7 +69,8 @@ RawOptions raw_options(const VolumeOptions& options) {
 
 double parse_number(const std::string& text, const std::string& option) {
   double value = 0;
-  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const bool plus = text.starts_with('+') && !text.starts_with("+-");
+  const char* const begin = text.data() + (plus ? 1 : 0);
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || stop != end || begin == end || !std::isfinite(value)) {
@@ -87,6 +88,10 @@ std::uint64_t parse_count(const std::string& text, const std::string& option, st
                      ", found '" + text + "'");
   }
   return value;
+}
+
+std::string refuse_empty_name(const std::string& name) {
+  return name.empty() ? "expected a name, found an empty one" : "";
 }
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {

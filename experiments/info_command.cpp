@@ -103,7 +103,9 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("info", "Dimensions, range, histogram and suggested isovalues of a volume");
   add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "Print JSON");
-  command->add_option("--report", options->report, "Write the JSON to a file")->type_name("FILE");
+  command->add_option("--report", options->report, "Write the JSON to a file")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 

@@ -152,15 +152,20 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
       ->type_name("MESH")
       ->required();
-  command->add_option("--config", options->config, "Parameters in a JSON file")->type_name("FILE");
+  command->add_option("--config", options->config, "Parameters in a JSON file")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--seed", options->seed, "Seed of the random choices")->type_name("N")->capture_default_str();
-  command->add_option("--report", options->report, "Write a JSON report of the run")->type_name("FILE");
+  command->add_option("--report", options->report, "Write a JSON report of the run")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
-      ->type_name("MESH");
+      ->type_name("MESH")
+      ->check(refuse_empty_name);
   command->add_option("--threads", options->threads, "Threads to use")->type_name("N")->capture_default_str();
   command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
   command->add_flag("--ascii", options->ascii, "Write PLY as text");

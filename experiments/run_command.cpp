@@ -118,9 +118,11 @@ void add_run_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("")
       ->required();
   command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
   command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
   command->add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
       ->type_name("I/N")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/results.h"
 
@@ -39,11 +40,13 @@ void add_table_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("-o,--output", options->output,
                    "Folder for table.md, table.csv, table.json and the plots (default: the first)")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
   command
       ->add_option("--experiment", options->experiment,
                    "Take words, metrics and plots from this file; its runs must be those of the records")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->footer(
       "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
       "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");

@@ -90,7 +90,9 @@ void add_topology_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("topology", "Exact topology of an isosurface, without a mesh");
   add_volume_options(*command, options->volume);
   command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
-  command->add_option("--report", options->report, "Write the result as JSON")->type_name("FILE");
+  command->add_option("--report", options->report, "Write the result as JSON")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command->callback([options, &exit_code] { exit_code = run_topology(*options); });
 }

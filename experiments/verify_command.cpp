@@ -176,7 +176,9 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))->type_name("")->required();
   add_volume_options(*command, options->volume);
   command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
-  command->add_option("--report", options->report, "Write every figure as JSON")->type_name("FILE");
+  command->add_option("--report", options->report, "Write every figure as JSON")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
   command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command->add_flag("--ignore-spacing", options->ignore_spacing,
                     "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");

@@ -153,6 +153,20 @@ TEST_F(BadInput, PipesAsOutput) {
   expect_refusal({"generate", "sphere", "--size", "8", "-o", "@/g.nrrd"}, {"-o", "g.nrrd", "regular file"});
 }
 
+TEST_F(BadInput, EmptyNames) {
+  for (const std::string option : {"--report", "--config", "--stage1-out"}) {
+    expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", option, ""}, {option, "empty"});
+  }
+  expect_bad_mesh_options({"--isovalue", "3", "-o", ""}, {"-o"});
+  expect_refusal({"info", "@/v.nrrd", "--report", ""}, {"--report", "empty"});
+  expect_refusal({"topology", "@/v.nrrd", "--isovalue", "3", "--report", ""}, {"--report", "empty"});
+  expect_refusal({"verify", "@/m.ply", "@/v.nrrd", "--isovalue", "3", "--report", ""}, {"--report", "empty"});
+  for (const std::string option : {"--data", "--out"}) expect_refusal({"run", "e.json", option, ""}, {option, "empty"});
+  for (const std::string option : {"--output", "--experiment"}) {
+    expect_refusal({"table", "@", option, ""}, {option, "empty"});
+  }
+}
+
 TEST_F(BadInput, IsovalueOutsideTheRangeNamesTheRange) {
   for (const std::string isovalue : {"63.5", "-0.5", "1e300", "-1e300"}) {
     SCOPED_TRACE(isovalue);
@@ -174,7 +188,8 @@ TEST_F(BadInput, IsovalueAtTheEndsOfTheRange) {
 }
 
 TEST_F(BadInput, IsovalueThatIsNoNumber) {
-  for (const std::string isovalue : {"nan", "inf", "-inf", "abc", "", "1x", "0x10", "1e999", "1 2"}) {
+  for (const std::string isovalue :
+       {"nan", "inf", "-inf", "abc", "", "1x", "0x10", "1e999", "1 2", "+", "+-3", "++3"}) {
     SCOPED_TRACE(isovalue);
     expect_bad_mesh_options({"--isovalue", isovalue, "-o", "@/m.ply"}, {"--isovalue"});
   }
