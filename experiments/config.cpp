@@ -7,6 +7,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
+#include "experiments/strict_object.h"
 
 namespace deliso {
 namespace {
@@ -25,15 +26,22 @@ const ParameterField* find_field(std::string_view path) {
   return nullptr;
 }
 
-// The known key that was probably meant: one that ends in the same word, else the one with the nearest spelling.
+// The known key that was probably meant: one of the same group that is spelt nearly so, else one that ends in the same
+// word, else the one with the nearest spelling.
 std::string nearest_key(std::string_view path) {
+  constexpr std::size_t kNearly = 2;  // letters
   std::vector<std::string> paths;
+  std::vector<std::string> of_group;
+  std::string same_word;
   for (const ParameterField& field : parameter_table()) {
-    if (key_of(field.path) == key_of(path)) return std::string(field.path);
+    if (key_of(field.path) == key_of(path) && same_word.empty()) same_word = field.path;
+    if (is_group(group_of(path)) && group_of(field.path) == group_of(path)) of_group.emplace_back(field.path);
     paths.emplace_back(field.path);
     if (!group_of(field.path).empty()) paths.emplace_back(group_of(field.path));
   }
-  return nearest_name(path, paths);
+  const std::string nearest = nearest_name(path, of_group);
+  if (!nearest.empty() && edit_distance(path, nearest) <= kNearly) return nearest;
+  return same_word.empty() ? nearest_name(path, paths) : same_word;
 }
 
 [[noreturn]] void fail_unknown_key(std::string_view path, const std::string& source) {
@@ -96,6 +104,11 @@ void apply_parameters(const Json& document, const std::string& source, Parameter
     if (const ParameterField* field = find_field(key); field != nullptr && group_of(key).empty()) {
       apply_value(*field, value, source, parameters);
       continue;
+    }
+    if (find_field(key) != nullptr) {
+      throw InputError(source + ": the keys of a file are nested, expected {\"" + std::string(group_of(key)) +
+                       "\": {\"" + std::string(key_of(key)) + "\": " + short_json(value) + "}}, found the key '" + key +
+                       "'");
     }
     // ... or a group of keys.
     if (!is_group(key)) fail_unknown_key(key, source);

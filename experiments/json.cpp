@@ -1,5 +1,7 @@
 #include "experiments/json.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 #include <vector>
 
@@ -14,6 +16,15 @@ std::string explanation(const nlohmann::json::exception& error) {
   const std::string text = error.what();
   const std::size_t end = text.find("] ");
   return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+// "line 3: the number 1e999 is too large": the parser gives the number in quotes, but not its place.
+std::string too_large(const nlohmann::json::out_of_range& error, const std::string& text) {
+  const std::string message = explanation(error);
+  const std::size_t begin = message.find('\'') + 1;
+  const std::string number = message.substr(begin, message.rfind('\'') - begin);
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find(number), text.size()));
+  return "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": the number " + number + " is too large";
 }
 
 // Refuses a key that the object at the same depth already has. (The parser itself would keep the last one.)
@@ -43,6 +54,8 @@ Json parse_json(const std::string& text, const std::string& source) {
     return Json::parse(text, [&check](int depth, Json::parse_event_t event, const Json& parsed) {
       return check(depth, event, parsed);
     });
+  } catch (const nlohmann::json::out_of_range& error) {
+    throw InputError(source + ": " + too_large(error, text));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(source + ": not valid JSON, " + explanation(error));
   }
