@@ -1,10 +1,11 @@
 // deliso info: what a volume holds, and isovalues worth a try.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "experiments/command_line.h"
 #include "experiments/commands.h"
@@ -35,20 +36,20 @@ Json info_report(const VolumeOptions& options, const ScalarGrid& grid, const Sam
               {"suggested_isovalues", suggestions}};
 }
 
-// Sixteen rows: where the bin begins, how many samples, a bar.
+// Sixteen rows, or fewer where there are fewer bins: where the first bin begins, how many samples, a bar.
 void print_histogram(const SampleHistogram& histogram) {
-  constexpr std::size_t kRows = 16;
+  constexpr std::size_t kMostRows = 16;
   constexpr double kBarWidth = 40;
-  std::array<std::uint64_t, kRows> counts{};
-  for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
-    counts[bin * kRows / histogram.counts.size()] += histogram.counts[bin];
-  }
+  const std::size_t bins = histogram.counts.size();
+  const std::size_t rows = std::min(kMostRows, bins);
+  std::vector<std::uint64_t> counts(rows);
+  for (std::size_t bin = 0; bin < bins; ++bin) counts[bin * rows / bins] += histogram.counts[bin];
   const double largest = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
   TextTable table;
   table.row({"from", "samples", ""});
-  for (std::size_t r = 0; r < kRows; ++r) {
+  for (std::size_t r = 0; r < rows; ++r) {
     // The first bin of the row.
-    const std::size_t bin = (r * histogram.counts.size() + kRows - 1) / kRows;
+    const std::size_t bin = (r * bins + rows - 1) / rows;
     const double from = histogram.low + static_cast<double>(bin) * histogram.bin_width();
     std::string bar(static_cast<std::size_t>(std::lround(kBarWidth * static_cast<double>(counts[r]) / largest)), '#');
     bar.resize(static_cast<std::size_t>(kBarWidth), ' ');
@@ -72,6 +73,7 @@ void print_info(const Json& report, const ScalarGrid& grid, const SampleHistogra
   table.print(std::cout);
   std::cout << '\n';
   print_histogram(histogram);
+  if (report["suggested_isovalues"].empty()) return;
   TextTable suggestions;
   suggestions.row({"suggested isovalue", "because it"});
   for (const Json& suggestion : report["suggested_isovalues"]) {

@@ -106,6 +106,23 @@ TEST(Usage, InfoTellsWhatTheFileHolds) {
   EXPECT_TRUE(contains(run_deliso({"info", folder / "v.nrrd"}).out, "suggested isovalue"));
 }
 
+// A row of the histogram for each value there can be, no row twice, and no table without a row.
+TEST(Usage, InfoOfFewValuesHasFewRows) {
+  const TemporaryFolder folder;
+  const std::string header = "NRRD0004\ndimension: 3\ntype: uint8\nsizes: 4 4 4\nencoding: raw\n\n";
+  const auto rows = [&](const std::string& bytes) {
+    write_file(folder / "v.nrrd", header + bytes);
+    const std::string out = run_deliso({"info", folder / "v.nrrd"}).out + "\n";
+    const std::string histogram = out.substr(out.find("\n\n") + 2);
+    const std::string table = histogram.substr(0, histogram.find("\n\n") + 1);
+    EXPECT_EQ(contains(out, "suggested isovalue"), bytes != std::string(64, '\12'));
+    return std::count(table.begin(), table.end(), '\n') - 2;  // without the two lines of the head
+  };
+  EXPECT_EQ(rows(std::string(64, '\12')), 1);
+  EXPECT_EQ(rows(std::string(32, '\12') + std::string(32, '\14')), 3);
+  EXPECT_EQ(rows(std::string(32, '\12') + std::string(32, '\144')), 16);
+}
+
 // A reader that waits at a pipe gets the whole report and nothing before it.
 TEST(Usage, ReportsGoIntoAPipeThatIsRead) {
   const TemporaryFolder folder;
