@@ -113,6 +113,12 @@ TEST_F(BadVolume, GeometryThatIsNone) {
       {"space origin: (0,0)\n", "three numbers"},
       {"space origin: (0,0,nan)\n", "finite number"},
       {"space origin: 0 0 0\n", "(1,0,0)"},
+      {"space dimension: 7\n", "expected 3"},
+      {"space dimension: three\n", "whole number"},
+      {"centers: foo bar baz\n", "cell, node, none or ???"},
+      {"centers: node node\n", "3 values, not 2"},
+      {"kinds: domain domain\n", "3 values, not 2"},
+      {"spacings: 1 1 1\naxis mins: 0 0 0\naxis maxs: 1 2 9\n", "\"axis maxs\" is \"1 2 9\""},
   };
   for (const auto& [lines, part] : cases) {
     Header header;

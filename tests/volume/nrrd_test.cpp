@@ -144,6 +144,14 @@ TEST(Nrrd, GeometryFromSpacingsAndAxisLimits) {
   const ScalarGrid b = read_with(directory, "axis mins: 0 0 0\naxis maxs: 1 4 6\ncenters: node node cell\n");
   EXPECT_EQ(b.spacing(), (Vec3{1, 2, 3}));
   EXPECT_EQ(b.origin(), (Vec3{0, 0, 1.5}));
+  // All three may be there where they agree up to rounding: as nodes or, unless that is said, as cells.
+  for (const std::string maxs :
+       {"0.3333 1.3333 2.3333", "0.6667 2 4.6667", "0.6667 2 4.6667\ncenters: cell cell none"}) {
+    SCOPED_TRACE(maxs);
+    const ScalarGrid both =
+        read_with(directory, "spacings: 0.333333 0.666667 2.33333\naxis mins: 0 0 0\naxis maxs: " + maxs + "\n");
+    EXPECT_EQ(both.spacing(), (Vec3{0.333333, 0.666667, 2.33333}));
+  }
   const ScalarGrid c = read_with(directory, "spacings: NaN 2 3\n");
   EXPECT_EQ(c.spacing(), (Vec3{1, 2, 3}));
 }

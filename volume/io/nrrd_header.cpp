@@ -86,10 +86,32 @@ Vec3 read_per_axis(const NrrdFields& fields, const Axes& axes, const char* name,
   return out;
 }
 
-// Are the samples of this axis centers of cells (and not nodes of the grid)?
-bool is_cell_centered(const NrrdFields& fields, const Axes& axes, std::size_t n) {
+// Whether the samples of an axis are centers of cells or nodes of the grid.
+enum class Centering { kUnknown, kCell, kNode };
+
+std::array<Centering, 3> read_centerings(const NrrdFields& fields, const Axes& axes) {
+  std::array<Centering, 3> centerings{};
   const NrrdField* field = fields.find("centers");
-  return field != nullptr && fields.words(*field, axes.count)[axes.of_xyz[n]] == "cell";
+  if (field == nullptr) return centerings;
+  const std::vector<std::string> words = fields.words(*field, axes.count);
+  for (const std::string& word : words) {
+    if (word != "cell" && word != "node" && word != "none" && word != "???") {
+      fields.fail_value(*field, "cell, node, none or ??? for each axis");
+    }
+  }
+  for (std::size_t n = 0; n < 3; ++n) {
+    const std::string& word = words[axes.of_xyz[n]];
+    if (word == "cell") centerings[n] = Centering::kCell;
+    if (word == "node") centerings[n] = Centering::kNode;
+  }
+  return centerings;
+}
+
+// Do the samples fill the range? Where their centering is unknown, either one may. Headers round their numbers.
+bool fills(double range, double spacing, std::int32_t samples, Centering centering) {
+  constexpr double kRounding = 1e-3;
+  const auto agrees = [&](double intervals) { return std::abs(range - spacing * intervals) <= kRounding * range; };
+  return (centering != Centering::kCell && agrees(samples - 1)) || (centering != Centering::kNode && agrees(samples));
 }
 
 // Spacing and origin from `spacings`, `axis mins` and `axis maxs`.
@@ -98,8 +120,9 @@ void read_axis_geometry(const NrrdFields& fields, const Axes& axes, NrrdHeader& 
   const Vec3 spacings = read_per_axis(fields, axes, "spacings", kUnknown);
   const Vec3 mins = read_per_axis(fields, axes, "axis mins", kUnknown);
   const Vec3 maxs = read_per_axis(fields, axes, "axis maxs", kUnknown);
+  const std::array<Centering, 3> centerings = read_centerings(fields, axes);
   for (std::size_t n = 0; n < 3; ++n) {
-    const bool cell_centered = is_cell_centered(fields, axes, n);
+    const bool cell_centered = centerings[n] == Centering::kCell;
     const double intervals = axes.dims[n] - (cell_centered ? 0 : 1);
     double spacing = spacings[n];
     if (std::isnan(spacing)) spacing = (maxs[n] - mins[n]) / intervals;
@@ -108,8 +131,23 @@ void read_axis_geometry(const NrrdFields& fields, const Axes& axes, NrrdHeader& 
       const NrrdField* field = fields.find("spacings");
       fields.fail_value(field != nullptr ? *field : fields.required("axis maxs"), "a positive spacing along each axis");
     }
+    const double range = maxs[n] - mins[n];
+    if (!std::isnan(range) && !fills(range, spacing, axes.dims[n], centerings[n])) {
+      fields.fail_value(fields.required("axis maxs"), "maxima that agree with \"axis mins\" and \"spacings\"");
+    }
     header.spacing[n] = spacing;
     if (!std::isnan(mins[n])) header.origin[n] = mins[n] + (cell_centered ? spacing / 2 : 0);
+  }
+}
+
+// Fields that do not matter here but tell a damaged header.
+void check_unused_fields(const NrrdFields& fields, const Axes& axes) {
+  for (const char* name : {"kinds", "thicknesses"}) {
+    if (const NrrdField* field = fields.find(name)) static_cast<void>(fields.words(*field, axes.count));
+  }
+  const NrrdField* dimension = fields.find("space dimension");
+  if (dimension != nullptr && fields.integer(*dimension, dimension->value) != 3) {
+    fields.fail_value(*dimension, "3, as the vectors of a volume have");
   }
 }
 
@@ -170,6 +208,7 @@ NrrdHeader read_nrrd_header(InputFile& file) {
   header.layout.type = read_type(fields);
   header.layout.compression = read_encoding(fields);
   header.layout.endian = read_endian(fields, header.layout.type);
+  check_unused_fields(fields, axes);
   read_axis_geometry(fields, axes, header);
   read_space_geometry(fields, axes, header);
   read_place_of_data(fields, file, header);
