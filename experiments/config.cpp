@@ -39,7 +39,7 @@ std::string nearest_key(std::string_view path) {
     paths.emplace_back(field.path);
     if (!group_of(field.path).empty()) paths.emplace_back(group_of(field.path));
   }
-  const std::string nearest = nearest_name(path, of_group);
+  std::string nearest = nearest_name(path, of_group);
   if (!nearest.empty() && edit_distance(path, nearest) <= kNearly) return nearest;
   return same_word.empty() ? nearest_name(path, paths) : same_word;
 }
@@ -47,6 +47,12 @@ std::string nearest_key(std::string_view path) {
 [[noreturn]] void fail_unknown_key(std::string_view path, const std::string& source) {
   throw InputError(source + ": unknown key '" + std::string(path) + "', the nearest known key is '" +
                    nearest_key(path) + "'");
+}
+
+// A path like stage1.epsilon as a key of a file.
+[[noreturn]] void fail_path_as_key(const std::string& path, const Json& value, const std::string& source) {
+  throw InputError(source + ": the keys of a file are nested, expected {\"" + std::string(group_of(path)) + "\": {\"" +
+                   std::string(key_of(path)) + "\": " + short_json(value) + "}}, found the key '" + path + "'");
 }
 
 // The value if it has the field's type and lies in its range. The view of a choice is one of the table's.
@@ -105,11 +111,7 @@ void apply_parameters(const Json& document, const std::string& source, Parameter
       apply_value(*field, value, source, parameters);
       continue;
     }
-    if (find_field(key) != nullptr) {
-      throw InputError(source + ": the keys of a file are nested, expected {\"" + std::string(group_of(key)) +
-                       "\": {\"" + std::string(key_of(key)) + "\": " + short_json(value) + "}}, found the key '" + key +
-                       "'");
-    }
+    if (find_field(key) != nullptr) fail_path_as_key(key, value, source);
     // ... or a group of keys.
     if (!is_group(key)) fail_unknown_key(key, source);
     require_object(value, std::string(source).append(": ").append(key));

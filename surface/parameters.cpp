@@ -1,9 +1,9 @@
 #include "surface/parameters.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
 
 namespace deliso {
 
@@ -24,11 +24,9 @@ Vec3 spacing_to_use(const Parameters& parameters, const Vec3& of_volume) {
   constexpr double kMostTimes = 1000;
   const auto [smallest, largest] = std::minmax({of_volume.x, of_volume.y, of_volume.z});
   if (largest <= kMostTimes * smallest) return of_volume;
-  std::ostringstream message;
-  message << "the volume's spacing is " << of_volume.x << " " << of_volume.y << " " << of_volume.z
-          << ", the largest more than " << kMostTimes
-          << " times the smallest: expected spacings nearer to each other, or the parameter spacing = \"ignore\"";
-  throw InputError(message.str());
+  throw InputError("the volume's spacing is " + shortest_text(of_volume.x) + " " + shortest_text(of_volume.y) + " " +
+                   shortest_text(of_volume.z) + ", the largest more than 1000 times the smallest: expected spacings " +
+                   "nearer to each other, or the parameter spacing = \"ignore\"");
 }
 
 }  // namespace deliso

@@ -11,7 +11,8 @@ namespace deliso {
 namespace {
 
 constexpr double kSmallest = 1;  // boxes smaller than this (mesh-space units) share a level
-// Cells are numbered up to this far from the origin, which is what their keys have room for; beyond it they run together.
+// Cells are numbered up to this far from the origin, which is what their keys have room for; beyond it they run
+// together.
 constexpr double kFarthest = 0x1p18 - 1;
 // Where a box meets more cells than this, only those are looked at that blocks of eight along each axis hold; where it
 // meets many blocks, all blocks are gone through.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <type_traits>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
 #include "volume/sample_sides.h"
 
 namespace deliso {
@@ -19,14 +19,9 @@ std::string text(const Dims& dims) {
   return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]);
 }
 
-std::string text(double x) {
-  std::ostringstream out;
-  out.precision(17);
-  out << x;
-  return out.str();
+std::string text(const Vec3& v) {
+  return "(" + shortest_text(v.x) + ", " + shortest_text(v.y) + ", " + shortest_text(v.z) + ")";
 }
-
-std::string text(const Vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
 
 template <class Sample>
 [[noreturn]] void fail_not_finite(const SampleArray<Sample>& samples, const Dims& dims) {
@@ -153,7 +148,7 @@ void ScalarGrid::check_range() const {
   const auto [low, high] = range_;
   const bool is_large = std::max(-low, high) > kLargest, is_small = low < high && high - low < kSmallest;
   if (!is_large && !is_small) return;
-  throw InputError("the samples range from " + text(low) + " to " + text(high) + ": " +
+  throw InputError("the samples range from " + shortest_text(low) + " to " + shortest_text(high) + ": " +
                    (is_large ? "they must be from -1e300 to 1e300" : "they must differ by 1e-300 or more") +
                    ", scale them");
 }
