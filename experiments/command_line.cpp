@@ -116,6 +116,7 @@ ScalarGrid load_volume(const VolumeOptions& options) {
 }
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {
+  check_samples(grid);
   if (has_isosurface(grid, isovalue)) return;
   throw InputError("--isovalue: the isosurface at " + shortest_text(isovalue) +
                    " has no point: " + isovalue_range_text(grid, isovalue));

@@ -34,7 +34,8 @@ void add_volume_options(CLI::App& command, VolumeOptions& options);
 // Throws InputError when the file or the options are wrong.
 ScalarGrid load_volume(const VolumeOptions& options);
 
-// Throws InputError naming the range of the data unless the isosurface has a point: low < isovalue <= high.
+// Throws InputError naming the range of the data unless the isosurface has a point (low < isovalue <= high), or when
+// samples are too large or too close to each other to compute with.
 void check_isovalue(const ScalarGrid& grid, double isovalue);
 
 // Says on stderr, when another isovalue was used, which one and why.

@@ -279,6 +279,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
 
 MeshingResult mesh_isosurface(const ScalarGrid& grid, double isovalue, const MeshingOptions& options) {
   const Stopwatch watch;
+  check_samples(grid);
   check_isovalue(grid, isovalue);
   MeshingResult result;
   if (options.parameters.boundary == Boundary::kClosed) {

@@ -1,8 +1,9 @@
-// Which isovalues have an isosurface.
+// Which volumes and isovalues have an isosurface that can be computed.
 #pragma once
 
 #include <string>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
 #include "volume/scalar_grid.h"
 
@@ -19,6 +20,18 @@ inline std::string isovalue_range_text(const ScalarGrid& grid, double isovalue) 
   const auto [low, high] = grid.range();
   const std::string range = "the data's range is " + shortest_text(low) + " to " + shortest_text(high);
   return isovalue <= low ? range + ", and an isovalue must lie above the minimum" : range;
+}
+
+// Differences of samples are multiplied, and divided by each other: throws InputError when these would overflow or
+// vanish.
+inline void check_samples(const ScalarGrid& grid) {
+  constexpr double kSmallest = 1e-300, kLargest = 1e300;
+  const auto [low, high] = grid.range();
+  const bool is_large = -low > kLargest || high > kLargest, is_small = low < high && high - low < kSmallest;
+  if (!is_large && !is_small) return;
+  throw InputError("the samples range from " + shortest_text(low) + " to " + shortest_text(high) +
+                   (is_large ? ": expected samples from -1e300 to 1e300" : ": expected a range of 1e-300 or more") +
+                   ", scale them");
 }
 
 }  // namespace deliso

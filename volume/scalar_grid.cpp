@@ -123,7 +123,6 @@ ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
                      " need " + std::to_string(expected));
   check_places();
   range_ = visit_samples(samples_, [this](const auto& s) { return finite_range(s, dims_); });
-  check_range();
 }
 
 // Volumes, and the exact determinants of a mesh's vertices, are products of lengths.
@@ -140,17 +139,6 @@ void ScalarGrid::check_places() const {
       throw InputError("the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
                        ": places must be within 1e12 spacings of 0, coordinates cannot tell them apart beyond");
   }
-}
-
-// Differences of samples are multiplied, and divided by each other.
-void ScalarGrid::check_range() const {
-  constexpr double kSmallest = 1e-300, kLargest = 1e300;
-  const auto [low, high] = range_;
-  const bool is_large = std::max(-low, high) > kLargest, is_small = low < high && high - low < kSmallest;
-  if (!is_large && !is_small) return;
-  throw InputError("the samples range from " + shortest_text(low) + " to " + shortest_text(high) + ": " +
-                   (is_large ? "they must be from -1e300 to 1e300" : "they must differ by 1e-300 or more") +
-                   ", scale them");
 }
 
 std::string ScalarGrid::type_name() const {

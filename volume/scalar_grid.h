@@ -33,9 +33,8 @@ decltype(auto) visit_samples(const Samples& samples, Function&& f);
 class ScalarGrid {
  public:
   // Throws InputError when a dimension is below 2, the sample count does not fit dims, a spacing is not positive, or
-  // beyond 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot tell 1e-4 of a spacing, a
-  // sample is NaN or infinite (naming the first), or samples or their differences are beyond what can be computed with
-  // (1e-300 to 1e300).
+  // beyond 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot tell 1e-4 of a spacing, or a
+  // sample is NaN or infinite (naming the first).
   ScalarGrid(Dims dims, Samples samples, Vec3 spacing = {1, 1, 1}, Vec3 origin = {0, 0, 0});
 
   [[nodiscard]] const Dims& dims() const { return dims_; }
@@ -60,7 +59,6 @@ class ScalarGrid {
 
  private:
   void check_places() const;
-  void check_range() const;
   template <class Sample>
   [[nodiscard]] CellCorners gather(const SampleArray<Sample>& samples, std::size_t first) const;
 

@@ -8,8 +8,10 @@
 #include <ostream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
 #include "surface/self_intersection.h"
@@ -33,10 +35,14 @@ TEST(Regression, SamplesOfAllMagnitudesMeshWithoutACrash) {
   }
 }
 
-// Values and gradients between such samples are infinite or no numbers; the check of a mesh looked beyond the volume.
-TEST(Regression, OverflowingDifferencesAreCheckedWithoutACrash) {
+// Values and gradients between such samples are infinite or no numbers: meshes were coarse and off the surface, and the
+// check of a mesh looked beyond the volume.
+TEST(Regression, OverflowingDifferencesAreRefusedAndCheckedWithoutACrash) {
   const ScalarGrid grid = read_volume(kInputs / "overflowing_differences.nrrd");
-  const MeshingResult result = mesh_isosurface(grid, 0.5, {});
+  EXPECT_THROW(mesh_isosurface(grid, 0.5, {}), InputError);
+  std::vector<double> scaled;
+  for (const double sample : std::get<SampleArray<double>>(grid.samples())) scaled.push_back(1e-300 * sample);
+  const MeshingResult result = mesh_isosurface(ScalarGrid(grid.dims(), scaled), 0.5, {});
   ASSERT_FALSE(result.mesh.triangles.empty());
   const Verification verification = verify_mesh(result.mesh, grid, 0.5);
   EXPECT_EQ(verification.topology.verdict, result.certificate.verdict);

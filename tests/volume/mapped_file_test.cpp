@@ -71,7 +71,7 @@ TYPED_TEST(MappedSamplesOfType, AreThoseThatAreRead) {
 
 TYPED_TEST(MappedSamplesOfType, LieOnTheirSizeInFilesThatWeWrite) {
   const TemporaryDirectory directory;
-  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 4), {1, 0.125, 3e-7}, {0, 1, -1e300});
+  const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 4), {1, 0.125, 3e-7}, {0, 1, -1.0 / 7});
   write_nrrd(grid, directory / "v.nrrd", NrrdEncoding::kRaw);
   EXPECT_EQ((std::filesystem::file_size(directory / "v.nrrd") - 60 * sizeof(TypeParam)) % 8, 0u);
   const ScalarGrid back = read_nrrd(directory / "v.nrrd");
