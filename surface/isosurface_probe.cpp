@@ -20,6 +20,14 @@ constexpr double kMoved = 1e-4;      // or, beside a grid face or edge, beyond t
 constexpr double kBeside = 1e-3;     // grid steps to a grid face or edge
 constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
 constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
+constexpr double kNearer = 0.6;      // no search for what is farther than this many times what is found
+constexpr double kSmallest = 1e-9;   // voxels to what is found, below which nothing nearer is searched for
+
+// Corner i: bit a of i says whether it lies at the high end of axis a.
+Vec3 corner_of(const Box3& box, unsigned i) {
+  return {((i & 1u) != 0 ? box.high : box.low).x, ((i & 2u) != 0 ? box.high : box.low).y,
+          ((i & 4u) != 0 ? box.high : box.low).z};
+}
 
 }  // namespace
 
@@ -193,6 +201,58 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
     if (!try_direction(uphill * gradient(best.point), best.distance)) break;
   }
   return best;
+}
+
+// Looks for points on the other side of the isosurface than p that are nearer than `beyond`. The interpolant is linear
+// along each axis, so within a cell's part its extremes are at the corners: where those are all on p's side, so is the
+// whole part. `box` lies within a cell.
+void IsosurfaceProbe::look_in_box(const Vec3& p, bool is_below, const Box3& box, FootPoint& beyond) const {
+  const auto is_too_far = [&](const Box3& part) {
+    const double gap = deliso::distance(p, part.clamp(p));
+    return beyond.distance < kSmallest || gap >= kNearer * beyond.distance;
+  };
+  if (is_too_far(box)) return;
+  bool has_beyond = false;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3 x = corner_of(box, corner);
+    if ((value(x) < 0) == is_below) continue;
+    has_beyond = true;
+    const double distance = deliso::distance(p, x);
+    if (distance < beyond.distance) beyond = {x, distance};
+  }
+  if (!has_beyond) return;
+
+  // The eighths, the one next to p first and the one across from it last.
+  const Vec3 middle = 0.5 * (box.low + box.high);
+  unsigned next = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) next |= p[axis] < middle[axis] ? 0u : 1u << axis;
+  for (const unsigned away : {0u, 1u, 2u, 4u, 3u, 5u, 6u, 7u}) {
+    Box3 part{middle, middle};
+    part.extend(corner_of(box, next ^ away));
+    look_in_box(p, is_below, part, beyond);
+  }
+}
+
+FootPoint IsosurfaceProbe::nearest_point(const Vec3& p) {
+  FootPoint best = foot_point(p);
+  if (best.distance <= kMoved) return best;
+  const double f = value(p), reach = std::min(best.distance, kFar);
+  const Vec3 low = box_.clamp(p - Vec3{reach, reach, reach}), high = box_.clamp(p + Vec3{reach, reach, reach});
+  // Cut at the grid faces: there is at most one across each axis.
+  Vec3 cut;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cut[axis] = std::clamp(step_[axis] * std::round(p[axis] / step_[axis]), low[axis], high[axis]);
+  }
+  FootPoint beyond{p, reach};
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Box3 part{cut, cut};
+    part.extend(corner_of({low, high}, corner));
+    if (part.smallest_side() > 0) look_in_box(p, f < 0, part, beyond);
+  }
+  if (beyond.point == p) return best;
+  // Before the point beyond there is one of the isosurface, or within rounding of it.
+  const Vec3 direction = (beyond.point - p) / beyond.distance;
+  return along_line(p, f, direction, beyond.distance, beyond.distance).value_or(beyond);
 }
 
 std::vector<Vec3> IsosurfaceProbe::crossing_points() const {

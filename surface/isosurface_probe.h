@@ -44,6 +44,11 @@ class IsosurfaceProbe {
   // voxel.
   FootPoint foot_point(const Vec3& p);
 
+  // The same for a point that should lie on the isosurface: where the foot is off by more than 1e-4, the surroundings
+  // of p are searched through, to a quarter of a voxel. A foot within that is at most two thirds farther than the
+  // nearest point of the isosurface, however it bends.
+  FootPoint nearest_point(const Vec3& p);
+
   // The places of `crossings` in voxel space, in their order.
   [[nodiscard]] std::vector<Vec3> crossing_points() const;
 
@@ -59,6 +64,7 @@ class IsosurfaceProbe {
   void look_around_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const;
   void look_beside_creases(const Vec3& p, FootPoint& best);
   void look_among_crossings(const Vec3& p, FootPoint& best);
+  void look_in_box(const Vec3& p, bool is_below, const Box3& box, FootPoint& beyond) const;
 
   const ScalarGrid& grid_;
   double isovalue_;

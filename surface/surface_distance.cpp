@@ -77,14 +77,22 @@ NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   return {to_sides[nearest], 2, {nearest, next}};
 }
 
-DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
   std::vector<bool> is_referenced(mesh.points.size(), false);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) is_referenced[v] = true;
   }
+  std::vector<std::optional<double>> distances(mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (is_referenced[v]) distances[v] = probe.nearest_point(mesh.points[v]).distance;
+  }
+  return distances;
+}
+
+DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances) {
   FigureBuilder builder;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (is_referenced[v]) builder.add(probe.foot_point(mesh.points[v]).distance, 1, mesh.points[v]);
+    if (distances[v]) builder.add(*distances[v], 1, mesh.points[v]);
   }
   return builder.figure();
 }

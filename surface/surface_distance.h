@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,10 @@ struct NearSides {
 };
 NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Referenced vertices to the isosurface; the mean is over vertices. All in voxel space.
-DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+// The distance of each vertex to the isosurface; nothing for vertices without a triangle. All in voxel space.
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+// Of these; the mean is over vertices.
+DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances);
 
 // Triangles to the isosurface: edge midpoints and centroid of each, on triangles with an edge longer than two voxels
 // more, one about every voxel (at most 16 to an edge). The mean is over area. The vertices are not sampled again.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -58,16 +60,52 @@ std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& 
   return places;
 }
 
-// `voxels` is the mesh in voxel space.
+// The isosurface next to the centroid of a triangle: the direction in which values fall there, longer where they fall
+// more steeply, and how far off it is.
+struct NextToCentroid {
+  Vec3 descent;
+  double distance = 0;
+};
+
+std::vector<NextToCentroid> look_next_to_centroids(const TriangleMesh& voxels, IsosurfaceProbe& probe) {
+  std::vector<NextToCentroid> result;
+  result.reserve(voxels.triangles.size());
+  for (const auto& [a, b, c] : voxels.triangles) {
+    const FootPoint foot = probe.foot_point((voxels.points[a] + voxels.points[b] + voxels.points[c]) / 3);
+    result.push_back({-probe.gradient(foot.point), foot.distance});
+  }
+  return result;
+}
+
+// The flux of the unit descent through a triangle, positive when it faces lower values. It is asked on the isosurface,
+// and all of that counts alike, however steep: beside a thin part the field is that of another. A triangle far off for
+// its height counts less. Its corners are `off` the isosurface, and it gets the benefit of that, within the tolerance
+// of residuals: what is thinner may be turned inside out by it.
+double flux_through(const std::array<Vec3, 3>& corners, const std::array<double, 3>& off, const NextToCentroid& next) {
+  constexpr double kFarOff = 0.25;  // heights to the isosurface with which it counts half
+  const double steepness = norm(next.descent);
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(norm(normal) > 0 && steepness > 0 && std::isfinite(steepness))) return 0;
+  double longest = 0, doubt = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double opposite = distance(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    longest = std::max(longest, opposite);
+    doubt += std::min(off[i], kMaxResidual) * opposite;
+  }
+  const double far_off = next.distance / (kFarOff * norm(normal) / longest);
+  return (dot(normal, next.descent / steepness) + doubt) / (1 + far_off * far_off);
+}
+
+// `voxels` is the mesh in voxel space; `off` is how far its vertices are off the isosurface.
 OrientationCheck check_orientation(const TriangleMesh& mesh, const TriangleMesh& voxels, const MeshTopology& topology,
-                                   const IsosurfaceProbe& probe) {
+                                   std::span<const NextToCentroid> next, std::span<const std::optional<double>> off) {
   OrientationCheck check;
   check.misoriented_edges = topology.misoriented_edges;
-  // The flux of the descent direction through each component.
   std::vector<double> flux(topology.components.size(), 0);
-  for (const auto& [ia, ib, ic] : voxels.triangles) {
-    const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
-    flux[topology.component_of_vertex[ia]] += dot(cross(b - a, c - a), -probe.gradient((a + b + c) / 3));
+  for (std::size_t t = 0; t < voxels.triangles.size(); ++t) {
+    const auto& [a, b, c] = voxels.triangles[t];
+    flux[topology.component_of_vertex[a]] += flux_through({voxels.points[a], voxels.points[b], voxels.points[c]},
+                                                          {off[a].value(), off[b].value(), off[c].value()}, next[t]);
   }
   check.reversed_components = std::count_if(flux.begin(), flux.end(), [](double f) { return f < 0; });
   check.pass = topology.is_oriented() && check.reversed_components == 0;
@@ -98,17 +136,17 @@ BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshTopology& top
   return check;
 }
 
-NormalCheck check_normals(const TriangleMesh& voxels, IsosurfaceProbe& probe) {
+NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCentroid> next) {
   NormalCheck check;
   double sum = 0;
   std::int64_t count = 0;
-  for (const auto& [ia, ib, ic] : voxels.triangles) {
+  for (std::size_t t = 0; t < voxels.triangles.size(); ++t) {
+    const auto& [ia, ib, ic] = voxels.triangles[t];
     const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
     const Vec3 normal = cross(b - a, c - a);
-    const Vec3 descent = -probe.gradient(probe.foot_point((a + b + c) / 3).point);
-    const double lengths = norm(normal) * norm(descent);
+    const double lengths = norm(normal) * norm(next[t].descent);
     if (!(lengths > 0)) continue;
-    const double cosine = dot(normal, descent) / lengths;
+    const double cosine = dot(normal, next[t].descent) / lengths;
     check.min_cosine = std::min(check.min_cosine, cosine);
     check.against += cosine < 0 ? 1 : 0;
     sum += cosine;
@@ -124,8 +162,9 @@ NormalCheck check_normals(const TriangleMesh& voxels, IsosurfaceProbe& probe) {
 
 void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
 
-void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, Verification& v) {
-  v.residual.distance = vertices_to_isosurface(voxels, probe);
+void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, std::span<const std::optional<double>> off,
+                     Verification& v) {
+  v.residual.distance = vertices_to_isosurface(voxels, off);
   v.residual.pass = v.residual.distance.max_voxels <= kMaxResidual;
   v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe);
   v.distance.isosurface_to_mesh = points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal());
@@ -214,6 +253,8 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
   TriangleMesh voxels = mesh;
   for (Vec3& p : voxels.points) p = probe.to_voxels(p);
+  const std::vector<std::optional<double>> off = vertex_distances(voxels, probe);
+  const std::vector<NextToCentroid> next = look_next_to_centroids(voxels, probe);
 
   // Combinatorics.
   v.self_intersection.found = self_intersections(mesh, kMostPlaces);
@@ -221,14 +262,14 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   {
     const MeshTopology topology = mesh_topology(mesh);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
-    v.orientation = check_orientation(mesh, voxels, topology, probe);
+    v.orientation = check_orientation(mesh, voxels, topology, next, off);
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);
 
   // Geometry.
-  check_distances(voxels, probe, v);
-  v.normals = check_normals(voxels, probe);
+  check_distances(voxels, probe, off, v);
+  v.normals = check_normals(voxels, next);
   v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);
   v.quality = measure_quality(mesh);
 

@@ -32,10 +32,12 @@ struct ManifoldCheck {
 };
 
 struct OrientationCheck {
-  bool pass = false;                     // manifold, neighbours agree, and every component faces lower values
-  std::int64_t misoriented_edges = 0;    // edges whose two triangles disagree
-  std::int64_t reversed_components = 0;  // components whose normals point to higher values on the whole
-  std::vector<Vec3> reversed_at;         // a vertex of each of the first ten, in the world
+  bool pass = false;                   // manifold, neighbours agree, and every component faces lower values
+  std::int64_t misoriented_edges = 0;  // edges whose two triangles disagree
+  // Components whose normals point to higher values on the whole, by more than their vertices' residuals can account
+  // for.
+  std::int64_t reversed_components = 0;
+  std::vector<Vec3> reversed_at;  // a vertex of each of the first ten, in the world
 };
 
 struct BoundaryCheck {

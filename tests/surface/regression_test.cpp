@@ -139,7 +139,15 @@ INSTANTIATE_TEST_SUITE_P(
         // The vertex of a subdivided edge stayed off the surface, for everywhere on it triangles would have crossed.
         Input{"off_surface_edge.nrrd", 128.2},
         // Beside the saddle of a face the check did not find the surface that a vertex had been moved from by a hair.
-        Input{"face_saddle.nrrd", 128.2}),
+        Input{"face_saddle.nrrd", 128.2},
+        // Samples of mixed magnitudes. The check stepped over the layer, as thin as a hair, behind a grid face.
+        Input{"mixed_magnitudes_0.nrrd", 0},
+        // It took the needle around a grid edge for reversed: beside that the gradient belongs to other parts.
+        Input{"mixed_magnitudes_1.nrrd", 0},
+        // Copies of vertices, moved apart by a hair, turned a speck inside out.
+        Input{"mixed_magnitudes_2.nrrd", 0},
+        // A wide triangle spans the hollow between the arms of a corner piece, and its centroid is next to others.
+        Input{"mixed_magnitudes_3.nrrd", 0}),
     [](const auto& input) {
       const std::string name = input.param.name;
       return name.substr(0, name.find('.'));

@@ -202,6 +202,68 @@ TEST(IsosurfaceProbe, LooksAcrossAFaceWhereTheGradientTurns) {
   EXPECT_LT(probe.foot_point({0.5, 0.5, 1 - 2e-5}).distance, 6e-5);
 }
 
+// Whether both sides have points in the cube of this half width around p: of its corners, the middles of its edges and
+// faces, and the same moved onto grid faces.
+template <class IsBelow>
+bool has_both_sides_within(IsBelow is_below, const Box3& box, const Vec3& p, double half) {
+  int below = 0;
+  for (int i = 0; i < 64; ++i) {
+    Vec3 q = p;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int place = i >> (2 * axis) & 3;
+      const double face = std::round(p[axis]);
+      if (place == 3 && std::abs(face - p[axis]) <= half) q[axis] = face;
+      if (place < 3) q[axis] += (place - 1) * half;
+    }
+    below += is_below(box.clamp(q)) ? 1 : 0;
+  }
+  return below > 0 && below < 64;
+}
+
+// Samples of mixed magnitudes: the surface keeps close to grid faces and edges, in layers that a walk steps over.
+// Points strewn around, with values summed up in another way, say how near it is at least.
+TEST(IsosurfaceProbe, FindsTheNearestPointBetweenSamplesOfMixedMagnitudes) {
+  int missed_by_walks = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const ScalarGrid grid = testing::sampled({3, 3, 3}, [&rng](const Vec3&) {
+      return (rng.below(2) == 0 ? -1.0 : 1.0) * std::pow(10.0, rng.uniform(-6, 6));
+    });
+    const auto is_below = [&](const Vec3& p) {
+      const auto low = [](double x) { return std::min(static_cast<std::int32_t>(x), 1); };
+      const CellCorners corners = grid.cell(low(p.x), low(p.y), low(p.z));
+      long double sum = 0;
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        long double weight = 1;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+          const long double t = static_cast<long double>(p[axis]) - low(p[axis]);
+          weight *= (corner >> axis & 1u) != 0 ? t : 1 - t;
+        }
+        sum += weight * corners[corner];
+      }
+      return sum < 0;
+    };
+    const IsosurfaceTopology truth = exact_topology(grid, 0);
+    IsosurfaceProbe probe(grid, 0, truth.crossings);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p{1 + std::pow(10.0, rng.uniform(-4, -1)), rng.uniform(0, 2), rng.uniform(0, 2)};
+      double nearest = 0.25;
+      for (int j = 0; j < 2000; ++j) {
+        const double reach = std::pow(10.0, rng.uniform(-4, -0.6));
+        const Vec3 q = probe.box().clamp(p + reach * Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)});
+        if (is_below(q) != is_below(p)) nearest = std::min(nearest, distance(p, q));
+      }
+      const FootPoint foot = probe.nearest_point(p);
+      EXPECT_NEAR(foot.distance, distance(p, foot.point), 1e-15) << "seed " << seed << " point " << i;
+      if (nearest == 0.25) continue;
+      EXPECT_TRUE(has_both_sides_within(is_below, probe.box(), foot.point, 1e-9)) << "seed " << seed << " point " << i;
+      EXPECT_LE(foot.distance, std::max(1e-4, nearest / 0.6)) << "seed " << seed << " point " << i;
+      if (probe.foot_point(p).distance > 2 * nearest) ++missed_by_walks;
+    }
+  }
+  EXPECT_GT(missed_by_walks, 0);
+}
+
 TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
   // Great-circle edges of an octahedron inscribed in a ball: the face centres are farthest in.
   const double radius = 6.03;
@@ -209,7 +271,7 @@ TEST(TrianglesToIsosurface, SeesTheSagittaOfAChord) {
   const IsosurfaceTopology truth = exact_topology(grid, 0);
   IsosurfaceProbe probe(grid, 0, truth.crossings);
   const TriangleMesh mesh = testing::on_isosurface(testing::sphere_mesh(0, radius, {8, 8, 8}), grid, 0);
-  EXPECT_LT(vertices_to_isosurface(mesh, probe).max_voxels, 1e-12);
+  EXPECT_LT(vertices_to_isosurface(mesh, vertex_distances(mesh, probe)).max_voxels, 1e-12);
   const DistanceFigure figure = triangles_to_isosurface(mesh, probe);
   EXPECT_NEAR(figure.max_voxels, radius * (1 - 1 / std::sqrt(3.0)), 0.1);
   EXPECT_LT(figure.mean_voxels, figure.max_voxels);
