@@ -15,7 +15,7 @@ constexpr double kSmallest = 1;  // boxes smaller than this (mesh-space units) s
 // together.
 constexpr double kFarthest = 0x1p18 - 1;
 // Where a box meets more cells than this, only those are looked at that blocks of eight along each axis hold; where it
-// meets many blocks, all blocks are gone through.
+// meets many blocks, all blocks are gone through. (A fourth of these numbers or four times as many take as long.)
 constexpr double kFewCells = 64;
 constexpr double kManyBlocks = 512;
 constexpr int kBlockShift = 3;
