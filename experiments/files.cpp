@@ -18,14 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A device, a pipe or a stream that is already open (/dev/stdout): there is no file to replace.
-bool is_special(const fs::path& path) {
-  if (path.parent_path() == "/dev" || path.parent_path() == "/dev/fd") return true;
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 // Opens for writing; a pipe that nobody reads is refused, where waiting for a reader could take forever.
 int open_special(const fs::path& path) {
   const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -50,6 +42,13 @@ void write_special(std::string_view text, const fs::path& path) {
 }
 
 }  // namespace
+
+bool is_special(const fs::path& path) {
+  if (path.parent_path() == "/dev" || path.parent_path() == "/dev/fd") return true;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 std::string read_text(const fs::path& path) {
   InputFile file(path);
@@ -100,9 +99,7 @@ void check_writable(const fs::path& path, const std::string& option) {
 }
 
 void check_replaceable(const fs::path& path, const std::string& option) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+  if (is_special(path)) {
     throw InputError(option + ": " + path.string() + " is not a regular file, expected the name of one");
   }
   check_writable(path, option);

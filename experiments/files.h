@@ -9,6 +9,9 @@ namespace deliso {
 // The whole file. Throws InputError when it is missing, no regular file, or cannot be read.
 std::string read_text(const std::filesystem::path& path);
 
+// A device, a pipe or a stream that is already open (/dev/stdout): there is no file to replace.
+bool is_special(const std::filesystem::path& path);
+
 // Writes whole or not at all. Something that exists and is no regular file (/dev/stdout, a pipe) is written into
 // directly; a pipe without a reader is refused. Throws InputError.
 void write_text(const std::string& text, const std::filesystem::path& path);

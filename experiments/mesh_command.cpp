@@ -58,9 +58,7 @@ void check_mesh_output(const std::filesystem::path& path, const std::string& opt
 // Everything that could keep the results from being written is found before the work starts.
 void check_outputs(const MeshCommandOptions& options) {
   check_mesh_output(options.output, "-o");
-  if (!options.stage1_output.empty()) {
-    check_mesh_output(options.stage1_output, "--stage1-out");
-  }
+  if (!options.stage1_output.empty()) check_mesh_output(options.stage1_output, "--stage1-out");
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
                  {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
@@ -69,7 +67,7 @@ void check_outputs(const MeshCommandOptions& options) {
 void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const MeshingResult& result) {
   // The report first in memory, or where it cannot be taken back: a failure there must leave no mesh behind.
   const std::string report = options.report.empty() ? "" : json_text(mesh_report(run, result));
-  const bool is_file = std::filesystem::is_regular_file(options.report) || !std::filesystem::exists(options.report);
+  const bool is_file = !is_special(options.report);
   if (!is_file) write_text(report, options.report);
   write_mesh(result.mesh, options.output, options.ascii);
   if (!options.stage1_output.empty() && result.stage1_mesh) {

@@ -4,17 +4,12 @@
 #include <system_error>
 
 #include "delaunay/base/check.h"
+#include "experiments/files.h"
 
 namespace deliso {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Whether a write there would replace something: not where a device is.
-bool is_replaced(const fs::path& path) {
-  std::error_code error;
-  return !path.empty() && (!fs::exists(path, error) || fs::is_regular_file(path, error));
-}
 
 bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -36,7 +31,7 @@ void check_apart_from(const NamedFile& output, std::span<const NamedFile> others
 
 void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (!is_replaced(outputs[i].path)) continue;
+    if (outputs[i].path.empty() || is_special(outputs[i].path)) continue;
     check_apart_from(outputs[i], inputs);
     check_apart_from(outputs[i], std::span(outputs).first(i));
   }

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "delaunay/base/counted.h"
 #include "surface/mesh_topology.h"
 
 namespace deliso {
 
 namespace {
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-// Equal entries of a sorted list, counted.
-std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& sorted) {
+// Equal entries of a sorted list.
+std::vector<TopologyCount> counts_of(const std::vector<ComponentTopology>& sorted) {
   std::vector<TopologyCount> counts;
   for (const ComponentTopology& topology : sorted) {
     if (counts.empty() || counts.back().topology != topology) counts.push_back({topology, 0});
@@ -85,7 +82,7 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
   certificate.verdict = Verdict::kDifferent;
   std::vector<ComponentTopology> sorted = isosurface;
   std::sort(sorted.begin(), sorted.end());
-  certificate.isosurface = counted(sorted);
+  certificate.isosurface = counts_of(sorted);
 
   const std::size_t bad = first_bad_triangle(mesh);
   if (bad < mesh.triangles.size()) {
@@ -97,7 +94,7 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
   const MeshTopology topology = mesh_topology(mesh, threads);
   certificate.manifold = topology.is_manifold();
   certificate.oriented = topology.is_oriented();
-  certificate.mesh = counted(sorted_components(topology));
+  certificate.mesh = counts_of(sorted_components(topology));
   add_defects(topology, certificate.differences);
   add_count_differences(certificate.mesh, certificate.isosurface, certificate.differences);
   if (certificate.differences.empty()) certificate.verdict = Verdict::kHomeomorphic;

@@ -24,9 +24,10 @@ Vec3 spacing_to_use(const Parameters& parameters, const Vec3& of_volume) {
   constexpr double kMostTimes = 1000;
   const auto [smallest, largest] = std::minmax({of_volume.x, of_volume.y, of_volume.z});
   if (largest <= kMostTimes * smallest) return of_volume;
-  throw InputError("the volume's spacing is " + shortest_text(of_volume.x) + " " + shortest_text(of_volume.y) + " " +
-                   shortest_text(of_volume.z) + ", the largest more than 1000 times the smallest: expected spacings " +
-                   "nearer to each other, or the parameter spacing = \"ignore\"");
+  throw InputError(
+      "the volume's spacing is " + shortest_text(of_volume.x) + " " + shortest_text(of_volume.y) + " " +
+      shortest_text(of_volume.z) + ", the largest more than " + shortest_text(kMostTimes) +
+      " times the smallest: expected spacings nearer to each other, or the parameter spacing = \"ignore\"");
 }
 
 }  // namespace deliso

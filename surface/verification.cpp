@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/counted.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/delaunay_balls.h"
 #include "surface/isosurface_probe.h"
@@ -174,10 +175,6 @@ void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, std::sp
   in_world(v.distance.isosurface_to_mesh, probe);
 }
 
-std::string count_of(std::int64_t count, const char* one, const char* several) {
-  return std::to_string(count) + " " + (count == 1 ? one : several);
-}
-
 // One sentence for each condition that fails.
 std::vector<std::string> list_failures(const Verification& v) {
   std::vector<std::string> failures;
@@ -187,19 +184,19 @@ std::vector<std::string> list_failures(const Verification& v) {
   } else if (!m.pass) {
     failures.push_back(
         "not manifold: " +
-        count_of(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
-        count_of(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
-        count_of(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice"));
+        counted(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
+        counted(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
+        counted(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice"));
   }
   if (!v.orientation.pass) {
     failures.push_back("not oriented towards lower values: " +
-                       count_of(v.orientation.misoriented_edges, "edge whose triangles disagree, ",
-                                "edges whose triangles disagree, ") +
-                       count_of(v.orientation.reversed_components, "reversed component", "reversed components"));
+                       counted(v.orientation.misoriented_edges, "edge whose triangles disagree, ",
+                               "edges whose triangles disagree, ") +
+                       counted(v.orientation.reversed_components, "reversed component", "reversed components"));
   }
   if (!v.boundary.pass) {
-    failures.push_back("not closed up to the box: " + count_of(v.boundary.off_box_edges, "boundary edge off its faces",
-                                                               "boundary edges off its faces"));
+    failures.push_back("not closed up to the box: " + counted(v.boundary.off_box_edges, "boundary edge off its faces",
+                                                              "boundary edges off its faces"));
   }
   if (v.topology.verdict != Verdict::kHomeomorphic) {
     failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
@@ -208,7 +205,7 @@ std::vector<std::string> list_failures(const Verification& v) {
   }
   if (!v.self_intersection.pass) {
     failures.push_back(
-        count_of(v.self_intersection.found.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross"));
+        counted(v.self_intersection.found.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross"));
   }
   if (!v.residual.pass) {
     failures.push_back("a vertex is " + std::to_string(v.residual.distance.max_voxels) + " voxels off the isosurface");
