@@ -11,8 +11,10 @@ namespace deliso {
 
 namespace {
 
-// What is refined once parts are joined adds less than this part of the mesh, as a rule: then its arrays need not grow.
-constexpr std::size_t kRoomForRest = 4;
+// Arrays get room for so many times what is expected, so that they need not grow, which copies them and asks for pages
+// twice: estimates know little of small rho, and joined parts are refined further. Room that is not used takes no
+// pages.
+constexpr std::size_t kRoom = 2;
 // There is room for at most so many insertions per triangle from the start.
 constexpr double kMostGrowth = 32;
 
@@ -63,19 +65,21 @@ void RefinementSlabs::find_triangles() {
   }
 }
 
-// In the whole for what all parts are expected to insert; the parts make their own.
+// In the whole for what all parts are expected to insert, and in each part for the largest, as one's arrays serve the
+// next.
 void RefinementSlabs::make_room(std::span<const float> work) {
   std::size_t insertions = 0;
-  for (Origin& origin : origins_) {
+  for (const Origin& origin : origins_) {
     double expected = 0;
     for (const std::uint32_t t : origin.triangles) expected += work[t];
-    const double most = kMostGrowth * static_cast<double>(origin.triangles.size());
-    origin.insertions = static_cast<std::size_t>(std::min(expected, most));
-    insertions += origin.insertions;
+    const std::size_t own = origin.triangles.size();
+    const auto added = static_cast<std::size_t>(std::min(expected, kMostGrowth * static_cast<double>(own)));
+    insertions += added;
+    room_for_vertices_ = std::max(room_for_vertices_, own + kRoom * added);
+    room_for_triangles_ = std::max(room_for_triangles_, own + 2 * kRoom * added);
   }
-  const auto with_rest = [](std::size_t count) { return count + count / kRoomForRest; };
-  whole_.vertices.reserve(with_rest(whole_.vertices.size() + insertions));
-  whole_.triangles.reserve(with_rest(whole_.triangles.size() + 2 * insertions));
+  whole_.vertices.reserve(whole_.vertices.size() + kRoom * insertions);
+  whole_.triangles.reserve(whole_.triangles.size() + 2 * kRoom * insertions);
 }
 
 void RefinementSlabs::refine_each(const RefinePart& refine) {
@@ -106,8 +110,8 @@ RefinementPart RefinementSlabs::cut_out(std::size_t slab) {
 
 void RefinementSlabs::fill(RefinementMesh& mesh, Origin& origin) {
   const std::vector<std::uint32_t>& own = origin.triangles;
-  mesh.triangles.reserve(own.size() + 2 * origin.insertions);
-  mesh.vertices.reserve(own.size() + origin.insertions);
+  mesh.triangles.reserve(room_for_triangles_);
+  mesh.vertices.reserve(room_for_vertices_);
   for (std::uint32_t i = 0; i < own.size(); ++i) local_triangle_[own[i]] = i;
   for (const std::uint32_t t : own) {
     RefinementMesh::Triangle triangle = whole_.triangles[t];

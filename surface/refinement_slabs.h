@@ -45,7 +45,6 @@ class RefinementSlabs {
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint32_t> vertices;
     std::uint32_t frozen = 0;
-    std::size_t insertions = 0;  // that are expected
   };
 
   void find_triangles();
@@ -60,6 +59,7 @@ class RefinementSlabs {
   std::vector<Slab> slabs_;
   int threads_;
   std::vector<Origin> origins_;
+  std::size_t room_for_vertices_ = 0, room_for_triangles_ = 0;  // in each part
 
   // One thread at a time cuts out or puts back.
   std::mutex mutex_;
