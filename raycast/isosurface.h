@@ -8,13 +8,14 @@
 // A line is x(t) = origin + t * direction; t is the caller's own parameter, direction need not have unit length.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "delaunay/base/box3.h"
 #include "delaunay/base/counters.h"
+#include "delaunay/base/lanes.h"
 #include "delaunay/base/vec3.h"
 #include "raycast/cell_walk.h"
 #include "raycast/line.h"
@@ -84,8 +85,8 @@ class Isosurface {
   // hits on sheets that face the other way are passed over.
   [[nodiscard]] std::optional<double> nearest_falling_hit(const Line& line, double reach,
                                                           SearchCounters& counters) const;
-  // The same for several lines, hits[i] for lines[i]: what one search waits for, others need not.
-  void nearest_falling_hits(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits,
+  // The same for the lines in those lanes that are asked for; a hit that is not found is NaN.
+  void nearest_falling_hits(const LineLanes& lines, const std::array<bool, kLanes>& asked, double reach, Lanes& hits,
                             SearchCounters& counters) const;
 
  private:
@@ -95,7 +96,7 @@ class Isosurface {
   [[nodiscard]] CellCorners relative_corners(const Vec3& p, Vec3& uvw) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
-  void hits_in_start_cells(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits) const;
+  void hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "delaunay/base/lanes.h"
 #include "delaunay/base/vec3.h"
 #include "volume/scalar_grid.h"
 
@@ -16,6 +17,17 @@ struct Line {
   Vec3 origin;
   Vec3 direction;
   [[nodiscard]] Vec3 at(double t) const { return origin + t * direction; }
+};
+
+// A line in each lane.
+struct LineLanes {
+  Vec3Lanes origin;
+  Vec3Lanes direction;
+  [[nodiscard]] Line at(std::size_t lane) const { return {origin.at(lane), direction.at(lane)}; }
+  void set(std::size_t lane, const Line& line) {
+    origin.set(lane, line.origin);
+    direction.set(lane, line.direction);
+  }
 };
 
 // In index space: position(s) = base + s * direction, where the caller's parameter is t = t_origin + s.

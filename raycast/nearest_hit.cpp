@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "raycast/active_cells.h"
@@ -13,15 +12,14 @@
 #include "raycast/cell_walk.h"
 #include "raycast/isosurface.h"
 #include "raycast/line.h"
-#include "raycast/start_cell.h"
+#include "raycast/start_cells.h"
 #include "raycast/voxel_intersection.h"
 
 namespace deliso {
 
 namespace {
 
-// So many searches are made side by side.
-constexpr std::size_t kTogether = 8;
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 // The candidate nearest to t = 0; of two at the same distance the one at positive t.
 struct Nearest {
@@ -58,20 +56,25 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
 }
 
 // Most hits that are asked for lie close to t = 0, and are found so in a third of the time. Schwarze's solver does
-// without: it is there to be compared. At most kTogether lines.
-void Isosurface::hits_in_start_cells(std::span<const Line> lines, double reach,
-                                     std::span<std::optional<double>> hits) const {
+// without: it is there to be compared.
+void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const {
+  hits.fill(kNothing);
   if (options_.solver != CubicSolver::kBracketed || !options_.incremental) return;
-  std::array<CellCorners, kTogether> corners;
-  std::array<Vec3, kTogether> place;  // within the cell
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (box_.contains(lines[i].origin)) corners[i] = relative_corners(lines[i].origin, place[i]);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!box_.contains(lines[i].origin)) continue;
-    const Vec3 direction = scaled(lines[i].direction, inverse_step_);
-    const std::optional<double> t = falling_hit_around(corners[i], place[i], direction);
-    if (t && std::abs(*t) <= reach) hits[i] = t;
+  StartCells cells;
+  find_start_cells(lines, inverse_step_, grid_.dims(), cells);
+  const std::size_t row = grid_.index(0, 1, 0), layer = grid_.index(0, 0, 1);
+  visit_samples(grid_.samples(), [&](const auto& samples) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const auto* const lowest = samples.data() + cells.first[i];
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        const std::size_t offset = (corner & 1) + (corner >> 1 & 1) * row + (corner >> 2) * layer;
+        cells.relative[corner][i] = static_cast<double>(lowest[offset]) - isovalue_;
+      }
+    }
+  });
+  falling_hits_around(cells);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (std::abs(cells.hit[i]) <= reach && box_.contains(lines.origin.at(i))) hits[i] = cells.hit[i];
   }
 }
 
@@ -124,30 +127,29 @@ std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double 
 }
 
 std::optional<double> Isosurface::nearest_falling_hit(const Line& line, double reach, SearchCounters& counters) const {
-  std::optional<double> hit;
-  nearest_falling_hits({&line, 1}, reach, {&hit, 1}, counters);
-  return hit;
+  LineLanes lines;
+  lines.set(0, line);
+  Lanes hits;
+  nearest_falling_hits(lines, {true}, reach, hits, counters);
+  return std::isnan(hits[0]) ? std::nullopt : std::optional(hits[0]);
 }
 
 // A start cell without a hit counts when the walks solve it.
-void Isosurface::nearest_falling_hits(std::span<const Line> lines, double reach, std::span<std::optional<double>> hits,
-                                      SearchCounters& counters) const {
-  for (std::size_t first = 0; first < lines.size(); first += kTogether) {
-    const std::size_t count = std::min(kTogether, lines.size() - first);
-    const auto some = hits.subspan(first, count);
-    std::fill(some.begin(), some.end(), std::nullopt);
-    hits_in_start_cells(lines.subspan(first, count), reach, some);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+void Isosurface::nearest_falling_hits(const LineLanes& lines, const std::array<bool, kLanes>& asked, double reach,
+                                      Lanes& hits, SearchCounters& counters) const {
+  hits_in_start_cells(lines, reach, hits);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (!asked[i]) continue;
     std::uint64_t solves = 1;
-    if (!hits[i]) {
+    if (std::isnan(hits[i])) {
       solves = 0;
-      hits[i] =
-          options_.incremental ? nearest_outward(lines[i], reach, solves) : nearest_on_line(lines[i], reach, solves);
+      const Line line = lines.at(i);
+      hits[i] = (options_.incremental ? nearest_outward(line, reach, solves) : nearest_on_line(line, reach, solves))
+                    .value_or(kNothing);
     }
     ++counters.searches;
     counters.solves += solves;
-    if (!hits[i]) continue;
+    if (std::isnan(hits[i])) continue;
     ++counters.searches_hit;
     counters.solves_hit += solves;
   }

@@ -14,16 +14,19 @@ namespace {
 // A triangle is tight when its clearance is below so many of its longest edge.
 constexpr double kTightness = 1.5;
 // Other sheets matter when the clearance is below so many times what the mesh moves.
-constexpr double kReach = 20;
+constexpr double kReach = 10;
 // The surface lies far from a triangle whose ball is so many times larger than its box.
 constexpr double kFarBall = 1.3;
 // A star can fold over its neighbours when it moves by so much of the rim's distance from p.
 constexpr double kFoldingMove = 0.1;
 
-bool is_tight(const std::array<Vec3, 3>& points, float clearance) {
-  double longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, squared_distance(points[i], points[(i + 1) % 3]));
-  return clearance * clearance < kTightness * kTightness * longest;
+bool is_tight(double squared_longest, float clearance) {
+  return clearance * clearance < kTightness * kTightness * squared_longest;
+}
+
+double squared_longest_edge(const std::array<Vec3, 3>& points) {
+  return std::max({squared_distance(points[0], points[1]), squared_distance(points[1], points[2]),
+                   squared_distance(points[2], points[0])});
 }
 
 Box3 box_of(std::span<const Vec3> points) {
@@ -49,6 +52,11 @@ CrossingGuard::CrossingGuard(RefinementMesh& mesh, int threads) : mesh_(mesh) {
 
 void CrossingGuard::learn(std::uint32_t triangle) {
   if (is_tight(triangle)) tight_.add(triangle, mesh_.box_of(triangle));
+}
+
+void CrossingGuard::learn(std::uint32_t triangle, double squared_longest) {
+  if (deliso::is_tight(squared_longest, trusted_clearance(mesh_.triangles[triangle].corners)))
+    tight_.add(triangle, mesh_.box_of(triangle));
 }
 
 void CrossingGuard::forget(std::uint32_t triangle) {
@@ -77,9 +85,7 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {
   const auto& corners = mesh_.triangles[triangle].corners;
-  return deliso::is_tight(
-      mesh_.corner_points(corners),
-      std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])}));
+  return deliso::is_tight(squared_longest_edge(mesh_.corner_points(corners)), trusted_clearance(corners));
 }
 
 CrossingGuard::PlacedTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
@@ -170,7 +176,7 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
     const float clearance =
         std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
     const PlacedTriangle& s = star_.emplace_back(star_triangle(p, edge));
-    if (!deliso::is_tight(s.points, clearance)) continue;
+    if (!deliso::is_tight(squared_longest_edge(s.points), clearance)) continue;
     if (!has_area(s.points)) return true;
     tight_in_star_.push_back(star_.size() - 1);
     box.extend(s.box.low);

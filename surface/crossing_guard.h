@@ -9,6 +9,7 @@
 // far can also fold over the triangles beside it, which is tested where an edge of the rim turns sharp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -35,6 +36,7 @@ class CrossingGuard {
   // Before a triangle goes; after a triangle has come.
   void forget(std::uint32_t triangle);
   void learn(std::uint32_t triangle);
+  void learn(std::uint32_t triangle, double squared_longest);  // whose longest edge is known
   // A triangle stays as it is: its corners become suspect if the surface lies far from it.
   void distrust(std::uint32_t triangle);
 
@@ -56,6 +58,10 @@ class CrossingGuard {
   [[nodiscard]] float trusted_clearance(std::uint32_t vertex) const {
     const RefinementMesh::Vertex& v = mesh_.vertices[vertex];
     return v.is_suspect ? 0 : v.clearance;
+  }
+  // The least of a triangle's corners.
+  [[nodiscard]] float trusted_clearance(const std::array<std::uint32_t, 3>& corners) const {
+    return std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])});
   }
   [[nodiscard]] static bool meets(const PlacedTriangle& s, const PlacedTriangle& t);
 

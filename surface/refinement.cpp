@@ -226,7 +226,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
     }
     triangle.renew();
     learn(t, star_[i]);
-    guard_->learn(t);
+    guard_->learn(t, star_[i].squared_longest);
     if (triangle.is_coarse()) queue(t, star_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {

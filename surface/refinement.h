@@ -55,6 +55,7 @@ class Refinement {
     bool has_hit = false;
     double badness = 0;
     double radius = 0;
+    double squared_longest = 0;  // of its longest edge
   };
 
   void queue_coarse_triangles();
@@ -78,7 +79,6 @@ class Refinement {
   };
   [[nodiscard]] NewTriangle measure(const Shape& shape);
   void measure(std::span<const Shape> shapes, std::span<NewTriangle> measured);
-  void measure_few(std::span<const Shape> shapes, std::span<NewTriangle> measured);
   [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
   [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
   [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;

@@ -3,20 +3,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "delaunay/constructions.h"
 #include "surface/blocks.h"
 #include "surface/refinement.h"
+#include "surface/triangle_lanes.h"
 
 namespace deliso {
 
 namespace {
 
 constexpr double kMostExpected = 1e6;  // insertions for one triangle
-constexpr std::size_t kTogether = 8;   // triangles
 
 }  // namespace
 
@@ -28,47 +27,39 @@ Refinement::NewTriangle Refinement::measure(const Shape& shape) {
 
 // Balls and badness of triangles; a dual line without a falling hit gives its circumball and no further refinement.
 void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
-  for (std::size_t first = 0; first < shapes.size(); first += kTogether) {
-    const std::size_t count = std::min(kTogether, shapes.size() - first);
-    measure_few(shapes.subspan(first, count), measured.subspan(first, count));
-  }
-}
-
-// At most kTogether, step by step for all of them: none waits for the roots and quotients of another.
-void Refinement::measure_few(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
-  std::array<Circumcircle, kTogether> circles;
-  std::array<Line, kTogether> duals;
-  std::array<std::size_t, kTogether> of{};  // the shape that a dual line belongs to
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const auto& [p, a, b] = shapes[i].corners;
-    circles[i] = circumcircle(p, a, b);
-    const Vec3 normal = cross(a - p, b - p);
-    const double length = norm(normal);
-    measured[i] = {{p, 0}, false, 0, 0};  // when nothing can be measured on it
-    duals[count] = {circles[i].center, normal / length};
-    of[count] = i;
-    count += std::isfinite(circles[i].radius) && length > 0 ? 1 : 0;
-  }
-  std::array<std::optional<double>, kTogether> hits;
-  isosurface_.nearest_falling_hits(std::span(duals).first(count), isosurface_.box().diagonal(), hits, stats_.search);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = of[k];
-    const auto& [p, a, b] = shapes[i].corners;
-    const double radius = circles[i].radius;
-    if (!hits[k]) {
-      measured[i] = {{circles[i].center, radius * radius}, false, 0, radius};
-      continue;
+  const BadnessLimits limits = {options_.epsilon1, options_.epsilon2, options_.rho, options_.max_distance,
+                                options_.criterion2 == Criterion2::kShortestEdge};
+  TriangleLanes lanes;
+  for (std::size_t first = 0; first < shapes.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, shapes.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [corners, mean_pole] = shapes[first + i];
+      lanes.a.set(i, corners[0]);
+      lanes.b.set(i, corners[1]);
+      lanes.c.set(i, corners[2]);
+      lanes.mean_pole[i] = mean_pole;
     }
-    const Vec3 x = duals[k].at(*hits[k]);
-    const double shortest =
-        std::sqrt(std::min({squared_distance(p, a), squared_distance(a, b), squared_distance(b, p)}));
-    measured[i] = {
-        {x, squared_distance(x, p)}, true, badness(std::abs(*hits[k]), radius, shortest, shapes[i].mean_pole), radius};
+    measure_in_planes(lanes);
+    std::array<bool, kLanes> has_area{};
+    for (std::size_t i = 0; i < count; ++i)
+      has_area[i] = std::isfinite(lanes.radius[i]) && is_finite(lanes.dual.direction.at(i));
+    isosurface_.nearest_falling_hits(lanes.dual, has_area, isosurface_.box().diagonal(), lanes.height, stats_.search);
+    measure_balls(lanes, limits);
+    for (std::size_t i = 0; i < count; ++i) {
+      NewTriangle& triangle = measured[first + i];
+      const double radius = lanes.radius[i], longest = lanes.squared_longest[i];
+      if (!has_area[i]) {
+        triangle = {{shapes[first + i].corners[0], 0}, false, 0, 0, longest};
+      } else if (std::isnan(lanes.height[i])) {
+        triangle = {{lanes.dual.origin.at(i), radius * radius}, false, 0, radius, longest};
+      } else {
+        triangle = {{lanes.x.at(i), lanes.squared_radius[i]}, true, lanes.badness[i], radius, longest};
+      }
+    }
   }
 }
 
-// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
+// What the criteria say of a triangle alone.
 double Refinement::badness(double h, double r, double l, double mean_pole) const {
   const double size = options_.criterion2 == Criterion2::kCircumradius ? r : l;
   return std::max({h / (r * options_.epsilon1), size / (mean_pole * options_.epsilon2), r / (l * options_.rho),
@@ -83,13 +74,13 @@ double Refinement::mean_pole_height(std::uint32_t triangle) const {
 
 // The same of a triangle of the mesh, by the ball it has.
 Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
-  if (!mesh_.triangles[triangle].has_hit()) return {ball_of(triangle), false, 0, 0};
+  if (!mesh_.triangles[triangle].has_hit()) return {.ball = ball_of(triangle)};
   const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
   const Circumcircle circle = circumcircle(a, b, c);
   const SurfaceDelaunayBall ball = ball_of(triangle);
   const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
   const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
-  return {ball, true, bad, circle.radius};
+  return {.ball = ball, .has_hit = true, .badness = bad, .radius = circle.radius};
 }
 
 // What is learnt of a triangle of the mesh.

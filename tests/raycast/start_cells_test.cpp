@@ -1,10 +1,12 @@
 // The quick search around a line's start must give the hit that a scan of the line gives, or nothing.
-#include "raycast/start_cell.h"
+#include "raycast/start_cells.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "delaunay/base/rng.h"
 #include "volume/trilinear_cell.h"
@@ -19,6 +21,24 @@ struct Query {
   [[nodiscard]] double value(double t) const { return trilinear_value(corners, u + t * d); }
 };
 
+void put_in_lane(const Query& query, std::size_t lane, StartCells& cells) {
+  for (std::size_t corner = 0; corner < 8; ++corner) cells.relative[corner][lane] = query.corners[corner];
+  cells.line.set(lane, {query.u, query.d});
+}
+
+// In a lane that changes from call to call, beside cells without a hit.
+std::optional<double> falling_hit_around(const CellCorners& corners, const Vec3& u, const Vec3& d) {
+  static std::size_t calls = 0;
+  const std::size_t lane = calls++ % kLanes;
+  StartCells cells;
+  put_in_lane({corners, u, d}, lane, cells);
+  falling_hits_around(cells);
+  for (std::size_t other = 0; other < kLanes; ++other) {
+    if (other != lane) EXPECT_TRUE(std::isnan(cells.hit[other]));
+  }
+  return std::isnan(cells.hit[lane]) ? std::nullopt : std::optional(cells.hit[lane]);
+}
+
 // Corners between -1 and 1; the line starts up to `farthest` off the surface, as far as the slope can tell.
 Query random_query(Rng& rng, double farthest) {
   Query query;
@@ -32,7 +52,7 @@ Query random_query(Rng& rng, double farthest) {
   return query;
 }
 
-TEST(StartCell, HitsAreWhereTheLineFallsForTheFirstTime) {
+TEST(StartCells, HitsAreWhereTheLineFallsForTheFirstTime) {
   constexpr int kScan = 256;
   Rng rng(3);
   int found = 0;
@@ -57,7 +77,7 @@ TEST(StartCell, HitsAreWhereTheLineFallsForTheFirstTime) {
   EXPECT_GT(found, 1000);
 }
 
-TEST(StartCell, HitsNearTheStartAreNotMissed) {
+TEST(StartCells, HitsNearTheStartAreNotMissed) {
   Rng rng(4);
   int found = 0, falling = 0;
   for (int trial = 0; trial < 5000; ++trial) {
@@ -70,7 +90,7 @@ TEST(StartCell, HitsNearTheStartAreNotMissed) {
   EXPECT_GT(found, 0.97 * falling);
 }
 
-TEST(StartCell, NothingIsFoundWhereTheLineRisesStandsOrLeavesTheCell) {
+TEST(StartCells, NothingIsFoundWhereTheLineRisesStandsOrLeavesTheCell) {
   const CellCorners ramp = {-1, 1, -1, 1, -1, 1, -1, 1};  // 2 u - 1
   EXPECT_TRUE(falling_hit_around(ramp, {0.4, 0.5, 0.5}, {-1, 0, 0}).has_value());
   EXPECT_FALSE(falling_hit_around(ramp, {0.4, 0.5, 0.5}, {1, 0, 0}).has_value());
@@ -83,6 +103,56 @@ TEST(StartCell, NothingIsFoundWhereTheLineRisesStandsOrLeavesTheCell) {
   EXPECT_FALSE(falling_hit_around({9, 8, 9, 8, 9, 8, 9, 8}, {0.5, 0.5, 0.5}, {1, 0, 0}).has_value());
   const double nan = std::nan("");
   EXPECT_FALSE(falling_hit_around({nan, 1, 1, 1, 1, 1, 1, -1}, {0.5, 0.5, 0.5}, {1, 0, 0}).has_value());
+}
+
+TEST(StartCells, LanesDoNotKnowOfEachOther) {
+  Rng rng(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    StartCells cells;
+    std::array<Query, kLanes> queries;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      queries[lane] = random_query(rng, 0.1);
+      put_in_lane(queries[lane], lane, cells);
+    }
+    falling_hits_around(cells);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const auto alone = falling_hit_around(queries[lane].corners, queries[lane].u, queries[lane].d);
+      ASSERT_EQ(std::isnan(cells.hit[lane]), !alone.has_value()) << trial;
+      if (alone) ASSERT_EQ(cells.hit[lane], *alone) << trial;
+    }
+  }
+}
+
+TEST(StartCells, LinesStartInTheCellOfTheirOrigin) {
+  Rng rng(6);
+  const Dims dims = {5, 9, 17};
+  const Vec3 inverse_step{1, 0.5, 0.25};
+  for (int trial = 0; trial < 2000; ++trial) {
+    LineLanes lines;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      // At times on a sample, at times beyond the box.
+      Vec3 origin{rng.uniform(-1, 5), rng.uniform(-2, 18), rng.uniform(-4, 70)};
+      if (trial % 3 == 0) origin = {std::round(origin.x), 2 * std::round(origin.y / 2), 4 * std::round(origin.z / 4)};
+      lines.set(lane, {origin, {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}});
+    }
+    StartCells cells;
+    find_start_cells(lines, inverse_step, dims, cells);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Vec3 place = cells.line.origin.at(lane), at = scaled(lines.origin.at(lane), inverse_step);
+      std::size_t index = cells.first[lane];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto count = static_cast<std::size_t>(dims[axis]);
+        const auto cell = static_cast<double>(index % count);
+        index /= count;
+        ASSERT_LT(cell, static_cast<double>(count - 1));
+        const double inside = std::clamp(at[axis], 0.0, static_cast<double>(count - 1));
+        ASSERT_EQ(cell + place[axis], inside) << trial << " axis " << axis;
+        ASSERT_TRUE(place[axis] >= 0 && place[axis] <= 1);
+        ASSERT_EQ(cells.line.direction.at(lane)[axis], lines.direction.at(lane)[axis] * inverse_step[axis]);
+      }
+      ASSERT_EQ(index, 0u);
+    }
+  }
 }
 
 }  // namespace
