@@ -58,10 +58,12 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
 // Most hits that are asked for lie close to t = 0, and are found so in a third of the time. Schwarze's solver does
 // without: it is there to be compared.
 void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const {
-  hits.fill(kNothing);
-  if (options_.solver != CubicSolver::kBracketed || !options_.incremental) return;
+  if (options_.solver != CubicSolver::kBracketed || !options_.incremental) {
+    hits.fill(kNothing);
+    return;
+  }
   StartCells cells;
-  find_start_cells(lines, inverse_step_, grid_.dims(), cells);
+  find_start_cells(lines, reach, {grid_.dims(), inverse_step_, box_.high}, cells);
   const std::size_t row = grid_.index(0, 1, 0), layer = grid_.index(0, 0, 1);
   visit_samples(grid_.samples(), [&](const auto& samples) {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -73,9 +75,7 @@ void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes
     }
   });
   falling_hits_around(cells);
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    if (std::abs(cells.hit[i]) <= reach && box_.contains(lines.origin.at(i))) hits[i] = cells.hit[i];
-  }
+  hits = cells.hit;
 }
 
 std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double reach, std::uint64_t& solves) const {

@@ -20,19 +20,27 @@ struct FindStartCells {
     return {cell, x - cell};
   }
 
-  [[gnu::always_inline]] static void run(const LineLanes& lines, const Vec3& inverse_step, const Dims& dims,
+  [[gnu::always_inline]] static bool holds(double high, double coordinate) {
+    return (coordinate >= 0) & (coordinate <= high);
+  }
+
+  [[gnu::always_inline]] static void run(const LineLanes& lines, const double& reach, const GridFrame& frame,
                                          StartCells& cells) {
-    const Vec3 scale = inverse_step;
-    const double nx = dims[0], ny = dims[1], nz = dims[2];
+    const auto [dims, scale, high] = frame;
+    const double nx = dims[0], ny = dims[1], nz = dims[2], farthest = reach;
     LineLanes found;
-    Lanes first;  // whole numbers, which doubles hold
+    Lanes first, reaches;  // first: whole numbers, which doubles hold
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const Vec3 origin = scaled(lines.origin.at(i), scale);
+      const Vec3 p = lines.origin.at(i), origin = scaled(p, scale);
       const Along x = along(origin.x, nx - 1), y = along(origin.y, ny - 1), z = along(origin.z, nz - 1);
       found.set(i, {{x.place, y.place, z.place}, scaled(lines.direction.at(i), scale)});
       first[i] = x.cell + nx * (y.cell + ny * z.cell);
+      const bool in_x = holds(high.x, p.x), in_y = holds(high.y, p.y), in_z = holds(high.z, p.z);
+      const bool is_inside = in_x & in_y & in_z;
+      reaches[i] = is_inside ? farthest : -1;
     }
     cells.line = found;
+    cells.reach = reaches;
     for (std::size_t i = 0; i < kLanes; ++i) cells.first[i] = static_cast<std::size_t>(first[i]);
   }
 };
@@ -104,8 +112,9 @@ struct FallingHitsAround {
       const double reach = std::abs(t[i]);
       const double bend = (2 * std::abs(c2[i]) + 3 * std::abs(c3[i]) * reach) * reach;
       const bool in_x = stays(u.x, d.x, reach), in_y = stays(u.y, d.y, reach), in_z = stays(u.z, d.z, reach);
-      const bool falls = c1[i] < 0, rests = moves[i] == 0, is_straight = bend <= (kLeastSlope - 1) * c1[i];
-      const bool is_hit = falls & rests & is_straight & in_x & in_y & in_z;
+      const bool falls = c1[i] < 0, rests = moves[i] == 0, is_near = reach <= cells.reach[i],
+                 is_straight = bend <= (kLeastSlope - 1) * c1[i];
+      const bool is_hit = falls & rests & is_near & is_straight & in_x & in_y & in_z;
       cells.hit[i] = is_hit ? t[i] : std::numeric_limits<double>::quiet_NaN();
     }
   }
@@ -113,8 +122,8 @@ struct FallingHitsAround {
 
 }  // namespace
 
-void find_start_cells(const LineLanes& lines, const Vec3& inverse_step, const Dims& dims, StartCells& cells) {
-  run_in_lanes<FindStartCells>(lines, inverse_step, dims, cells);
+void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, StartCells& cells) {
+  run_in_lanes<FindStartCells>(lines, reach, frame, cells);
 }
 
 void falling_hits_around(StartCells& cells) { run_in_lanes<FallingHitsAround>(cells); }

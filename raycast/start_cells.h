@@ -14,13 +14,21 @@ struct StartCells {
   LineLanes line;                           // in the cells' own parameters
   std::array<std::size_t, kLanes> first{};  // the index of a cell's lowest sample
   std::array<Lanes, 8> relative{};          // the cells' corners less the isovalue
+  Lanes reach{};                            // no hit may be farther; negative where a line starts beyond the box
   Lanes hit{};                              // the line parameter of the hit; NaN where none is found
 };
 
-// Sets line and first; where an origin lies beyond the box of the samples, that of the point nearest to it.
-void find_start_cells(const LineLanes& lines, const Vec3& inverse_step, const Dims& dims, StartCells& cells);
+// How index space lies in mesh space.
+struct GridFrame {
+  Dims dims{};
+  Vec3 inverse_step;
+  Vec3 high;  // of the box, in mesh space
+};
 
-// Sets hit from line and relative: the falling hit nearest to t = 0. Nothing when it may lie in another
+// Sets line, first and reach; where an origin lies beyond the box, those of the point nearest to it.
+void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, StartCells& cells);
+
+// Sets hit from the others: the falling hit nearest to t = 0. Nothing when it may lie in another
 // cell, or when the interpolant is not seen to fall all the way from -|t| to |t|: then there may be other hits.
 void falling_hits_around(StartCells& cells);
 

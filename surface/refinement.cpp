@@ -134,7 +134,10 @@ bool Refinement::treat(std::uint32_t triangle) {
 // Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
 // reported and nothing is inserted.
 std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
-  disk_.grow(candidate, [this](std::uint32_t t) { return ball_of(t); });
+  disk_.grow(candidate, [this](std::uint32_t t) {
+    // A ball that is not kept is not searched again where it is not asked for.
+    return options_.store_hits || !disk_.holds(t) ? ball_of(t) : SurfaceDelaunayBall{};
+  });
   if (disk_.is_blocked() || !part_.slab.contains(candidate.point)) {
     is_blocked_ = true;
     return Refusal::kNotADisk;

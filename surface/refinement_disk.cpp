@@ -8,8 +8,8 @@ namespace deliso {
 void RefinementDisk::find_rim(const RefinementCandidate& candidate) {
   // Which sides are on the rim cannot be foretold: all are written, and what is not on it is overwritten.
   std::size_t size = 0;
-  if (rim_.size() < 3 * triangles_.size()) rim_.resize(3 * triangles_.size());
-  for (const std::uint32_t t : triangles_) {
+  if (rim_.size() < 3 * size_) rim_.resize(3 * size_);
+  for (const std::uint32_t t : triangles()) {
     const RefinementMesh::Triangle& triangle = mesh_.triangles[t];
     for (unsigned i = 0; i < 3; ++i) {
       const TriangleSide outer = triangle.neighbours[i];
@@ -23,7 +23,7 @@ void RefinementDisk::find_rim(const RefinementCandidate& candidate) {
 
 RefinementDisk::Shape RefinementDisk::order_rim(const RefinementCandidate& candidate) {
   const bool closed = candidate.split == kNoSide;
-  if (rim_size_ != triangles_.size() + (closed ? 2 : 1)) return Shape::kNotADisk;
+  if (rim_size_ != size_ + (closed ? 2 : 1)) return Shape::kNotADisk;
   for (std::uint32_t i = 0; i < rim_size_; ++i) {
     RefinementMesh::Vertex& from = mesh_.vertices[rim_[i].from];
     if (from.attempt == attempt_) return Shape::kRepeatedVertex;
@@ -47,7 +47,7 @@ RefinementDisk::Shape RefinementDisk::order_rim(const RefinementCandidate& candi
 std::optional<TriangleSide> RefinementDisk::encroached_boundary_edge(const RefinementCandidate& candidate,
                                                                      const Box3& box) const {
   const bool outside = !box.contains(candidate.point);
-  for (const std::uint32_t t : triangles_) {
+  for (const std::uint32_t t : triangles()) {
     for (unsigned i = 0; i < 3; ++i) {
       if (mesh_.triangles[t].neighbours[i] != kNoSide) continue;
       const Vec3& a = mesh_.corner(t, i + 1);
@@ -60,7 +60,7 @@ std::optional<TriangleSide> RefinementDisk::encroached_boundary_edge(const Refin
 
 Vec3 RefinementDisk::normal_sum() const {
   Vec3 sum;
-  for (const std::uint32_t t : triangles_) {
+  for (const std::uint32_t t : triangles()) {
     const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[t].corners);
     sum += cross(b - a, c - a);
   }
@@ -69,7 +69,7 @@ Vec3 RefinementDisk::normal_sum() const {
 
 double RefinementDisk::distance_to(const Vec3& p) const {
   double farthest = 0;
-  for (const std::uint32_t t : triangles_) {
+  for (const std::uint32_t t : triangles()) {
     const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[t].corners);
     const Vec3 normal = cross(b - a, c - a);
     farthest = std::max(farthest, std::abs(dot(normal, p - a)) / std::max(norm(normal), 1e-300));

@@ -1,7 +1,9 @@
 // E of stage 2 (Dey and Levine, section 3.2): the triangles that an insertion replaces, and the rim around them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -30,7 +32,7 @@ class RefinementDisk {
   explicit RefinementDisk(RefinementMesh& mesh, std::uint32_t frozen = 0) : mesh_(mesh), frozen_(frozen) {}
 
   // E: the triangles reached from the candidate's seed whose balls hold its point, or the two at a halved edge; and the
-  // edges around them. ball_of(t) gives B_sigma.
+  // edges around them. ball_of(t) gives B_sigma; it does not matter what it gives for triangles that E holds already.
   template <class BallOf>
   void grow(const RefinementCandidate& candidate, BallOf&& ball_of);
 
@@ -50,24 +52,27 @@ class RefinementDisk {
   [[nodiscard]] double distance_to(const Vec3& p) const;
 
   [[nodiscard]] std::uint32_t attempt() const { return attempt_; }
-  [[nodiscard]] std::span<const std::uint32_t> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const std::uint32_t> triangles() const { return std::span(triangles_).first(size_); }
+  [[nodiscard]] bool holds(std::uint32_t triangle) const { return mesh_.triangles[triangle].attempt == attempt_; }
   [[nodiscard]] std::span<const RimEdge> rim() const { return std::span(rim_).first(rim_size_); }
 
  private:
-  void take(std::uint32_t triangle) {
-    is_blocked_ |= triangle < frozen_;
-    mesh_.triangles[triangle].attempt = attempt_;
-    mesh_.prefetch_around(triangle);
-    triangles_.push_back(triangle);
+  // Takes a triangle into E if `is_so`, without a branch: whether it is so cannot be foretold. There must be room.
+  void take_if(bool is_so, std::uint32_t triangle) {
+    std::uint32_t& attempt = mesh_.triangles[triangle].attempt;
+    attempt = is_so ? attempt_ : attempt;
+    is_blocked_ |= is_so & (triangle < frozen_);
+    triangles_[size_] = triangle;
+    size_ += static_cast<std::size_t>(is_so);
   }
-  [[nodiscard]] bool holds(std::uint32_t triangle) const { return mesh_.triangles[triangle].attempt == attempt_; }
   void find_rim(const RefinementCandidate& candidate);
 
   RefinementMesh& mesh_;
   std::uint32_t frozen_;
   std::uint32_t attempt_ = 0;
   bool is_blocked_ = false;
-  std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint32_t> triangles_;  // the first size_ of them; what lies beyond is room
+  std::size_t size_ = 0;
   std::vector<RimEdge> rim_;  // the first rim_size_ of them; what lies beyond is room
   std::size_t rim_size_ = 0;
   std::vector<RimEdge> ordered_;
@@ -77,16 +82,20 @@ template <class BallOf>
 void RefinementDisk::grow(const RefinementCandidate& candidate, BallOf&& ball_of) {
   ++attempt_;
   is_blocked_ = false;
-  triangles_.clear();
-  take(candidate.seed);
+  size_ = 0;
+  triangles_.resize(std::max<std::size_t>(triangles_.size(), 8));
+  take_if(true, candidate.seed);
   if (candidate.halved != kNoSide) {
-    take(mesh_.triangles[candidate.halved >> 2].neighbours[candidate.halved & 3u] >> 2);
+    take_if(true, mesh_.triangles[candidate.halved >> 2].neighbours[candidate.halved & 3u] >> 2);
   } else {
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      for (const TriangleSide side : mesh_.triangles[triangles_[i]].neighbours) {
-        if (side == kNoSide || holds(side >> 2)) continue;
-        const SurfaceDelaunayBall ball = ball_of(side >> 2);
-        if (squared_distance(candidate.point, ball.center) < ball.squared_radius) take(side >> 2);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (size_ + 3 > triangles_.size()) triangles_.resize(2 * triangles_.size());
+      const std::uint32_t within = triangles_[i];
+      for (const TriangleSide side : mesh_.triangles[within].neighbours) {
+        const std::uint32_t t = side == kNoSide ? within : side >> 2;
+        const SurfaceDelaunayBall ball = ball_of(t);
+        const bool is_near = squared_distance(candidate.point, ball.center) < ball.squared_radius;
+        take_if(!holds(t) & is_near, t);
       }
     }
   }

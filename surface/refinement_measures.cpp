@@ -101,13 +101,22 @@ std::vector<float> Refinement::measure_all(int threads) {
   std::vector<RefineStats> counted(count / kBlockSize + 1);
   for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
     Refinement block(part_, isosurface_, options_, counted[first / kBlockSize]);
-    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const NewTriangle now = block.measure({mesh_.corner_points(mesh_.triangles[t].corners), mean_pole_height(t)});
-      block.learn(t, now);
-      if (!mesh_.triangles[t].is_coarse()) continue;
-      // Radii have to get smaller by the badness; r_min may end it before.
-      const double times = std::min(now.badness, now.radius / options_.r_min);
-      expected[t] = static_cast<float>(std::min(times * times, kMostExpected));
+    std::array<Shape, kLanes> shapes;
+    std::array<NewTriangle, kLanes> now;
+    for (std::size_t from = first; from < last; from += kLanes) {
+      const std::size_t some = std::min(kLanes, last - from);
+      for (std::size_t i = 0; i < some; ++i) {
+        const auto t = static_cast<std::uint32_t>(from + i);
+        shapes[i] = {mesh_.corner_points(mesh_.triangles[t].corners), mean_pole_height(t)};
+      }
+      block.measure(std::span(shapes).first(some), std::span(now).first(some));
+      for (std::size_t i = 0; i < some; ++i) {
+        block.learn(static_cast<std::uint32_t>(from + i), now[i]);
+        if (!mesh_.triangles[from + i].is_coarse()) continue;
+        // Radii have to get smaller by the badness; r_min may end it before.
+        const double times = std::min(now[i].badness, now[i].radius / options_.r_min);
+        expected[from + i] = static_cast<float>(std::min(times * times, kMostExpected));
+      }
     }
   });
   for (const RefineStats& stats : counted) stats_.search += stats.search;

@@ -10,7 +10,7 @@ namespace deliso {
 
 namespace {
 
-constexpr double kSmallest = 1;  // boxes smaller than this (mesh-space units) share a level
+constexpr double kSmallest = 0.5;  // boxes smaller than this (mesh-space units) share a level
 // Cells are numbered up to this far from the origin, which is what their keys have room for; beyond it they run
 // together.
 constexpr double kFarthest = 0x1p18 - 1;
@@ -36,7 +36,7 @@ std::int32_t floored(double x) {
 
 int TightTriangles::level_of(const Box3& box) {
   const Vec3 size = box.size();
-  return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 1;
+  return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 2;
 }
 
 TightTriangles::FloatBox TightTriangles::rounded_outward(const Box3& box) {
@@ -81,11 +81,16 @@ void TightTriangles::Range::for_each(Visit&& visit) const {
   }
 }
 
-TightTriangles::Range TightTriangles::cells_of(const Box3& box, int level) {
+TightTriangles::Place TightTriangles::place_of(const Vec3& point, int level) {
   const double scale = scale_of(level);
   const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
-  return {{place(box.low.x), place(box.low.y), place(box.low.z)},
-          {place(box.high.x), place(box.high.y), place(box.high.z)}};
+  return {place(point.x), place(point.y), place(point.z)};
+}
+
+// Where the low corners of boxes are that meet `box`: such a box is smaller than half a cell.
+TightTriangles::Range TightTriangles::cells_near(const Box3& box, int level) {
+  const double half = 0.5 / scale_of(level);
+  return {place_of(box.low - Vec3{half, half, half}, level), place_of(box.high, level)};
 }
 
 TightTriangles::Range TightTriangles::blocks_of(const Range& cells) {
@@ -110,7 +115,7 @@ std::uint64_t TightTriangles::block_key(int level, const Place& place) {
 // Calls visit(cell) for those cells of a level that have been used, and maybe for others.
 template <class Visit>
 void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& visit) const {
-  const auto look_at = [&](const Place& place) { visit(cells_[place_of(cell_key(level, place))]); };
+  const auto look_at = [&](const Place& place) { visit(cells_[slot_of(cell_key(level, place))]); };
   if (cells.count() <= kFewCells) {
     cells.for_each(look_at);
     return;
@@ -127,7 +132,7 @@ void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& v
   const Range blocks = blocks_of(cells);
   if (blocks.count() <= kManyBlocks) {
     blocks.for_each([&](const Place& block) {
-      if (cells_[place_of(block_key(level, block))].key != kNoKey) look_into(block);
+      if (cells_[slot_of(block_key(level, block))].key != kNoKey) look_into(block);
     });
     return;
   }
@@ -136,80 +141,76 @@ void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& v
   }
 }
 
-// Where a key is, or the free place where it belongs.
-std::size_t TightTriangles::place_of(std::uint64_t key) const {
+// Where a key is, or the free slot where it belongs.
+std::size_t TightTriangles::slot_of(std::uint64_t key) const {
   const std::size_t mask = cells_.size() - 1;
-  std::size_t place = (key * 0x9E3779B97F4A7C15u) >> 32 & mask;
-  while (cells_[place].key != key && cells_[place].key != kNoKey) place = (place + 1) & mask;
-  return place;
+  std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> 32 & mask;
+  while (cells_[slot].key != key && cells_[slot].key != kNoKey) slot = (slot + 1) & mask;
+  return slot;
 }
 
-// False when it is there already.
-bool TightTriangles::insert(std::uint64_t key) {
-  if (cells_[place_of(key)].key == key) return false;
-  if (2 * ++used_ > cells_.size()) grow();
-  cells_[place_of(key)].key = key;
+// False when it is there already; `slot` is where it is then.
+bool TightTriangles::insert(std::uint64_t key, std::size_t& slot) {
+  slot = slot_of(key);
+  if (cells_[slot].key == key) return false;
+  if (2 * ++used_ > cells_.size()) {
+    grow();
+    slot = slot_of(key);
+  }
+  cells_[slot].key = key;
   return true;
 }
 
 TightTriangles::Cell& TightTriangles::cell_at(int level, const Place& place) {
   const std::uint64_t key = cell_key(level, place);
-  if (insert(key)) {
+  std::size_t slot = 0, of_block = 0;
+  if (insert(key, slot)) {
     const Place block = {place[0] >> kBlockShift, place[1] >> kBlockShift, place[2] >> kBlockShift};
-    if (insert(block_key(level, block))) blocks_[static_cast<std::size_t>(level)].push_back(block);
+    if (insert(block_key(level, block), of_block)) blocks_[static_cast<std::size_t>(level)].push_back(block);
+    slot = slot_of(key);  // the block may have made the table grow
   }
-  return cells_[place_of(key)];
+  return cells_[slot];
 }
 
 void TightTriangles::grow() {
   std::vector<Cell> old(4 * cells_.size());
   std::swap(old, cells_);
   for (Cell& cell : old) {
-    if (cell.key != kNoKey) cells_[place_of(cell.key)] = std::move(cell);
+    if (cell.key != kNoKey) cells_[slot_of(cell.key)] = std::move(cell);
   }
 }
 
 void TightTriangles::add(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
   if (level >= kLevels) return;
-  if (seen_.size() <= triangle) seen_.resize(triangle + 1, 0);
-  seen_[triangle] = 1;
+  if (held_.size() <= triangle) held_.resize(triangle + 1, 0);
+  held_[triangle] = 1;
   ++kept_at_[static_cast<std::size_t>(level)];
-  const Entry entry{rounded_outward(box), triangle};
-  cells_of(box, level).for_each([&](const Place& place) { cell_at(level, place).entries.push_back(entry); });
+  cell_at(level, place_of(box.low, level)).entries.push_back({rounded_outward(box), triangle});
 }
 
 void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
-  seen_[triangle] = 0;
+  held_[triangle] = 0;
   --kept_at_[static_cast<std::size_t>(level)];
-  cells_of(box, level).for_each([&](const Place& cell) {
-    auto& entries = cells_[place_of(cell_key(level, cell))].entries;
-    std::size_t place = 0;
-    while (place < entries.size() && entries[place].triangle != triangle) ++place;
-    if (place == entries.size()) return;
-    entries[place] = entries.back();
-    entries.pop_back();
-  });
+  auto& entries = cells_[slot_of(cell_key(level, place_of(box.low, level)))].entries;
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.triangle == triangle; });
+  *entry = entries.back();
+  entries.pop_back();
 }
 
-void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& found) {
-  ++search_;
+void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& found) const {
   const FloatBox rounded = rounded_outward(box);
   for (int level = 0; level < kLevels; ++level) {
     if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
-    for_each_used_cell(cells_of(box, level), level, [&](const Cell& cell) {
-      const std::vector<Entry>& entries = cell.entries;
+    for_each_used_cell(cells_near(box, level), level, [&](const Cell& cell) {
       // Which of them are found cannot be foretold: all are written, and what is not found is overwritten.
       std::size_t count = found.size();
-      found.resize(count + entries.size());
-      for (const Entry& entry : entries) {
-        auto& seen = seen_[entry.triangle];
-        const auto meets = static_cast<std::uint32_t>(meet(entry.box, rounded));
-        const std::uint32_t change = (seen ^ search_) & (0u - meets);
-        seen ^= change;
+      found.resize(count + cell.entries.size());
+      for (const Entry& entry : cell.entries) {
         found[count] = entry.triangle;
-        count += static_cast<std::size_t>(change != 0);
+        count += static_cast<std::size_t>(meet(entry.box, rounded));
       }
       found.resize(count);
     });

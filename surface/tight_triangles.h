@@ -9,17 +9,18 @@
 
 namespace deliso {
 
-// Cells of 2^level mesh-space units; a triangle is kept at the level of its size, at which it meets few cells.
+// Cells of 2^level mesh-space units; a triangle is kept at the first level whose cells are larger than its box, in the
+// cell of the box's low corner.
 class TightTriangles {
  public:
-  [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < seen_.size() && seen_[triangle] != 0; }
+  [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < held_.size() && held_[triangle] != 0; }
   // Precondition: not there yet; there, with the same box. Triangles of boxes that no level is large enough for are
   // left out.
   void add(std::uint32_t triangle, const Box3& box);
   void remove(std::uint32_t triangle, const Box3& box);
 
   // Appends all whose boxes, rounded outward to floats, meet `box`.
-  void append_near(const Box3& box, std::vector<std::uint32_t>& found);
+  void append_near(const Box3& box, std::vector<std::uint32_t>& found) const;
 
  private:
   struct FloatBox {
@@ -49,13 +50,14 @@ class TightTriangles {
   static int level_of(const Box3& box);
   static FloatBox rounded_outward(const Box3& box);
   static bool meet(const FloatBox& a, const FloatBox& b);
-  static Range cells_of(const Box3& box, int level);
+  static Place place_of(const Vec3& point, int level);
+  static Range cells_near(const Box3& box, int level);
   static Range blocks_of(const Range& cells);
   static std::uint64_t cell_key(int level, const Place& place);
   static std::uint64_t block_key(int level, const Place& place);
-  [[nodiscard]] std::size_t place_of(std::uint64_t key) const;
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
   Cell& cell_at(int level, const Place& place);
-  bool insert(std::uint64_t key);
+  bool insert(std::uint64_t key, std::size_t& slot);
   void grow();
   template <class Visit>
   void for_each_used_cell(const Range& cells, int level, Visit&& visit) const;
@@ -65,8 +67,7 @@ class TightTriangles {
   std::size_t used_ = 0;
   std::array<std::vector<Place>, kLevels> blocks_;  // those that are used
   std::array<std::size_t, kLevels> kept_at_{};      // triangles at each level
-  std::vector<std::uint32_t> seen_;  // of each triangle: 0 when not held, else the last search that met it
-  std::uint32_t search_ = 1;
+  std::vector<std::uint8_t> held_;                  // of each triangle: whether it is there
 };
 
 }  // namespace deliso

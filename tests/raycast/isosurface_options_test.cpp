@@ -128,7 +128,9 @@ TEST(Isosurface, SearchesSideBySideFindWhatEachFindsAlone) {
             if (!asked[i]) continue;
             const std::optional<double> hit = surface.nearest_falling_hit(lines.at(i), 5, alone);
             ASSERT_EQ(std::isnan(hits[i]), !hit.has_value()) << describe(lines.at(i), -5, 5);
-            if (hit) ASSERT_EQ(hits[i], *hit) << describe(lines.at(i), -5, 5);
+            if (hit) {
+              ASSERT_EQ(hits[i], *hit) << describe(lines.at(i), -5, 5);
+            }
           }
           EXPECT_EQ(together.searches, alone.searches);
           EXPECT_EQ(together.solves, alone.solves);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "delaunay/base/box3.h"
 #include "delaunay/base/rng.h"
 #include "volume/trilinear_cell.h"
 
@@ -24,6 +25,7 @@ struct Query {
 void put_in_lane(const Query& query, std::size_t lane, StartCells& cells) {
   for (std::size_t corner = 0; corner < 8; ++corner) cells.relative[corner][lane] = query.corners[corner];
   cells.line.set(lane, {query.u, query.d});
+  cells.reach[lane] = 10;
 }
 
 // In a lane that changes from call to call, beside cells without a hit.
@@ -34,7 +36,7 @@ std::optional<double> falling_hit_around(const CellCorners& corners, const Vec3&
   put_in_lane({corners, u, d}, lane, cells);
   falling_hits_around(cells);
   for (std::size_t other = 0; other < kLanes; ++other) {
-    if (other != lane) EXPECT_TRUE(std::isnan(cells.hit[other]));
+    EXPECT_TRUE(other == lane || std::isnan(cells.hit[other]));
   }
   return std::isnan(cells.hit[lane]) ? std::nullopt : std::optional(cells.hit[lane]);
 }
@@ -118,7 +120,9 @@ TEST(StartCells, LanesDoNotKnowOfEachOther) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const auto alone = falling_hit_around(queries[lane].corners, queries[lane].u, queries[lane].d);
       ASSERT_EQ(std::isnan(cells.hit[lane]), !alone.has_value()) << trial;
-      if (alone) ASSERT_EQ(cells.hit[lane], *alone) << trial;
+      if (alone) {
+        ASSERT_EQ(cells.hit[lane], *alone) << trial;
+      }
     }
   }
 }
@@ -136,7 +140,8 @@ TEST(StartCells, LinesStartInTheCellOfTheirOrigin) {
       lines.set(lane, {origin, {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}});
     }
     StartCells cells;
-    find_start_cells(lines, inverse_step, dims, cells);
+    const Vec3 high{4, 16, 64};
+    find_start_cells(lines, 3, {dims, inverse_step, high}, cells);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const Vec3 place = cells.line.origin.at(lane), at = scaled(lines.origin.at(lane), inverse_step);
       std::size_t index = cells.first[lane];
@@ -151,6 +156,7 @@ TEST(StartCells, LinesStartInTheCellOfTheirOrigin) {
         ASSERT_EQ(cells.line.direction.at(lane)[axis], lines.direction.at(lane)[axis] * inverse_step[axis]);
       }
       ASSERT_EQ(index, 0u);
+      ASSERT_EQ(cells.reach[lane], Box3({{0, 0, 0}, high}).contains(lines.origin.at(lane)) ? 3 : -1) << trial;
     }
   }
 }
