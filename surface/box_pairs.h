@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -21,12 +22,68 @@
 
 namespace deliso {
 
+inline constexpr std::size_t kBoxesPerRow = 8;
+
+// Bit i: whether condition(i) holds. Masks instead of truth values, so that compilers take several i at once.
+template <class Condition>
+std::uint32_t bits_where(const Condition& condition) {
+  constexpr std::array<std::uint32_t, kBoxesPerRow> kBit = {1, 2, 4, 8, 16, 32, 64, 128};
+  std::array<std::uint32_t, kBoxesPerRow> found;
+  for (std::size_t i = 0; i < kBoxesPerRow; ++i) found[i] = condition(i) & kBit[i];
+  std::uint32_t bits = 0;
+  for (const std::uint32_t bit : found) bits |= bit;
+  return bits;
+}
+
+inline std::uint32_t mask_of(bool condition) { return condition ? ~0U : 0U; }
+
+// Three labels of each of eight boxes in a row, side by side. Boxes with a label in common are no pair. A label with
+// the top bit set counts for nothing.
+class LabelRow {
+ public:
+  static constexpr std::uint32_t kVoid = 1U << 31;
+  using Labels = std::array<std::uint32_t, 3>;
+
+  void set(std::size_t i, const Labels& labels) {
+    for (std::size_t k = 0; k < 3; ++k) labels_[k][i] = labels[k];
+  }
+  [[nodiscard]] Labels of(std::size_t i) const { return {labels_[0][i], labels_[1][i], labels_[2][i]}; }
+  // Bit i: whether box i has one of these labels.
+  [[nodiscard]] std::uint32_t sharing(const Labels& labels) const {
+    const std::uint32_t x = valid(labels[0]), y = valid(labels[1]), z = valid(labels[2]);
+    return bits_where([&](std::size_t i) {
+      const std::uint32_t a = labels_[0][i], b = labels_[1][i], c = labels_[2][i];
+      return mask_of(a == x) | mask_of(a == y) | mask_of(a == z) | mask_of(b == x) | mask_of(b == y) | mask_of(b == z) |
+             mask_of(c == x) | mask_of(c == y) | mask_of(c == z);
+    });
+  }
+  // The same for that label of box 0 which the most boxes have.
+  [[nodiscard]] std::uint32_t sharing_one() const {
+    std::uint32_t most = 0;
+    for (const auto& row : labels_) {
+      const std::uint32_t label = valid(row[0]);
+      const std::uint32_t bits = bits_where([&](std::size_t i) {
+        return mask_of(labels_[0][i] == label) | mask_of(labels_[1][i] == label) | mask_of(labels_[2][i] == label);
+      });
+      if (std::popcount(bits) > std::popcount(most)) most = bits;
+    }
+    return most;
+  }
+
+ private:
+  // No label is the largest number.
+  static std::uint32_t valid(std::uint32_t label) { return label < kVoid ? label : ~0U; }
+
+  std::array<std::array<std::uint32_t, kBoxesPerRow>, 3> labels_{};
+};
+
 template <class Real>
 class BoxPairs {
  public:
-  // Of `count` boxes; box_of(i) gives the box at place i, none has a point below `low`.
+  // Of `count` boxes; box_of(i) gives the box at place i, none has a point below `low`. Empty boxes are in no pair.
+  // `labels`: rows of eight in the order of places, kept as a reference.
   template <class BoxOf>
-  BoxPairs(std::size_t count, const Vec3& low, BoxOf&& box_of) {
+  BoxPairs(std::size_t count, const Vec3& low, std::span<const LabelRow> labels, BoxOf&& box_of) : labels_(labels) {
     if (count == 0) return;
     levels_.emplace_back((count + kParts - 1) / kParts);
     for (std::size_t i = 0; i < count; ++i) levels_[0][i / kParts].set(i % kParts, rounded(box_of(i), low));
@@ -40,14 +97,14 @@ class BoxPairs {
   [[nodiscard]] std::vector<Task> tasks() const;
 
   // Calls visit(i, j) once for each pair of places of the task whose boxes have a point in common, faces included, and
-  // in floats for others that are apart by less than the rounding.
+  // no label; and in floats for others that are apart by less than the rounding.
   template <class Visit>
   void for_each(const Task& task, Visit&& visit) const {
     task.a == task.b ? within(task.level, task.a, visit) : between(task.level, task.a, task.b, visit);
   }
 
  private:
-  static constexpr std::uint32_t kParts = 8;
+  static constexpr std::uint32_t kParts = kBoxesPerRow;
   static constexpr std::size_t kTaskBlocks = 64;  // tasks begin at a level of at least so many blocks
 
   struct Bounds {
@@ -73,19 +130,12 @@ class BoxPairs {
     [[nodiscard]] Bounds bounds() const;
     // Bit i: whether part i and b have a point in common.
     [[nodiscard]] std::uint32_t meeting(const Bounds& b) const {
-      // Masks instead of truth values, so that compilers take several parts at once.
-      constexpr std::array<std::uint32_t, kParts> kBit = {1, 2, 4, 8, 16, 32, 64, 128};
-      const auto mask = [](bool condition) { return condition ? ~0U : 0U; };
-      std::array<std::uint32_t, kParts> found;
-      for (std::size_t i = 0; i < kParts; ++i) {
-        const std::uint32_t x = mask(low[0][i] <= b.high[0]) & mask(b.low[0] <= high[0][i]);
-        const std::uint32_t y = mask(low[1][i] <= b.high[1]) & mask(b.low[1] <= high[1][i]);
-        const std::uint32_t z = mask(low[2][i] <= b.high[2]) & mask(b.low[2] <= high[2][i]);
-        found[i] = x & y & z & kBit[i];
-      }
-      std::uint32_t bits = 0;
-      for (const std::uint32_t bit : found) bits |= bit;
-      return bits;
+      return bits_where([&](std::size_t i) {
+        const std::uint32_t x = mask_of(low[0][i] <= b.high[0]) & mask_of(b.low[0] <= high[0][i]);
+        const std::uint32_t y = mask_of(low[1][i] <= b.high[1]) & mask_of(b.low[1] <= high[1][i]);
+        const std::uint32_t z = mask_of(low[2][i] <= b.high[2]) & mask_of(b.low[2] <= high[2][i]);
+        return x & y & z;
+      });
     }
   };
 
@@ -107,35 +157,70 @@ class BoxPairs {
   template <class Visit>
   void within(std::uint32_t level, std::uint32_t a, Visit& visit) const;
   template <class Visit>
+  void within_row(std::uint32_t a, Visit& visit) const;
+  template <class Visit>
   void between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const;
+  template <class Visit>
+  void between_rows(std::uint32_t a, std::uint32_t b, Visit& visit) const;
+  // Part b of the level above.
+  [[nodiscard]] Bounds bounds(std::uint32_t level, std::uint32_t b) const {
+    return levels_[level + 1][b / kParts].part(b % kParts);
+  }
 
+  std::span<const LabelRow> labels_;
   std::vector<std::vector<Block>> levels_;  // the lowest first
 };
 
 template <class Real>
 template <class Visit>
 void BoxPairs<Real>::within(std::uint32_t level, std::uint32_t a, Visit& visit) const {
+  if (level == 0) return within_row(a, visit);
   const Block& block = levels_[level][a];
   for (std::uint32_t i = 0; i < kParts; ++i) {
     const std::uint32_t met = block.meeting(block.part(i)) >> i;
-    if ((met & 1) != 0 && level > 0) within(level - 1, kParts * a + i, visit);
+    if ((met & 1) != 0) within(level - 1, kParts * a + i, visit);
     for_each_bit(met >> 1, [&](std::uint32_t k) {
-      const std::uint32_t first = kParts * a + i, second = first + k + 1;
-      level == 0 ? visit(first, second) : between(level - 1, first, second, visit);
+      const std::uint32_t first = kParts * a + i;
+      between(level - 1, first, first + k + 1, visit);
     });
   }
+}
+
+// As a rule nearly all have one label in common: only the others are looked at.
+template <class Real>
+template <class Visit>
+void BoxPairs<Real>::within_row(std::uint32_t a, Visit& visit) const {
+  const Block& block = levels_[0][a];
+  const LabelRow& labels = labels_[a];
+  const std::uint32_t done = labels.sharing_one();
+  for_each_bit(~done & ((1U << kParts) - 1), [&](std::uint32_t i) {
+    const std::uint32_t met = block.meeting(block.part(i)) & ~labels.sharing(labels.of(i));
+    for_each_bit(met & (done | (~0U << i << 1)), [&](std::uint32_t j) { visit(kParts * a + i, kParts * a + j); });
+  });
 }
 
 template <class Real>
 template <class Visit>
 void BoxPairs<Real>::between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const {
+  if (level == 0) return between_rows(a, b, visit);
   // Of the one block the parts that meet the other block, of the other the parts that meet these.
   const Block &of_a = levels_[level][a], &of_b = levels_[level][b];
-  for_each_bit(of_a.meeting(levels_[level + 1][b / kParts].part(b % kParts)), [&](std::uint32_t i) {
-    for_each_bit(of_b.meeting(of_a.part(i)), [&](std::uint32_t j) {
-      const std::uint32_t first = kParts * a + i, second = kParts * b + j;
-      level == 0 ? visit(first, second) : between(level - 1, first, second, visit);
-    });
+  for_each_bit(of_a.meeting(bounds(level, b)), [&](std::uint32_t i) {
+    for_each_bit(of_b.meeting(of_a.part(i)),
+                 [&](std::uint32_t j) { between(level - 1, kParts * a + i, kParts * b + j, visit); });
+  });
+}
+
+template <class Real>
+template <class Visit>
+void BoxPairs<Real>::between_rows(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+  const Block &of_a = levels_[0][a], &of_b = levels_[0][b];
+  const LabelRow &labels_of_a = labels_[a], &labels_of_b = labels_[b];
+  for_each_bit(of_a.meeting(bounds(0, b)), [&](std::uint32_t i) {
+    const std::uint32_t met = of_b.meeting(of_a.part(i));
+    if (met == 0) return;
+    for_each_bit(met & ~labels_of_b.sharing(labels_of_a.of(i)),
+                 [&](std::uint32_t j) { visit(kParts * a + i, kParts * b + j); });
   });
 }
 

@@ -1,7 +1,6 @@
 #include "surface/laid_out_umbrellas.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -11,129 +10,90 @@ namespace deliso {
 
 namespace {
 
-using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+using Triangles = CornersOfVertices::Triangles;
 
 constexpr std::size_t kMostTriangles = 16;  // of a vertex that is looked at
-constexpr std::size_t kVerticesPerTask = 8192;
+constexpr std::size_t kMostTasks = 16, kFewestVertices = 8192;
 
-// The edge across from a corner of a triangle.
-struct LinkEdge {
-  std::uint32_t from = 0, to = 0;
-};
-
-// The corners at each vertex, in the order of the triangles. Precondition: four times the triangles fit into 32 bits.
-class CornersOfVertices {
+// Looks at one vertex after the other.
+class VertexExamination {
  public:
-  CornersOfVertices(std::size_t vertices, Triangles triangles)
-      : triangles_(triangles), begin_(vertices + 2), corners_(3 * triangles.size()) {
-    for (const auto& corners : triangles) {
-      for (const std::uint32_t v : corners) ++begin_[v + 2];
+  VertexExamination(Triangles triangles, std::span<const ProjectedTriangle> projected, std::size_t vertices)
+      : triangles_(triangles), projected_(projected), place_(vertices) {}
+
+  // Seen along an axis in which all triangles have the same sense, the edges of the link go around the vertex, each by
+  // less than half a turn. So with every full turn they change sides of a line through the vertex twice, and once
+  // around is the way of a single closed walk.
+  bool is_laid_out(std::span<const TriangleCorner> corners) {
+    if (corners.size() < 3 || corners.size() > kMostTriangles) return false;
+    std::uint32_t senses = 63, changes = 0;  // of these eight bits for each axis
+    for (const TriangleCorner corner : corners) {
+      const ProjectedTriangle& triangle = projected_[corner >> 2];
+      const std::uint32_t straddles = triangle.straddles(corner & 3);
+      senses &= triangle.senses();
+      changes += (straddles & 1) | (straddles & 2) << 7;
     }
-    for (std::size_t v = 2; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      for (std::uint32_t i = 0; i < 3; ++i) corners_[begin_[triangles[t][i] + 1]++] = t << 2 | i;
-    }
+    const bool is_twice_along_x = (changes & 255) == 2, is_twice_along_y = changes >> 8 == 2;
+    const std::uint32_t once_around = (is_twice_along_x ? 6U : 0U) | (is_twice_along_y ? 1U : 0U);
+    return ((senses | senses >> 3) & once_around) != 0 && closes_up(corners);
   }
-  [[nodiscard]] std::size_t count(std::size_t v) const { return begin_[v + 1] - begin_[v]; }
-  // Across from corner i at v.
-  [[nodiscard]] LinkEdge edge(std::size_t v, std::size_t i) const {
+
+ private:
+  // Whether each end of an edge of the link is the beginning of one, each of another one.
+  bool closes_up(std::span<const TriangleCorner> corners) {
     constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
-    const std::uint32_t corner = corners_[begin_[v] + i];
-    const auto& triangle = triangles_[corner >> 2];
-    return {triangle[kNext[corner & 3]], triangle[kPrevious[corner & 3]]};
-  }
-
- private:
-  Triangles triangles_;
-  std::vector<std::uint32_t> begin_, corners_;
-};
-
-// The vertices of a link in a row, when its edges form one cycle. Precondition: at least one, at most kMostTriangles.
-class LinkCycle {
- public:
-  LinkCycle(const CornersOfVertices& corners, std::size_t v) {
-    corners.count(v) <= kMostTriangles / 2 ? follow<kMostTriangles / 2>(corners, v)
-                                           : follow<kMostTriangles>(corners, v);
-  }
-  [[nodiscard]] bool is_closed() const { return is_closed_; }
-  [[nodiscard]] std::span<const std::uint32_t> vertices() const { return std::span(vertices_).first(size_); }
-
- private:
-  // Of a link with at most so many edges.
-  template <std::size_t kMost>
-  void follow(const CornersOfVertices& corners, std::size_t v) {
-    const std::size_t count = corners.count(v);
-    std::array<std::uint32_t, kMost> from, to;
-    from.fill(0xFFFFFFFFU);
-    for (std::size_t i = 0; i < count; ++i) {
-      const LinkEdge edge = corners.edge(v, i);
-      from[i] = edge.from;
-      to[i] = edge.to;
+    std::array<std::uint32_t, kMostTriangles> begins, ends;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto& triangle = triangles_[corners[i] >> 2];
+      begins[i] = triangle[kNext[corners[i] & 3]];
+      ends[i] = triangle[kPrevious[corners[i] & 3]];
+      place_[begins[i]] = static_cast<std::uint8_t>(i);
     }
     std::uint32_t seen = 0;
-    for (std::size_t next = 0; size_ < count; ++size_) {
-      vertices_[size_] = from[next];
-      // Without branches, for the next edge cannot be foretold.
-      std::uint32_t places = 0;
-      for (std::size_t i = 0; i < kMost; ++i) places |= from[i] == to[next] ? 1U << i : 0U;
-      if (places == 0 || (places & (places - 1)) != 0) return;
-      next = static_cast<std::size_t>(std::countr_zero(places));
-      seen |= places;
+    bool is_open = false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::size_t place = place_[ends[i]];
+      is_open |= begins[place] != ends[i];
+      seen |= 1U << place;
     }
-    is_closed_ = seen == (1U << count) - 1;
+    return !is_open && seen == (1U << corners.size()) - 1;
   }
 
-  std::array<std::uint32_t, kMostTriangles> vertices_{};
-  std::size_t size_ = 0;
-  bool is_closed_ = false;
+  Triangles triangles_;
+  std::span<const ProjectedTriangle> projected_;
+  std::vector<std::uint8_t> place_;  // of the last edge that began at a vertex, below kMostTriangles
 };
-
-// Whether the rays from the origin along the `spokes`, seen along the axis, go around it once, each less than half a
-// turn from the one before it, all in the same sense. Differences of coordinates may be rounded: that is in the bound.
-bool go_around_once(std::span<const Vec3> spokes, std::size_t axis) {
-  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  // Of the determinant of rounded differences (Shewchuk 1997); the summand covers products that underflow.
-  constexpr double kRelative = 3.3306690738754716e-16, kUnderflow = 1e-300;
-  bool all_left = true, all_right = true;
-  int changes = 0;  // of the side of the u axis; a rounded difference has the sign of the exact one
-  const Vec3* last = &spokes.back();
-  for (const Vec3& spoke : spokes) {
-    const double left = (*last)[u] * spoke[v], right = (*last)[v] * spoke[u];
-    const double determinant = left - right, error = kRelative * (std::abs(left) + std::abs(right)) + kUnderflow;
-    all_left &= determinant > error;
-    all_right &= determinant < -error;
-    changes += ((*last)[v] < 0) != (spoke[v] < 0) ? 1 : 0;
-    last = &spoke;
-  }
-  return (all_left || all_right) && changes == 2;
-}
-
-bool is_laid_out(std::span<const Vec3> points, const CornersOfVertices& corners, std::size_t v) {
-  const std::size_t count = corners.count(v);
-  if (count < 3 || count > kMostTriangles) return false;
-  const LinkCycle cycle(corners, v);
-  if (!cycle.is_closed()) return false;
-
-  std::array<Vec3, kMostTriangles> differences;
-  const auto spokes = std::span(differences).first(count);
-  for (std::size_t i = 0; i < count; ++i) spokes[i] = points[cycle.vertices()[i]] - points[v];
-  Vec3 normal = cross(spokes.back(), spokes.front());
-  for (std::size_t i = 1; i < spokes.size(); ++i) normal += cross(spokes[i - 1], spokes[i]);
-  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-  return go_around_once(spokes, x >= y && x >= z ? 0 : y >= z ? 1 : 2);
-}
 
 }  // namespace
 
-std::vector<std::uint8_t> laid_out_umbrellas(std::span<const Vec3> points, Triangles triangles, int threads) {
-  std::vector<std::uint8_t> laid_out(points.size());
-  if (triangles.size() > 0xFFFFFFFFU / 4) return laid_out;
-  const CornersOfVertices corners(points.size(), triangles);
-  const std::size_t tasks = (points.size() + kVerticesPerTask - 1) / kVerticesPerTask;
-  run_tasks(tasks, threads, [&](std::size_t task) {
-    const std::size_t end = std::min((task + 1) * kVerticesPerTask, points.size());
-    for (std::size_t v = task * kVerticesPerTask; v < end; ++v) {
-      laid_out[v] = is_laid_out(points, corners, v) ? 1 : 0;
+ProjectedTriangle::ProjectedTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  // Of a determinant of rounded differences (Shewchuk 1997); the summand covers products that underflow.
+  constexpr double kRelative = 3.3306690738754716e-16, kUnderflow = 1e-300;
+  const Vec3 p = a - c, q = b - c;
+  const auto senses_along = [&](std::size_t axis) {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const double left = p[u] * q[v], right = p[v] * q[u];
+    const double determinant = left - right, error = kRelative * (std::abs(left) + std::abs(right)) + kUnderflow;
+    return ((determinant > error ? 1U : 0U) | (determinant < -error ? 8U : 0U)) << axis;
+  };
+  const auto straddles_along = [](double x, double y, double z) {
+    const auto is_below = [](double s, double t) { return s < t ? 1U : 0U; };
+    return (is_below(y, x) ^ is_below(z, x)) | (is_below(z, y) ^ is_below(x, y)) << 2 |
+           (is_below(x, z) ^ is_below(y, z)) << 4;
+  };
+  bits_ = static_cast<std::uint16_t>(senses_along(0) | senses_along(1) | senses_along(2) |
+                                     straddles_along(a.x, b.x, c.x) << 6 | straddles_along(a.y, b.y, c.y) << 7);
+}
+
+std::vector<std::uint8_t> laid_out_umbrellas(Triangles triangles, std::span<const ProjectedTriangle> projected,
+                                             const CornersOfVertices& corners, std::size_t vertices, int threads) {
+  std::vector<std::uint8_t> laid_out(vertices);
+  const std::size_t per_task = std::max(kFewestVertices, vertices / kMostTasks + 1);
+  run_tasks((vertices + per_task - 1) / per_task, threads, [&](std::size_t task) {
+    VertexExamination examination(triangles, projected, vertices);
+    const std::size_t end = std::min((task + 1) * per_task, vertices);
+    for (std::size_t v = task * per_task; v < end; ++v) {
+      laid_out[v] = examination.is_laid_out(corners.at(v)) ? 1 : 0;
     }
   });
   return laid_out;

@@ -9,6 +9,7 @@
 #include "surface/box_pairs.h"
 #include "surface/halving_order.h"
 #include "surface/laid_out_umbrellas.h"
+#include "surface/umbrella_rows.h"
 
 namespace deliso {
 
@@ -66,40 +67,44 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
   return middle;
 }
 
-// The number that follows that of a vertex the triangles share; 0 when there is none. Numbers are below 2^31. Nothing
-// here can be foretold, and compilers make branches of comparisons: so by the sign of what a subtraction leaves.
-std::uint32_t after_shared_vertex(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
-  std::uint32_t found = 0;
-  for (const std::uint32_t v : s) {
-    const std::uint32_t signs = ((v ^ t[0]) - 1) | ((v ^ t[1]) - 1) | ((v ^ t[2]) - 1);  // the top one: v is in t
-    found ^= (found ^ (v + 1)) & (0u - (signs >> 31));
-  }
-  return found;
-}
-
-// The triangles that have an area, in the order of halving, and their vertices in the order in which they come there:
-// so what lies near each other in space does so in memory.
+// The triangles that have an area in rows of eight places, umbrella by umbrella in the order of halving, and their
+// vertices in the order in which they come there: so what lies near each other in space does so in memory. Where
+// nothing can meet at a vertex its number is a label of its triangles.
 class OrderedTriangles {
  public:
   using Corners = std::array<std::uint32_t, 3>;
 
   OrderedTriangles(std::span<const Vec3> points, std::span<const Corners> triangles, int threads) {
-    Box3 all;
-    for (const Vec3& p : points) all.extend(p);
-    low_ = all.low;
-    numbers_ = order(points, triangles, all, threads);
-    renumber(points, triangles);
+    DELISO_CHECK(points.size() < LabelRow::kVoid, "numbers of vertices leave the top bit free");
+    for (const Vec3& p : points) whole_.extend(p);
+    std::vector<ProjectedTriangle> projected;
+    std::vector<std::uint8_t> has_area;
+    look_at(points, triangles, projected, has_area);
+    const CornersOfVertices corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
+    const std::vector<std::uint8_t> laid_out =
+        laid_out_umbrellas(triangles, projected, corners, points.size(), threads);
+    place(umbrella_rows(triangles, has_area, corners, points.size()), points, threads);
+    renumber(points, triangles, laid_out);
   }
 
-  [[nodiscard]] std::size_t size() const { return numbers_.size(); }
+  // Triangles, and places for them: there may be more places.
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t places() const { return numbers_.size(); }
+  [[nodiscard]] bool is_empty(std::size_t i) const { return numbers_[i] == kNone; }
   // In the numbers of the input.
   [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
   // In numbers of their own.
-  [[nodiscard]] const std::vector<Corners>& corners() const { return corners_; }
+  [[nodiscard]] Corners corners(std::size_t i) const {
+    Corners corners = labels_[i / kBoxesPerRow].of(i % kBoxesPerRow);
+    for (std::uint32_t& v : corners) v &= ~LabelRow::kVoid;
+    return corners;
+  }
   [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }
-  // No point lies below.
-  [[nodiscard]] const Vec3& low() const { return low_; }
-  [[nodiscard]] Box3 box(std::size_t i) const { return box_of(points_, corners_[i]); }
+  [[nodiscard]] const std::vector<LabelRow>& labels() const { return labels_; }
+  // All points lie in it.
+  [[nodiscard]] const Box3& whole() const { return whole_; }
+  // Empty where no triangle is.
+  [[nodiscard]] Box3 box(std::size_t i) const { return is_empty(i) ? Box3{} : box_of(points_, corners(i)); }
 
   [[nodiscard]] TrianglePair pair(std::uint32_t i, std::uint32_t j, TriangleContact contact) const {
     const auto [first, second] = std::minmax(numbers_[i], numbers_[j]);
@@ -107,60 +112,75 @@ class OrderedTriangles {
   }
 
  private:
-  static std::vector<std::uint32_t> order(std::span<const Vec3> points, std::span<const Corners> triangles,
-                                          const Box3& all, int threads) {
-    const CentreLattice lattice(all);
-    std::vector<LatticePlace> places;
-    places.reserve(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto& [a, b, c] = triangles[t];
-      if (!has_area(points[a], points[b], points[c])) continue;
-      const Box3 box = box_of(points, triangles[t]);
-      // Halved terms cannot overflow.
-      places.push_back(lattice.place(0.5 * box.low + 0.5 * box.high, t));
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  void look_at(std::span<const Vec3> points, std::span<const Corners> triangles,
+               std::vector<ProjectedTriangle>& projected, std::vector<std::uint8_t>& has_area) {
+    projected.reserve(triangles.size());
+    has_area.reserve(triangles.size());
+    for (const auto& [a, b, c] : triangles) {
+      projected.emplace_back(points[a], points[b], points[c]);
+      const bool has = projected.back().senses() != 0 || deliso::has_area(points[a], points[b], points[c]);
+      has_area.push_back(has ? 1 : 0);
+      count_ += has ? 1 : 0;
     }
-    const auto centre_of = [&](std::uint32_t t) {
-      const Box3 box = box_of(points, triangles[t]);
-      return 0.5 * box.low + 0.5 * box.high;
-    };
-    return halving_order(std::move(places), centre_of, threads);
   }
 
-  void renumber(std::span<const Vec3> points, std::span<const Corners> triangles) {
-    constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
-    DELISO_CHECK(points.size() < std::size_t{1} << 31, "numbers of vertices leave the top bit free");
-    std::vector<std::uint32_t> renumbered(points.size(), kUnseen);
-    points_.reserve(std::min(points.size(), 3 * size()));
-    corners_.reserve(size());
-    for (const std::uint32_t t : numbers_) {
-      Corners corners = triangles[t];
+  // Gives the rows their order and the triangles their places. Rows that have room for the next one take it in.
+  void place(const std::vector<UmbrellaRow>& rows, std::span<const Vec3> points, int threads) {
+    const CentreLattice lattice(whole_);
+    std::vector<LatticePlace> centres;
+    centres.reserve(rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) centres.push_back(lattice.place(points[rows[r].vertex], r));
+    const auto centre_of = [&](std::uint32_t r) { return points[rows[r].vertex]; };
+    numbers_.reserve(kBoxesPerRow * rows.size());
+    std::size_t left = 0;  // in the last row
+    for (const std::uint32_t r : halving_order(std::move(centres), centre_of, threads)) {
+      const UmbrellaRow& row = rows[r];
+      if (row.count > left) {
+        numbers_.resize(numbers_.size() + left, kNone);
+        left = kBoxesPerRow;
+      }
+      numbers_.insert(numbers_.end(), row.triangles.begin(), row.triangles.begin() + row.count);
+      left -= row.count;
+    }
+    numbers_.resize(numbers_.size() + left, kNone);
+  }
+
+  void renumber(std::span<const Vec3> points, std::span<const Corners> triangles,
+                std::span<const std::uint8_t> laid_out) {
+    std::vector<std::uint32_t> labels(points.size(), kNone);
+    points_.reserve(std::min(points.size(), 3 * count_));
+    labels_.resize(numbers_.size() / kBoxesPerRow);
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      if (is_empty(i)) continue;
+      Corners corners = triangles[numbers_[i]];
       for (std::uint32_t& v : corners) {
-        std::uint32_t& number = renumbered[v];
-        if (number == kUnseen) {
-          number = static_cast<std::uint32_t>(points_.size());
+        std::uint32_t& label = labels[v];
+        if (label == kNone) {
+          label = static_cast<std::uint32_t>(points_.size()) | (laid_out[v] != 0 ? 0 : LabelRow::kVoid);
           points_.push_back(points[v]);
         }
-        v = number;
+        v = label;
       }
-      corners_.push_back(corners);
+      labels_[i / kBoxesPerRow].set(i % kBoxesPerRow, corners);
     }
   }
 
+  std::size_t count_ = 0;
   std::vector<std::uint32_t> numbers_;
-  std::vector<Corners> corners_;
+  std::vector<LabelRow> labels_;
   std::vector<Vec3> points_;
-  Vec3 low_;
+  Box3 whole_;
 };
 
-// Whether floats tell most triangles apart.
+// Whether floats tell most triangles apart: asks the first ones of rows.
 bool floats_do(const OrderedTriangles& triangles) {
   constexpr double kSmallest = 0x1p-19;  // of the whole; a rounded coordinate is off by 2^-25 of it at most
-  constexpr std::size_t kMostSmall = 1000;
-  Box3 all;
-  for (const Vec3& p : triangles.points()) all.extend(p);
-  const double smallest = kSmallest * norm(all.size());
+  constexpr std::size_t kMostSmall = 128;
+  const double smallest = kSmallest * norm(triangles.whole().size());
   std::size_t small = 0;
-  for (std::size_t i = 0; i < triangles.size() && small <= kMostSmall; ++i) {
+  for (std::size_t i = 0; i < triangles.places() && small <= kMostSmall; i += kBoxesPerRow) {
     small += norm(triangles.box(i).size()) < smallest ? 1 : 0;
   }
   return small <= kMostSmall;
@@ -171,23 +191,16 @@ bool floats_do(const OrderedTriangles& triangles) {
 template <class Real>
 PairCollector find_pairs(std::span<const std::uint8_t> marks, const OrderedTriangles& ordered, std::size_t keep,
                          int threads) {
-  const std::vector<OrderedTriangles::Corners>& corners = ordered.corners();
-  const BoxPairs<Real> pairs(ordered.size(), ordered.low(), [&](std::size_t i) { return ordered.box(i); });
-  const std::vector<std::uint8_t> laid_out = laid_out_umbrellas(ordered.points(), corners, threads);
-  const auto examine = [&](std::uint32_t i, std::uint32_t j, PairCollector& found) {
-    if (!marks.empty() && marks[ordered.number(i)] == 0 && marks[ordered.number(j)] == 0) return;
-    const TriangleContact contact = triangle_contact(ordered.points(), corners[i], corners[j]);
-    if (contact != TriangleContact::kNone) found.add(ordered.pair(i, j, contact));
-  };
+  const BoxPairs<Real> pairs(ordered.places(), ordered.whole().low, ordered.labels(),
+                             [&](std::size_t i) { return ordered.box(i); });
   const auto tasks = pairs.tasks();
   std::vector<PairCollector> found(tasks.size(), PairCollector(keep));
   run_tasks(tasks.size(), threads, [&](std::size_t task) {
-    pairs.for_each(tasks[task],
-                   [&, corners = corners.data(), laid_out = laid_out.data()](std::uint32_t i, std::uint32_t j) {
-                     const std::uint32_t after_shared = after_shared_vertex(corners[i], corners[j]);
-                     if (after_shared == 0 || laid_out[after_shared - 1] == 0) [[unlikely]]
-                       examine(i, j, found[task]);
-                   });
+    pairs.for_each(tasks[task], [&](std::uint32_t i, std::uint32_t j) {
+      if (!marks.empty() && marks[ordered.number(i)] == 0 && marks[ordered.number(j)] == 0) return;
+      const TriangleContact contact = triangle_contact(ordered.points(), ordered.corners(i), ordered.corners(j));
+      if (contact != TriangleContact::kNone) found[task].add(ordered.pair(i, j, contact));
+    });
   });
   PairCollector all(keep);
   for (const PairCollector& part : found) all.add(part);
@@ -199,7 +212,7 @@ SelfIntersections examined(const OrderedTriangles& ordered, std::size_t triangle
   PairCollector found = floats_do(ordered) ? find_pairs<float>(marks, ordered, keep, threads)
                                            : find_pairs<double>(marks, ordered, keep, threads);
   SelfIntersections result = std::move(found).sorted();
-  result.zero_area_triangles = static_cast<std::int64_t>(triangle_count - ordered.size());
+  result.zero_area_triangles = static_cast<std::int64_t>(triangle_count - ordered.count());
   return result;
 }
 

@@ -23,6 +23,7 @@ Vec3 centre(const Box3& box) { return 0.5 * (box.low + box.high); }
 Box3 box_of_all(const std::vector<Box3>& boxes) {
   Box3 all;
   for (const Box3& box : boxes) {
+    if (box.low.x > box.high.x) continue;  // empty
     all.extend(box.low);
     all.extend(box.high);
   }
@@ -124,9 +125,10 @@ TEST(HalvingOrder, PartsACrowdInOneStepOfTheLattice) {
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 template <class Real>
-Pairs found_pairs(const std::vector<Box3>& ordered, std::size_t& most_tasks) {
+Pairs found_pairs(const std::vector<Box3>& ordered, const std::vector<LabelRow>& labels, std::size_t& most_tasks) {
   Pairs found;
-  const BoxPairs<Real> pairs(ordered.size(), box_of_all(ordered).low, [&](std::size_t i) { return ordered[i]; });
+  const BoxPairs<Real> pairs(ordered.size(), box_of_all(ordered).low, labels,
+                             [&](std::size_t i) { return ordered[i]; });
   const auto tasks = pairs.tasks();
   most_tasks = std::max(most_tasks, tasks.size());
   for (const auto& task : tasks) {
@@ -134,6 +136,27 @@ Pairs found_pairs(const std::vector<Box3>& ordered, std::size_t& most_tasks) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+using Labels = LabelRow::Labels;
+
+// Few labels, or many, void ones among them; boxes in a row often have one in common.
+std::vector<Labels> random_labels(Rng& rng, std::size_t count) {
+  std::vector<Labels> all(count);
+  const std::uint64_t kinds = rng.below(2) == 0 ? 10 : 1000;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::uint32_t& label : all[i]) {
+      label = static_cast<std::uint32_t>(rng.below(kinds)) | (rng.below(4) == 0 ? LabelRow::kVoid : 0);
+    }
+    if (i % 8 != 0 && rng.below(3) > 0) all[i][rng.below(3)] = all[i / 8 * 8][i / 8 % 3];
+  }
+  return all;
+}
+
+bool have_common_label(const Labels& s, const Labels& t) {
+  return std::any_of(s.begin(), s.end(), [&](std::uint32_t label) {
+    return label < LabelRow::kVoid && std::find(t.begin(), t.end(), label) != t.end();
+  });
 }
 
 // By brute force; boxes on a coarse grid touch in faces, edges and corners.
@@ -153,14 +176,21 @@ TEST(BoxPairs, FindsThePairsOfBruteForce) {
     }
     std::vector<Box3> ordered;
     for (const std::uint32_t i : order_of(boxes)) ordered.push_back(boxes[i]);
+    for (Box3& box : ordered) {
+      if (rng.below(10) == 0) box = {};  // a place that is free
+    }
+    const std::vector<Labels> labels = random_labels(rng, ordered.size());
+    std::vector<LabelRow> rows((ordered.size() + 7) / 8);
+    for (std::size_t i = 0; i < ordered.size(); ++i) rows[i / 8].set(i % 8, labels[i]);
     Pairs expected;
     for (std::uint32_t i = 0; i < ordered.size(); ++i) {
       for (std::uint32_t j = i + 1; j < ordered.size(); ++j) {
+        if (have_common_label(labels[i], labels[j])) continue;
         if (have_common_point(ordered[i], ordered[j])) expected.emplace_back(i, j);
       }
     }
-    EXPECT_EQ(found_pairs<double>(ordered, most_tasks), expected);
-    const Pairs found = found_pairs<float>(ordered, most_tasks);
+    EXPECT_EQ(found_pairs<double>(ordered, rows, most_tasks), expected);
+    const Pairs found = found_pairs<float>(ordered, rows, most_tasks);
     EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << "a pair twice";
     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
     // What is found besides is apart by less than the rounding to floats.
@@ -168,6 +198,7 @@ TEST(BoxPairs, FindsThePairsOfBruteForce) {
     std::set_difference(found.begin(), found.end(), expected.begin(), expected.end(), std::back_inserter(others));
     for (const auto& [i, j] : others) {
       const Box3 &a = ordered[i], &b = ordered[j];
+      EXPECT_FALSE(have_common_label(labels[i], labels[j]));
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_LE(std::max(a.low[k] - b.high[k], b.low[k] - a.high[k]), 1e-6);
       }

@@ -18,7 +18,10 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 
 std::vector<std::uint8_t> laid_out(const TriangleMesh& mesh, int threads = 1) {
-  return laid_out_umbrellas(mesh.points, mesh.triangles, threads);
+  std::vector<ProjectedTriangle> projected;
+  for (const auto& [a, b, c] : mesh.triangles) projected.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c]);
+  const CornersOfVertices corners(mesh.points.size(), mesh.triangles, [](std::size_t) { return true; });
+  return laid_out_umbrellas(mesh.triangles, projected, corners, mesh.points.size(), threads);
 }
 
 // Vertex 0 with its spokes in a row, closed up.
@@ -78,6 +81,50 @@ TEST(LaidOutUmbrellas, HaveNoTrianglesThatMeet) {
   }
   EXPECT_GT(with_contact[0], 300);
   EXPECT_GT(without[1], 1000);
+}
+
+TEST(ProjectedTriangle, TellsSensesAndStraddledCorners) {
+  std::size_t certain = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    Rng rng(seed);
+    std::array<Vec3, 3> p;
+    for (Vec3& q : p) {
+      // On a small grid, for ties.
+      for (std::size_t k = 0; k < 3; ++k) q[k] = std::floor(rng.uniform(0, 4));
+    }
+    const ProjectedTriangle triangle(p[0], p[1], p[2]);
+    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);  // exact
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(triangle.senses() >> k & 1U, normal[k] > 0 ? 1U : 0U) << "seed " << seed;
+      EXPECT_EQ(triangle.senses() >> (3 + k) & 1U, normal[k] < 0 ? 1U : 0U) << "seed " << seed;
+      certain += normal[k] != 0 ? 1U : 0U;
+    }
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const Vec3 &own = p[i], &next = p[(i + 1) % 3], &previous = p[(i + 2) % 3];
+      const unsigned x = (next.x < own.x) != (previous.x < own.x) ? 1U : 0U;
+      const unsigned y = (next.y < own.y) != (previous.y < own.y) ? 2U : 0U;
+      EXPECT_EQ(triangle.straddles(i), x | y) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(certain, 3000U);
+}
+
+// Steps along the axes, and corners in line with the vertex.
+TEST(LaidOutUmbrellas, AreThoseOfARegularGrid) {
+  for (std::size_t up = 0; up < 3; ++up) {
+    for (const bool is_diagonal : {false, true}) {
+      std::vector<Vec3> spokes;
+      for (const auto& [x, y] : {std::pair{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}}) {
+        Vec3 spoke;
+        spoke[(up + 1) % 3] = is_diagonal ? x + y : x;
+        spoke[(up + 2) % 3] = is_diagonal ? x - y : y;
+        spokes.push_back(spoke);
+      }
+      EXPECT_EQ(laid_out(fan(spokes))[0], 1) << up;
+      std::reverse(spokes.begin(), spokes.end());
+      EXPECT_EQ(laid_out(fan(spokes))[0], 1) << up;
+    }
+  }
 }
 
 TEST(LaidOutUmbrellas, AreAllOfAFineMesh) {
