@@ -37,7 +37,7 @@ std::vector<typename BoxPairs<Real>::Task> BoxPairs<Real>::tasks() const {
     for (const Task& task : tasks) {
       const Block &of_a = levels_[level][task.a], &of_b = levels_[level][task.b];
       for (std::uint32_t i = 0; i < kParts; ++i) {
-        std::uint32_t met = of_b.meeting(of_a.part(i));
+        std::uint32_t met = of_b.meeting(of_a, i);
         if (task.a == task.b) met = met >> i << i;
         for_each_bit(met, [&](std::uint32_t j) { add(kParts * task.a + i, kParts * task.b + j); });
       }

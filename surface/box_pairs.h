@@ -26,7 +26,7 @@ inline constexpr std::size_t kBoxesPerRow = 8;
 
 // Bit i: whether condition(i) holds. Masks instead of truth values, so that compilers take several i at once.
 template <class Condition>
-std::uint32_t bits_where(const Condition& condition) {
+[[gnu::always_inline]] inline std::uint32_t bits_where(const Condition& condition) {
   constexpr std::array<std::uint32_t, kBoxesPerRow> kBit = {1, 2, 4, 8, 16, 32, 64, 128};
   std::array<std::uint32_t, kBoxesPerRow> found;
   for (std::size_t i = 0; i < kBoxesPerRow; ++i) found[i] = condition(i) & kBit[i];
@@ -48,9 +48,9 @@ class LabelRow {
     for (std::size_t k = 0; k < 3; ++k) labels_[k][i] = labels[k];
   }
   [[nodiscard]] Labels of(std::size_t i) const { return {labels_[0][i], labels_[1][i], labels_[2][i]}; }
-  // Bit i: whether box i has one of these labels.
-  [[nodiscard]] std::uint32_t sharing(const Labels& labels) const {
-    const std::uint32_t x = valid(labels[0]), y = valid(labels[1]), z = valid(labels[2]);
+  // Bit i: whether box i has a label in common with box k of another row.
+  [[nodiscard]] std::uint32_t sharing(const LabelRow& other, std::size_t k) const {
+    const std::uint32_t x = other.valid(0, k), y = other.valid(1, k), z = other.valid(2, k);
     return bits_where([&](std::size_t i) {
       const std::uint32_t a = labels_[0][i], b = labels_[1][i], c = labels_[2][i];
       return mask_of(a == x) | mask_of(a == y) | mask_of(a == z) | mask_of(b == x) | mask_of(b == y) | mask_of(b == z) |
@@ -60,8 +60,8 @@ class LabelRow {
   // The same for that label of box 0 which the most boxes have.
   [[nodiscard]] std::uint32_t sharing_one() const {
     std::uint32_t most = 0;
-    for (const auto& row : labels_) {
-      const std::uint32_t label = valid(row[0]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t label = valid(k, 0);
       const std::uint32_t bits = bits_where([&](std::size_t i) {
         return mask_of(labels_[0][i] == label) | mask_of(labels_[1][i] == label) | mask_of(labels_[2][i] == label);
       });
@@ -71,8 +71,11 @@ class LabelRow {
   }
 
  private:
-  // No label is the largest number.
-  static std::uint32_t valid(std::uint32_t label) { return label < kVoid ? label : ~0U; }
+  // Label k of box i, or for a void one the largest number, which is none.
+  [[nodiscard]] std::uint32_t valid(std::size_t k, std::size_t i) const {
+    const std::uint32_t label = labels_[k][i];
+    return label < kVoid ? label : ~0U;
+  }
 
   std::array<std::array<std::uint32_t, kBoxesPerRow>, 3> labels_{};
 };
@@ -124,16 +127,15 @@ class BoxPairs {
         high[k][part] = bounds.high[k];
       }
     }
-    [[nodiscard]] Bounds part(std::size_t i) const {
-      return {{low[0][i], low[1][i], low[2][i]}, {high[0][i], high[1][i], high[2][i]}};
-    }
     [[nodiscard]] Bounds bounds() const;
-    // Bit i: whether part i and b have a point in common.
-    [[nodiscard]] std::uint32_t meeting(const Bounds& b) const {
+    // Bit i: whether part i and part j of another block have a point in common.
+    [[nodiscard]] std::uint32_t meeting(const Block& other, std::size_t j) const {
+      const std::array<Real, 3> other_low = {other.low[0][j], other.low[1][j], other.low[2][j]};
+      const std::array<Real, 3> other_high = {other.high[0][j], other.high[1][j], other.high[2][j]};
       return bits_where([&](std::size_t i) {
-        const std::uint32_t x = mask_of(low[0][i] <= b.high[0]) & mask_of(b.low[0] <= high[0][i]);
-        const std::uint32_t y = mask_of(low[1][i] <= b.high[1]) & mask_of(b.low[1] <= high[1][i]);
-        const std::uint32_t z = mask_of(low[2][i] <= b.high[2]) & mask_of(b.low[2] <= high[2][i]);
+        const std::uint32_t x = mask_of(low[0][i] <= other_high[0]) & mask_of(other_low[0] <= high[0][i]);
+        const std::uint32_t y = mask_of(low[1][i] <= other_high[1]) & mask_of(other_low[1] <= high[1][i]);
+        const std::uint32_t z = mask_of(low[2][i] <= other_high[2]) & mask_of(other_low[2] <= high[2][i]);
         return x & y & z;
       });
     }
@@ -162,9 +164,9 @@ class BoxPairs {
   void between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const;
   template <class Visit>
   void between_rows(std::uint32_t a, std::uint32_t b, Visit& visit) const;
-  // Part b of the level above.
-  [[nodiscard]] Bounds bounds(std::uint32_t level, std::uint32_t b) const {
-    return levels_[level + 1][b / kParts].part(b % kParts);
+  // Of block a of a level, the parts that meet block b.
+  [[nodiscard]] std::uint32_t parts_meeting(std::uint32_t level, std::uint32_t a, std::uint32_t b) const {
+    return levels_[level][a].meeting(levels_[level + 1][b / kParts], b % kParts);
   }
 
   std::span<const LabelRow> labels_;
@@ -177,7 +179,7 @@ void BoxPairs<Real>::within(std::uint32_t level, std::uint32_t a, Visit& visit) 
   if (level == 0) return within_row(a, visit);
   const Block& block = levels_[level][a];
   for (std::uint32_t i = 0; i < kParts; ++i) {
-    const std::uint32_t met = block.meeting(block.part(i)) >> i;
+    const std::uint32_t met = block.meeting(block, i) >> i;
     if ((met & 1) != 0) within(level - 1, kParts * a + i, visit);
     for_each_bit(met >> 1, [&](std::uint32_t k) {
       const std::uint32_t first = kParts * a + i;
@@ -194,7 +196,7 @@ void BoxPairs<Real>::within_row(std::uint32_t a, Visit& visit) const {
   const LabelRow& labels = labels_[a];
   const std::uint32_t done = labels.sharing_one();
   for_each_bit(~done & ((1U << kParts) - 1), [&](std::uint32_t i) {
-    const std::uint32_t met = block.meeting(block.part(i)) & ~labels.sharing(labels.of(i));
+    const std::uint32_t met = block.meeting(block, i) & ~labels.sharing(labels, i);
     for_each_bit(met & (done | (~0U << i << 1)), [&](std::uint32_t j) { visit(kParts * a + i, kParts * a + j); });
   });
 }
@@ -205,8 +207,8 @@ void BoxPairs<Real>::between(std::uint32_t level, std::uint32_t a, std::uint32_t
   if (level == 0) return between_rows(a, b, visit);
   // Of the one block the parts that meet the other block, of the other the parts that meet these.
   const Block &of_a = levels_[level][a], &of_b = levels_[level][b];
-  for_each_bit(of_a.meeting(bounds(level, b)), [&](std::uint32_t i) {
-    for_each_bit(of_b.meeting(of_a.part(i)),
+  for_each_bit(parts_meeting(level, a, b), [&](std::uint32_t i) {
+    for_each_bit(of_b.meeting(of_a, i),
                  [&](std::uint32_t j) { between(level - 1, kParts * a + i, kParts * b + j, visit); });
   });
 }
@@ -216,10 +218,10 @@ template <class Visit>
 void BoxPairs<Real>::between_rows(std::uint32_t a, std::uint32_t b, Visit& visit) const {
   const Block &of_a = levels_[0][a], &of_b = levels_[0][b];
   const LabelRow &labels_of_a = labels_[a], &labels_of_b = labels_[b];
-  for_each_bit(of_a.meeting(bounds(0, b)), [&](std::uint32_t i) {
-    const std::uint32_t met = of_b.meeting(of_a.part(i));
+  for_each_bit(parts_meeting(0, a, b), [&](std::uint32_t i) {
+    const std::uint32_t met = of_b.meeting(of_a, i);
     if (met == 0) return;
-    for_each_bit(met & ~labels_of_b.sharing(labels_of_a.of(i)),
+    for_each_bit(met & ~labels_of_b.sharing(labels_of_a, i),
                  [&](std::uint32_t j) { visit(kParts * a + i, kParts * b + j); });
   });
 }

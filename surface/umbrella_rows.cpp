@@ -11,22 +11,23 @@ constexpr std::size_t kMostLookedAt = 16;  // corners of a vertex
 
 class RowMaker {
  public:
-  RowMaker(CornersOfVertices::Triangles triangles, const CornersOfVertices& corners)
-      : triangles_(triangles), corners_(corners), row_of_(triangles.size(), kNoRow) {
+  RowMaker(CornersOfVertices::Triangles triangles, const CornersOfVertices& corners, std::size_t vertices)
+      : triangles_(triangles), corners_(corners), row_of_(triangles.size(), kNoRow), is_taken_(vertices) {
     rows_.reserve(triangles.size() / (kTrianglesPerRow - 2));
   }
 
   [[nodiscard]] bool is_left(std::size_t t) const { return row_of_[t] == kNoRow; }
 
-  // Makes a row of the umbrella of a vertex, if none of its triangles is in one.
+  // Makes a row of the umbrella of a vertex, if none of its triangles is in one. To be called before take_triangle().
   void take_umbrella(std::uint32_t v) {
+    if (is_taken_[v] != 0) return;
     const auto corners = corners_.at(v);
     if (corners.empty() || corners.size() > kTrianglesPerRow) return;
-    std::uint32_t taken = 0;
-    for (const TriangleCorner corner : corners) taken |= ~row_of_[corner >> 2];
-    if (taken != 0) return;
     begin_row(v);
-    for (const TriangleCorner corner : corners) append(static_cast<std::uint32_t>(rows_.size() - 1), corner >> 2);
+    for (const TriangleCorner corner : corners) {
+      append(static_cast<std::uint32_t>(rows_.size() - 1), corner >> 2);
+      for (const std::uint32_t w : triangles_[corner >> 2]) is_taken_[w] = 1;
+    }
   }
 
   // Puts a triangle into a row with room that has a triangle at one of its vertices, or into a new one.
@@ -57,6 +58,7 @@ class RowMaker {
   CornersOfVertices::Triangles triangles_;
   const CornersOfVertices& corners_;
   std::vector<std::uint32_t> row_of_;
+  std::vector<std::uint8_t> is_taken_;  // of a vertex, whether a triangle of its umbrella is in a row
   std::vector<UmbrellaRow> rows_;
 };
 
@@ -64,7 +66,7 @@ class RowMaker {
 
 std::vector<UmbrellaRow> umbrella_rows(CornersOfVertices::Triangles triangles, std::span<const std::uint8_t> takes_part,
                                        const CornersOfVertices& corners, std::size_t vertices) {
-  RowMaker maker(triangles, corners);
+  RowMaker maker(triangles, corners, vertices);
   for (std::uint32_t v = 0; v < vertices; ++v) maker.take_umbrella(v);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (takes_part[t] != 0 && maker.is_left(t)) maker.take_triangle(t);
