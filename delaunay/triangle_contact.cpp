@@ -120,7 +120,24 @@ int order_along_line(const Piercing& of_s, const Piercing& of_t) {
   return sign(orient3d(of_s.from, of_s.to, of_t.from, of_t.to));
 }
 
+// Certain only when true: a plane along s, or hardly beside it, has all of t beyond it. Any normal will do; that of s
+// is rounded.
+bool clearly_beyond_plane(const Corners& s, const Corners& t) {
+  const Vec3 u = s[1] - s[0], v = s[2] - s[0], normal = cross(u, v);
+  double size = 0;
+  for (const Vec3& d : {u, v, t[0] - s[0], t[1] - s[0], t[2] - s[0]}) {
+    size = std::max({size, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  }
+  // In terms of size^3 rounding moves the corners of s, which lie in the plane, by less than 2e-15, and those of t by
+  // less than 4e-15.
+  constexpr double kRelative = 1e-14, kUnderflow = 1e-300;
+  const double bound = kRelative * size * size * size + kUnderflow;
+  const double a = dot(normal, t[0] - s[0]), b = dot(normal, t[1] - s[0]), c = dot(normal, t[2] - s[0]);
+  return std::min({a, b, c}) > bound || std::max({a, b, c}) < -bound;
+}
+
 TriangleContact contact_of_disjoint(const Corners& s, const Corners& t) {
+  if (clearly_beyond_plane(s, t) || clearly_beyond_plane(t, s)) return TriangleContact::kNone;
   const Sides t_sides = sides_of(s, t);
   if (all_on_one_side(t_sides)) return TriangleContact::kNone;
   if (all_zero(t_sides)) return coplanar_contact(s, t);
@@ -134,11 +151,12 @@ TriangleContact contact_of_disjoint(const Corners& s, const Corners& t) {
   return overlap && is_proper(s_sides) && is_proper(t_sides) ? TriangleContact::kCrossing : TriangleContact::kTouching;
 }
 
-// Certain only when true: a plane through the corner that s and t share has the rest of each on its own side. Any
-// normal will do; this one halves the angle between the middles of the two angles there, which succeeds for nearly all
-// pairs of an umbrella.
-bool clearly_apart_at_vertex(const Corners& s, const Corners& t) {
-  const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
+// Certain only when true: a plane through the corner that s and t share (s[i] and t[j]) has the rest of each on its own
+// side. Any normal will do; this one halves the angle between the middles of the two angles there, which succeeds for
+// nearly all pairs of an umbrella.
+bool clearly_apart_at_vertex(const Corners& s, std::size_t i, const Corners& t, std::size_t j) {
+  constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
+  const Vec3 s1 = s[kNext[i]] - s[i], s2 = s[kPrevious[i]] - s[i], t1 = t[kNext[j]] - t[j], t2 = t[kPrevious[j]] - t[j];
   const Vec3 in_s = s1 + s2, in_t = t1 + t2;
   const Vec3 normal = norm(in_t) * in_s - norm(in_s) * in_t;
   // Far more than the rounding of a difference and of the sum of three products.
@@ -155,7 +173,6 @@ bool clearly_apart_at_vertex(const Corners& s, const Corners& t) {
 // of s, n(s) x n(t) = da (b - s) - db (a - s) with their distances da, db from t's plane, which gives the ray's
 // direction along D.
 TriangleContact contact_at_vertex(const Corners& s, const Corners& t) {
-  if (clearly_apart_at_vertex(s, t)) return TriangleContact::kNone;
   const auto side = [](const Corners& plane, const Vec3& p) { return sign(orient3d(plane[0], plane[1], plane[2], p)); };
   const int c = side(s, t[1]), d = side(s, t[2]);
   if (c == d && c != 0) return TriangleContact::kNone;
@@ -212,6 +229,7 @@ TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const st
     case 0:
       return contact_of_disjoint(s_points, t_points);
     case 1:
+      if (clearly_apart_at_vertex(s_points, kOnlyBit[in_s], t_points, kOnlyBit[in_t])) return TriangleContact::kNone;
       return contact_at_vertex(turned(s_points, kOnlyBit[in_s]), turned(t_points, kOnlyBit[in_t]));
     case 2:
       return contact_at_edge(turned(s_points, (kOnlyBit[7 - in_s] + 1) % 3), t_points[kOnlyBit[7 - in_t]]);

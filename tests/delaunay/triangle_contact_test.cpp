@@ -87,6 +87,29 @@ TEST(TriangleContact, DecidesOneRoundingApart) {
   EXPECT_EQ(contact(corner_on_face(-0x1p-160, 0)), TriangleContact::kNone);
 }
 
+// A corner as near to a plane of any slope as rounding puts it, the rest of its triangle above.
+TEST(TriangleContact, KnowsTheSideOfACornerNearAPlane) {
+  std::array<int, 3> seen{};
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Rng rng(seed);
+    const double size = std::ldexp(1.0, static_cast<int>(rng.below(60)) - 30);
+    const auto random = [&] { return Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}; };
+    const Vec3 a = size * random(), b = size * random(), c = size * random(), up = cross(b - a, c - a) / size;
+    Vec3 p = 0.3 * a + 0.3 * b + 0.4 * c;
+    if (rng.below(2) == 0) p += rng.uniform(-1e-13, 1e-13) * up;
+    const Vec3 q = p + up + 0.1 * (b - a), r = p + up - 0.1 * (b - a);
+    const double side = orient3d(a, b, c, p) * orient3d(a, b, c, q);
+    const TriangleContact expected = side > 0   ? TriangleContact::kNone
+                                     : side < 0 ? TriangleContact::kCrossing
+                                                : TriangleContact::kTouching;
+    if (norm(up) < 0.01 * size) continue;  // thin
+    EXPECT_EQ(contact({{a, b, c, p, q, r}, {{0, 1, 2}, {3, 4, 5}}}), expected) << "seed " << seed;
+    ++seen[static_cast<std::size_t>(expected)];
+  }
+  EXPECT_GT(seen[0], 1000);
+  EXPECT_GT(seen[2], 1000);
+}
+
 TEST(TriangleContact, KnowsHandmadeConfigurations) {
   using C = TriangleContact;
   const std::vector<Vec3> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
