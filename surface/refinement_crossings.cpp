@@ -13,8 +13,6 @@ namespace deliso {
 
 namespace {
 
-constexpr std::size_t kAhead = 16;  // triangles: their first corner is the newest, far from those of the others
-
 // Gives triangles whose corners are vertices of `from` the points of these.
 void take_points(const RefinementMesh& from, TriangleMesh& mesh) {
   constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
@@ -30,59 +28,103 @@ void take_points(const RefinementMesh& from, TriangleMesh& mesh) {
   }
 }
 
-// The cells of a coarse grid that boxes reach into, as rows of bits along x.
+// A coarse grid over a box, whose first and last cells along each axis hold what lies beyond.
+class CoarseGrid {
+ public:
+  static constexpr std::array<unsigned, 3> kCells = {64, 256, 256};  // along each axis
+  struct Cell {
+    std::array<std::uint8_t, 3> at{};
+  };
+  // Those that a box reaches into.
+  struct Cells {
+    std::array<unsigned, 3> low{}, high{};
+  };
+
+  explicit CoarseGrid(const Box3& box) : low_(box.low) {
+    const Vec3 size = box.size();
+    for (std::size_t k = 0; k < 3; ++k) cells_per_unit_[k] = size[k] > 1e-290 ? (kCells[k] - 2) / size[k] : 0;
+  }
+  [[nodiscard]] Cell cell(const Vec3& p) const { return {{step(p.x, 0), step(p.y, 1), step(p.z, 2)}}; }
+  // Rounding keeps the order of numbers: boxes that have a point in common have a cell in common.
+  [[nodiscard]] static Cells around(const Cell& a, const Cell& b, const Cell& c) {
+    Cells cells;
+    for (std::size_t k = 0; k < 3; ++k) {
+      cells.low[k] = std::min(std::min(a.at[k], b.at[k]), c.at[k]);
+      cells.high[k] = std::max(std::max(a.at[k], b.at[k]), c.at[k]);
+    }
+    return cells;
+  }
+
+ private:
+  [[nodiscard]] std::uint8_t step(double x, std::size_t axis) const {
+    const double at = (x - low_[axis]) * cells_per_unit_[axis] + 1;
+    return static_cast<std::uint8_t>(std::min(std::max(at, 0.0), kCells[axis] - 1.0));
+  }
+
+  Vec3 low_, cells_per_unit_;
+};
+
+// Cells of a coarse grid, as rows of bits along x.
 class CellMarks {
  public:
-  // Of a grid over a box.
-  explicit CellMarks(const Box3& all) : all_(all), rows_(std::size_t{kCells[1]} * kCells[2]) {
-    const Vec3 size = all.size();
-    for (std::size_t k = 0; k < 3; ++k) cells_per_unit_[k] = size[k] > 1e-290 ? kCells[k] / size[k] : 0;
+  using Cells = CoarseGrid::Cells;
+
+  void add(const Cells& cells) {
+    any_of_rows(rows_, cells, [](std::uint64_t& row, std::uint64_t bits) {
+      row |= bits;
+      return false;
+    });
   }
-  void add(const Box3& box) {
-    const Cells cells = cells_of(box);
-    for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
-      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) rows_[kCells[1] * z + y] |= cells.row();
-    }
+  [[nodiscard]] bool has_any_of(const Cells& cells) const {
+    return any_of_rows(rows_, cells, [](std::uint64_t row, std::uint64_t bits) { return (row & bits) != 0; });
   }
-  // Certain only when false: no box that was added has a point in common with this one.
-  [[nodiscard]] bool reached_by(const Box3& box) const {
-    if (!all_.meets(box)) return false;
-    const Cells cells = cells_of(box);
+
+ private:
+  // Calls visit(row, bits within it), until it returns true.
+  template <class Rows, class Visit>
+  static bool any_of_rows(Rows& rows, const Cells& cells, const Visit& visit) {
+    // The bits low[0] to high[0].
+    const std::uint64_t bits = ~std::uint64_t{0} >> (CoarseGrid::kCells[0] - 1 - cells.high[0] + cells.low[0])
+                                                        << cells.low[0];
     for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
       for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
-        if ((rows_[kCells[1] * z + y] & cells.row()) != 0) return true;
+        if (visit(rows[CoarseGrid::kCells[1] * z + y], bits)) return true;
       }
     }
     return false;
   }
 
- private:
-  static constexpr std::array<unsigned, 3> kCells = {64, 256, 256};  // along each axis
-  struct Cells {
-    std::array<unsigned, 3> low{}, high{};
-    // The bits low[0] to high[0].
-    [[nodiscard]] std::uint64_t row() const {
-      return ~std::uint64_t{0} >> (kCells[0] - 1 - high[0] + low[0]) << low[0];
-    }
-  };
-  // Rounding keeps the order of numbers: boxes that have a point in common have a cell in common.
-  [[nodiscard]] Cells cells_of(const Box3& box) const {
-    Cells cells;
-    for (std::size_t k = 0; k < 3; ++k) {
-      cells.low[k] = cell(box.low[k], k);
-      cells.high[k] = cell(box.high[k], k);
-    }
-    return cells;
-  }
-  [[nodiscard]] unsigned cell(double x, std::size_t axis) const {
-    const double at = (x - all_.low[axis]) * cells_per_unit_[axis];
-    return at > 0 ? static_cast<unsigned>(std::min(at, kCells[axis] - 1.0)) : 0;
-  }
-
-  Box3 all_;
-  Vec3 cells_per_unit_;
-  std::vector<std::uint64_t> rows_;
+  std::vector<std::uint64_t> rows_ =
+      std::vector<std::uint64_t>(std::size_t{CoarseGrid::kCells[1]} * CoarseGrid::kCells[2]);
 };
+
+using Places = std::vector<std::uint32_t>;
+
+// The triangles that reach into a cell of a grid that a renewed one reaches into: all that meet one are among them.
+Places near_renewed(const RefinementMesh& mesh, int threads) {
+  const std::size_t count = mesh.triangles.size();
+  const Places renewed = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
+    if (mesh.triangles[t].is_renewed()) found.push_back(static_cast<std::uint32_t>(t));
+  });
+  if (renewed.empty()) return {};
+  Box3 all;
+  for (const std::uint32_t t : renewed) {
+    for (const std::uint32_t v : mesh.triangles[t].corners) all.extend(mesh.vertices[v].point);
+  }
+  const CoarseGrid grid(all);
+  std::vector<CoarseGrid::Cell> cells(mesh.vertices.size());  // of each vertex
+  for_each_block(cells.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) cells[v] = grid.cell(mesh.vertices[v].point);
+  });
+  const auto cells_of = [&](const RefinementMesh::Triangle& t) {
+    return CoarseGrid::around(cells[t.corners[0]], cells[t.corners[1]], cells[t.corners[2]]);
+  };
+  CellMarks marks;
+  for (const std::uint32_t t : renewed) marks.add(cells_of(mesh.triangles[t]));
+  return collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
+    if (marks.has_any_of(cells_of(mesh.triangles[t]))) found.push_back(static_cast<std::uint32_t>(t));
+  });
+}
 
 }  // namespace
 
@@ -96,25 +138,8 @@ SelfIntersections meeting_pairs(const RefinementMesh& mesh, int threads) {
 }
 
 SelfIntersections meeting_pairs_of_renewed(const RefinementMesh& mesh, int threads) {
-  using Places = std::vector<std::uint32_t>;
-  const std::size_t count = mesh.triangles.size();
-  const Places renewed = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
-    if (mesh.triangles[t].is_renewed()) found.push_back(static_cast<std::uint32_t>(t));
-  });
-  if (renewed.empty()) return {};
-  Box3 all;
-  for (const std::uint32_t t : renewed) {
-    for (const std::uint32_t v : mesh.triangles[t].corners) all.extend(mesh.vertices[v].point);
-  }
-  CellMarks marks(all);
-  for (const std::uint32_t t : renewed) marks.add(mesh.box_of(t));
-
-  // Whatever meets a renewed triangle reaches into a cell that one of them reaches into.
-  const Places near = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {
-    if (t + kAhead < count) __builtin_prefetch(&mesh.vertices[mesh.triangles[t + kAhead].corners[0]]);
-    const auto triangle = static_cast<std::uint32_t>(t);
-    if (marks.reached_by(mesh.box_of(triangle))) found.push_back(triangle);
-  });
+  const Places near = near_renewed(mesh, threads);
+  if (near.empty()) return {};
   TriangleMesh taken;
   std::vector<std::uint8_t> is_renewed;
   taken.triangles.reserve(near.size());
