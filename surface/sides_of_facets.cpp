@@ -63,9 +63,9 @@ SurfaceMesh facets_alone(const SignedDelaunay& restricted) {
     if (!delaunay.is_live(TetId(i))) continue;
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(TetId(i), face);
+      if (!restricted.falls_through(f)) continue;
       const std::array<VertexId, 3> v = delaunay.facet_vertices(f);
-      const bool is_virtual = std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); });
-      if (is_virtual || !restricted.falls_through(f)) continue;
+      if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); })) continue;
       mesh.triangles.push_back({v[0].value, v[1].value, v[2].value});
       for (const VertexId q : v) is_used[q.index()] = true;
     }

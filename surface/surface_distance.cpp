@@ -52,29 +52,13 @@ std::optional<double> squared_height_above_inside(const Vec3& p, const Vec3& a, 
   return height * height / area;
 }
 
-// Side i lies across from corner i.
-std::array<double, 3> squared_distances_to_sides(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return {squared_distance_to_segment(p, b, c), squared_distance_to_segment(p, c, a),
-          squared_distance_to_segment(p, a, b)};
-}
-
 }  // namespace
 
 // Above the inside: the distance to the plane. Elsewhere, and for triangles without area: to the nearest edge.
 double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (const auto squared_height = squared_height_above_inside(p, a, b, c)) return *squared_height;
-  const auto [to_bc, to_ca, to_ab] = squared_distances_to_sides(p, a, b, c);
-  return std::min({to_ab, to_bc, to_ca});
-}
-
-NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (const auto squared_height = squared_height_above_inside(p, a, b, c)) return {*squared_height, 0, {}};
-  const std::array<double, 3> to_sides = squared_distances_to_sides(p, a, b, c);
-  unsigned nearest = to_sides[1] < to_sides[0] ? 1 : 0;
-  unsigned next = 1 - nearest;
-  if (to_sides[2] < to_sides[next]) next = 2;
-  if (to_sides[next] < to_sides[nearest]) std::swap(nearest, next);
-  return {to_sides[nearest], 2, {nearest, next}};
+  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
+                   squared_distance_to_segment(p, c, a)});
 }
 
 std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe) {

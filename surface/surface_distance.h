@@ -1,7 +1,6 @@
 // How far a mesh is from an isosurface and the isosurface from the mesh, in voxels, by sampling both.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,14 +19,6 @@ struct DistanceFigure {
 
 // The squared distance from p to the triangle abc, which may be degenerate.
 double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-// The same, and the sides beyond which what is nearer to p may lie: the two nearest ones, the nearest first, where p
-// does not lie above the inside; else none. Side i lies across from corner i.
-struct NearSides {
-  double squared_distance = 0;
-  unsigned count = 0;
-  std::array<unsigned, 2> sides{};
-};
-NearSides near_sides_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // The distance of each vertex to the isosurface; nothing for vertices without a triangle. All in voxel space.
 std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);

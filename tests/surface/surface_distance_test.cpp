@@ -35,36 +35,6 @@ TEST(PointTriangleDistance, AgreesWithDenseSampling) {
   }
 }
 
-TEST(PointTriangleDistance, NamesTheTwoNearestSides) {
-  int outside = 0;
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
-    Rng rng(seed);
-    const auto random_point = [&rng] { return Vec3{rng.uniform(), rng.uniform(), rng.uniform()}; };
-    const std::array<Vec3, 3> v = {random_point(), random_point(), random_point()};
-    const Vec3 p = 2.0 * random_point();
-    const NearSides near = near_sides_of_triangle(p, v[0], v[1], v[2]);
-    EXPECT_EQ(near.squared_distance, squared_distance_to_triangle(p, v[0], v[1], v[2]));
-    std::array<double, 3> to_side{};  // sides are triangles without an area
-    for (std::size_t i = 0; i < 3; ++i) {
-      to_side[i] = squared_distance_to_triangle(p, v[(i + 1) % 3], v[(i + 2) % 3], v[(i + 2) % 3]);
-    }
-    const double least = *std::min_element(to_side.begin(), to_side.end());
-    if (near.count == 0) {
-      EXPECT_LT(near.squared_distance, least) << "seed " << seed;
-      continue;
-    }
-    ++outside;
-    ASSERT_EQ(near.count, 2U);
-    const auto [first, second] = near.sides;
-    ASSERT_NE(first, second);
-    const double last = to_side[3 - first - second];
-    EXPECT_NEAR(to_side[first], least, 1e-14) << "seed " << seed;
-    EXPECT_LE(to_side[second], last + 1e-14) << "seed " << seed;
-  }
-  EXPECT_GT(outside, 500);
-  EXPECT_LT(outside, 1990);
-}
-
 TEST(PointsToMesh, AgreesWithTestingEveryTriangle) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
