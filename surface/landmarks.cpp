@@ -8,6 +8,7 @@
 
 #include "delaunay/base/box3.h"
 #include "surface/blocks.h"
+#include "surface/near_blocks.h"
 #include "surface/point_blocks.h"
 #include "surface/surface_distance.h"
 
@@ -15,11 +16,14 @@ namespace deliso {
 
 namespace {
 
-constexpr double kNear = 0.8;    // mesh-space units
-constexpr double kBlock = 2;     // side of the blocks near landmarks
-constexpr double kFarthest = 6;  // where the nearest triangle is looked for
-constexpr double kLong = 4;      // triangles with such an edge may be off the surface
+constexpr double kNear = 0.8;       // mesh-space units
+constexpr double kBlock = 2;        // side of the blocks near landmarks
+constexpr double kLikelyBlock = 3;  // and of those in which a likely triangle is looked for: hardly any holds none
+constexpr double kFarthest = 6;     // where the nearest triangle is looked for
+constexpr double kLong = 4;         // triangles with such an edge may be off the surface
 constexpr double kTimesHeight = 2;
+constexpr double kSmallRadius = kLong / 2;  // of a ball: no edge is longer than it is wide
+constexpr double kRounding = 1.01;
 
 Box3 widened(const Box3& box, double reach) {
   const Vec3 around{reach, reach, reach};
@@ -42,6 +46,13 @@ class LandmarkSearch {
   [[nodiscard]] double squared_distance_to(const Vec3& p, std::size_t triangle) const {
     const auto [a, b, c] = corners(triangle);
     return squared_distance_to_triangle(p, a, b, c);
+  }
+  [[nodiscard]] std::vector<Vec3> beside_no_likely_triangle(std::span<const Vec3> landmarks) const;
+  [[nodiscard]] std::vector<Vec3> beside_no_triangle(std::span<const Vec3> landmarks) const;
+  // By its ball.
+  [[nodiscard]] bool is_small(std::uint32_t triangle) const {
+    const double squared_radius = mesh_.triangles[triangle].ball.squared_radius;
+    return squared_radius > 0 && squared_radius < kSmallRadius * kSmallRadius;
   }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
   // How near a landmark has to be to a triangle. All that is so near lies in a box, and not far from a plane.
@@ -74,12 +85,10 @@ double LandmarkSearch::reach_of(std::uint32_t triangle) const {
 // Most triangles have a small ball, around which nearly always nothing is asked about: then their corners, which lie
 // all over the memory, are not needed. The box of a large one is mostly far off its plane.
 LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) const {
-  constexpr double kSmall = kLong * kLong / 4;  // a squared radius; no edge is longer than the ball is wide
-  constexpr double kRounding = 1.01;
   constexpr double kLeastArea = 1e-6;  // of the square of the box's diagonal, for a plane that rounding leaves alone
   const SurfaceDelaunayBall& ball = mesh_.triangles[triangle].ball;
   Vicinity vicinity;
-  if (ball.squared_radius > 0 && ball.squared_radius < kSmall) {
+  if (is_small(triangle)) {
     vicinity.reach = least_;
     vicinity.box = widened({ball.center, ball.center}, kRounding * std::sqrt(ball.squared_radius) + least_);
     return vicinity;
@@ -97,13 +106,50 @@ LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) con
   return vicinity;
 }
 
-// Those that no triangle is as near to as it would have to be.
 std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) const {
+  return beside_no_triangle(beside_no_likely_triangle(landmarks));
+}
+
+// Of the triangles whose balls have their middles in a landmark's block, the one with the nearest middle nearly always
+// is near. Which one is measured does not matter to what is found at last, so threads may miss each other's finds.
+std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3> landmarks) const {
+  if (landmarks.empty()) return {};
+  const PointBlocks blocks(landmarks, kLikelyBlock);
+  // Of each landmark: the squared distance, in steps, and behind it the triangle.
+  constexpr double kSteps = 1 << 20;
+  constexpr double kMostSteps = 1 << 30;
+  constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  std::vector<std::uint64_t> likely(landmarks.size(), kNone);
+  for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const SurfaceDelaunayBall& ball = mesh_.triangles[t].ball;
+      if (!(ball.squared_radius > 0)) continue;
+      blocks.for_each_beside(ball.center, [&](std::uint32_t i) {
+        const double steps = std::min(kSteps * squared_distance(landmarks[i], ball.center), kMostSteps);
+        const std::uint64_t found = static_cast<std::uint64_t>(static_cast<std::int64_t>(steps)) << 32 | t;
+        const std::atomic_ref best(likely[i]);
+        if (found < best.load(std::memory_order_relaxed)) best.store(found, std::memory_order_relaxed);
+      });
+    }
+  });
+  std::vector<Vec3> left;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const auto triangle = static_cast<std::uint32_t>(likely[i]);
+    const bool is_near = likely[i] != kNone && squared_distance_to(landmarks[i], triangle) <= least_ * least_;
+    if (!is_near) left.push_back(landmarks[i]);
+  }
+  return left;
+}
+
+// Those that no triangle is as near to as it would have to be.
+std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> landmarks) const {
   if (landmarks.empty()) return {};
   const PointBlocks blocks(landmarks, kBlock);
+  const NearBlocks near_blocks(landmarks, kRounding * (kSmallRadius * kRounding + least_));
   std::vector<std::uint8_t> is_near(landmarks.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (is_small(t) && !near_blocks.is_near(mesh_.triangles[t].ball.center)) continue;
       const Vicinity vicinity = vicinity_of(t);
       const double most = vicinity.reach * vicinity.reach;
       blocks.for_each_near(vicinity.box, [&](std::uint32_t i) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -22,6 +23,8 @@ class PointBlocks {
     for (const Vec3& p : points) box.extend(p);
     const Vec3 sides = box.high - box.low;
     side = std::max(side, std::max({sides.x, sides.y, sides.z}) / kMostBlocks);
+    side =
+        std::max(side, std::cbrt(sides.x * sides.y * sides.z / (kMostPerPoint * static_cast<double>(points.size()))));
     low_ = box.low;
     per_side_ = 1 / side;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -32,11 +35,24 @@ class PointBlocks {
       return row(at(1), at(2)) + at(0);
     };
     first_.assign(row(0, dims_[2]) + 1, 0);
-    for (const Vec3& p : points) ++first_[block_of(p) + 1];
+    for (const Vec3& p : points) ++first_[block_of(p)];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     points_.resize(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) points_[next[block_of(points[i])]++] = i;
+    // From behind, each block downwards to its first place: so its points stay in order.
+    for (auto i = static_cast<std::uint32_t>(points.size()); i-- > 0;) points_[--first_[block_of(points[i])]] = i;
+  }
+
+  // Calls visit(i) for the points in the block that p lies in.
+  template <class Visit>
+  void for_each_beside(const Vec3& p, Visit&& visit) const {
+    std::array<std::size_t, 3> at{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double where = points_.empty() ? -1 : place(p, axis);
+      if (!(where >= 0) || !(where < static_cast<double>(dims_[axis]))) return;
+      at[axis] = static_cast<std::size_t>(where);
+    }
+    const std::size_t block = row(at[1], at[2]) + at[0];
+    for (std::uint32_t i = first_[block]; i < first_[block + 1]; ++i) visit(points_[i]);
   }
 
   // Calls visit(i) for all points in a box, and for some others around it.
@@ -60,6 +76,7 @@ class PointBlocks {
 
  private:
   static constexpr double kMostBlocks = 128;  // along an axis, or one more
+  static constexpr double kMostPerPoint = 64;
 
   // In blocks from the lowest one.
   [[nodiscard]] double place(const Vec3& p, std::size_t axis) const { return (p[axis] - low_[axis]) * per_side_; }
