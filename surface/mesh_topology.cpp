@@ -1,12 +1,15 @@
 #include "surface/mesh_topology.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/huge_pages.h"
 #include "surface/blocks.h"
 
 namespace deliso {
@@ -29,6 +32,8 @@ class DisjointSets {
     }
     return i;
   }
+  // Whether a glance tells; most members stand right below their representative.
+  [[nodiscard]] bool are_known_as_one(std::uint32_t i, std::uint32_t j) const { return parent_[i] == parent_[j]; }
   void join(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);
@@ -39,35 +44,46 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-// The corners at each vertex, as lists: corner 3 t + i is that of triangle t at its vertex i.
-class CornerLists {
- public:
-  static constexpr std::uint32_t kEnd = 0xFFFFFFFFu;
+// A triangle at one of its vertices: the other two.
+struct Corner {
+  std::uint32_t next = 0, previous = 0;
+};
 
-  explicit CornerLists(const TriangleMesh& mesh) : first_(mesh.points.size(), kEnd), next_(3 * mesh.triangles.size()) {
-    for (std::uint32_t t = 0, corner = 0; t < mesh.triangles.size(); ++t) {
-      for (const std::uint32_t v : mesh.triangles[t]) {
-        next_[corner] = first_[v];
-        first_[v] = corner++;
-      }
+// The corners at each vertex, vertex by vertex.
+class CornersOfVertices {
+ public:
+  // So many places from any corner on may be read.
+  static constexpr std::size_t kReadable = 8;
+
+  explicit CornersOfVertices(const TriangleMesh& mesh)
+      : first_(mesh.points.size() + 1, 0), corners_(3 * mesh.triangles.size() + kReadable) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) ++first_[v];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    for (const auto& [a, b, c] : mesh.triangles) {
+      corners_[--first_[a]] = {b, c};
+      corners_[--first_[b]] = {c, a};
+      corners_[--first_[c]] = {a, b};
     }
   }
-  // Of vertex v; then the one after a corner; kEnd behind the last.
-  [[nodiscard]] std::uint32_t first(std::size_t v) const { return first_[v]; }
-  [[nodiscard]] std::uint32_t after(std::uint32_t corner) const { return next_[corner]; }
+  [[nodiscard]] std::span<const Corner> at(std::size_t v) const {
+    return std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
 
  private:
-  std::vector<std::uint32_t> first_, next_;
+  LargeArray<std::uint32_t> first_;  // of each vertex: the place of its first corner
+  LargeArray<Corner> corners_;
 };
 
 // Looks at vertices one by one: at the half-edges that leave and reach them, and at the umbrellas these make.
 class StarCensus {
  public:
-  StarCensus(const TriangleMesh& mesh, const CornerLists& corners, const MeshTopology& components)
-      : mesh_(mesh), corners_(corners), components_(components), edges_(components.components.size(), 0) {}
+  StarCensus(const CornersOfVertices& corners, const MeshTopology& components)
+      : corners_(corners), components_(components), edges_(components.components.size(), 0) {}
 
   void look_at(std::uint32_t v) {
-    gather(v);
+    at_ = corners_.at(v);
     if (at_.empty()) return;
     if (is_closed_fan(v)) {
       add_edges(v, std::count_if(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next > v; }));
@@ -79,9 +95,6 @@ class StarCensus {
   void add_to(MeshTopology& sum) const;
 
  private:
-  struct Corner {
-    std::uint32_t next = 0, previous = 0;  // vertices of its triangle
-  };
   // A half-edge at the vertex looked at; of one from the vertex to itself, each end counts.
   struct Spoke {
     std::uint32_t other = 0;   // end
@@ -91,29 +104,30 @@ class StarCensus {
   };
   static constexpr std::size_t kMostOfShortFan = 16;
 
-  void gather(std::uint32_t v);
+  [[nodiscard]] std::uint32_t corners_after(std::uint32_t v) const;
   [[nodiscard]] bool is_closed_fan(std::uint32_t v) const;
   void look_closely_at(std::uint32_t v);
   void count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges);
   void add_edges(std::uint32_t v, std::int64_t count) { edges_[components_.component_of_vertex[v]] += count; }
 
-  const TriangleMesh& mesh_;
-  const CornerLists& corners_;
+  const CornersOfVertices& corners_;
   const MeshTopology& components_;
-  std::vector<Corner> at_;  // the vertex looked at
+  std::span<const Corner> at_;  // the vertex looked at
   std::vector<Spoke> spokes_;
   DisjointSets fans_{0};  // of at_
   MeshTopology counts_;
   std::vector<std::int64_t> edges_;  // of each component
 };
 
-void StarCensus::gather(std::uint32_t v) {
-  at_.clear();
-  for (std::uint32_t c = corners_.first(v); c != CornerLists::kEnd; c = corners_.after(c)) {
-    const auto& triangle = mesh_.triangles[c / 3];
-    const std::uint32_t i = c % 3;
-    at_.push_back({triangle[i == 2 ? 0 : i + 1], triangle[i == 0 ? 2 : i - 1]});
-  }
+// Those whose triangles follow the edge to vertex v, by bits. Which one does cannot be foretold, so eight are always
+// compared: beyond the last of few there are others, whose bits are taken away.
+std::uint32_t StarCensus::corners_after(std::uint32_t v) const {
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < CornersOfVertices::kReadable; ++k)
+    found |= std::uint32_t{at_.data()[k].previous == v} << k;
+  for (std::uint32_t k = CornersOfVertices::kReadable; k < at_.size(); ++k)
+    found |= std::uint32_t{at_[k].previous == v} << k;
+  return found & ((1u << at_.size()) - 1);
 }
 
 // The rule: the triangles form one closed umbrella, all turned the same way. Then a walk around the vertex visits each
@@ -123,13 +137,12 @@ bool StarCensus::is_closed_fan(std::uint32_t v) const {
   if (at_.size() > kMostOfShortFan) return false;
   std::uint32_t visited = 1, next = at_[0].next;
   for (std::size_t count = 1; count < at_.size(); ++count) {
-    std::size_t k = 0;
-    while (k < at_.size() && at_[k].previous != next) ++k;
-    if (k == at_.size() || (visited >> k & 1u) != 0) return false;
-    visited |= 1u << k;
-    next = at_[k].next;
+    const std::uint32_t after = corners_after(next);
+    if (after == 0) return false;
+    visited |= after & -after;
+    next = at_[static_cast<std::size_t>(std::countr_zero(after))].next;
   }
-  return next == at_[0].previous &&
+  return visited == (1u << at_.size()) - 1 && next == at_[0].previous &&
          std::none_of(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next == v; });
 }
 
@@ -182,8 +195,8 @@ void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
   DisjointSets sets(mesh.points.size());
   std::vector<bool> referenced(mesh.points.size(), false);
   for (const auto& [a, b, c] : mesh.triangles) {
-    sets.join(a, b);
-    sets.join(b, c);
+    if (!sets.are_known_as_one(a, b)) sets.join(a, b);
+    if (!sets.are_known_as_one(b, c)) sets.join(b, c);
     referenced[a] = referenced[b] = referenced[c] = true;
   }
   topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
@@ -224,14 +237,14 @@ void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
   DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
   MeshTopology topology;
-  std::optional<CornerLists> corners;
+  std::optional<CornersOfVertices> corners;
   run_tasks(2, threads, [&](std::size_t task) {
     if (task == 0) return find_components(mesh, topology);
     corners.emplace(mesh);
   });
   constexpr int kSharesPerThread = 4;  // some take longer than others: the oldest vertices are far from each other
   const Shares vertices(mesh.points.size(), kSharesPerThread * threads);
-  std::vector<StarCensus> parts(vertices.count(), StarCensus(mesh, *corners, topology));
+  std::vector<StarCensus> parts(vertices.count(), StarCensus(*corners, topology));
   vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) parts[share].look_at(static_cast<std::uint32_t>(v));
   });

@@ -47,7 +47,7 @@ struct MeshTopology {
   [[nodiscard]] bool is_oriented() const { return is_manifold() && misoriented_edges == 0; }
 };
 
-// In linear time for meshes of bounded valence; takes about 36 bytes per vertex of a closed mesh. The same for any
+// In linear time for meshes of bounded valence; takes about 60 bytes per vertex of a closed mesh. The same for any
 // number of threads. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads = 1);
 

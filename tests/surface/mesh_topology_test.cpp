@@ -173,21 +173,38 @@ TEST(MeshTopology, NamesWhatIsWrong) {
   EXPECT_FALSE(mesh_topology(repeated).is_manifold());
 }
 
-// A fan longer than those that are walked, closed and whole; then cut open, and with one triangle twice.
-TEST(MeshTopology, KnowsLongFans) {
-  constexpr std::uint32_t kRim = 1000;
-  TriangleMesh mesh;
-  mesh.points.resize(kRim + 1);
-  for (std::uint32_t i = 0; i < kRim; ++i) mesh.triangles.push_back({kRim, i, (i + 1) % kRim});
-  EXPECT_TRUE(mesh_topology(mesh).is_oriented());
-  EXPECT_EQ(mesh_topology(mesh).boundary_edges.size(), kRim);
-  TriangleMesh open = mesh;
-  open.triangles.erase(open.triangles.begin() + 500);
-  EXPECT_TRUE(mesh_topology(open).is_oriented());
-  EXPECT_EQ(mesh_topology(open).boundary_edges.size(), kRim + 1);
-  mesh.triangles.push_back(mesh.triangles[500]);
-  EXPECT_EQ(mesh_topology(mesh).non_manifold_edges, 2);
-  EXPECT_EQ(mesh_topology(mesh).misoriented_edges, 1);
+// Triangles around vertex `apex`, the rim from vertex `first` on.
+void add_fan(TriangleMesh& mesh, std::uint32_t apex, std::uint32_t first, std::uint32_t rim) {
+  for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({apex, first + i, first + (i + 1) % rim});
+}
+
+// Short fans, longer ones, and one longer than those that are walked: closed and whole; then cut open, and with one
+// triangle twice; at last two at one vertex.
+TEST(MeshTopology, KnowsFansOfAnyLength) {
+  for (const std::uint32_t rim : {3u, 4u, 7u, 8u, 9u, 15u, 16u, 17u, 1000u}) {
+    SCOPED_TRACE(rim);
+    TriangleMesh mesh;
+    mesh.points.resize(rim + 1);
+    add_fan(mesh, rim, 0, rim);
+    EXPECT_TRUE(mesh_topology(mesh).is_oriented());
+    EXPECT_EQ(mesh_topology(mesh).boundary_edges.size(), rim);
+    TriangleMesh open = mesh;
+    open.triangles.erase(open.triangles.begin() + rim / 2);
+    EXPECT_TRUE(mesh_topology(open).is_oriented());
+    EXPECT_EQ(mesh_topology(open).boundary_edges.size(), rim + 1);
+    TriangleMesh doubled = mesh;
+    doubled.triangles.push_back(mesh.triangles[rim / 2]);
+    EXPECT_EQ(mesh_topology(doubled).non_manifold_edges, 2);
+    EXPECT_EQ(mesh_topology(doubled).misoriented_edges, 1);
+    for (const std::uint32_t other : {3u, 5u, 11u}) {
+      TriangleMesh pinched = mesh;
+      pinched.points.resize(rim + 1 + other);
+      add_fan(pinched, rim, rim + 1, other);
+      EXPECT_EQ(mesh_topology(pinched).non_manifold_vertices, 1);
+      EXPECT_EQ(mesh_topology(pinched).components.size(), 1u);
+      EXPECT_EQ(mesh_topology(pinched).boundary_edges.size(), rim + other);
+    }
+  }
 }
 
 TEST(MeshTopology, AcceptsTheEmptyMeshAndFindsBadIndices) {
