@@ -32,33 +32,44 @@ struct TriangleShape {
   bool is_degenerate = true;
 };
 
-TriangleShape shape_of(Vec3 a, Vec3 b, Vec3 c) {
-  // Bring the triangle to about unit size at the origin, so that nothing overflows or underflows.
-  const Vec3 anchor = a;
-  b = 0.5 * b - 0.5 * anchor;
-  c = 0.5 * c - 0.5 * anchor;
+// The triangle 0bc at about unit size, where its own could let products overflow or underflow. False when it has none.
+bool bring_to_size(Vec3& b, Vec3& c) {
+  constexpr double kModest = 0x1p100;
+  constexpr int kLargest = 1000;  // a power of two that still has an inverse
   const double size =
       std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z), std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-  if (size == 0) return {};
-  constexpr int kLargest = 1000;  // a power of two that still has an inverse
+  if (size > 1 / kModest && size < kModest) return true;
+  if (size == 0) return false;
   const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(size), -kLargest, kLargest));
   b = scale * b;
   c = scale * c;
+  return true;
+}
+
+TriangleShape shape_of(const Vec3& a, const Vec3& second, const Vec3& third) {
+  Vec3 b = 0.5 * second - 0.5 * a, c = 0.5 * third - 0.5 * a;  // halved terms cannot overflow
+  if (!bring_to_size(b, c)) return {};
 
   // Each angle from its own two edges; the smallest lies across from the shortest edge, the largest from the longest.
-  const double lab = norm(b), lac = norm(c), lbc = norm(c - b);
-  const auto angle_across = [&](double length) {
-    return length == lbc ? angle_between(b, c) : length == lac ? angle_between(c - b, -b) : angle_between(-c, b - c);
+  // Which they are cannot be foretold, so corners are picked by number.
+  const std::array<Vec3, 3> corners = {Vec3{}, b, c};
+  const std::array<double, 3> across = {norm(c - b), norm(c), norm(b)};  // from each corner: the edge there
+  const auto corner_across = [&](double length) {
+    return static_cast<unsigned>(length != across[0]) * (1u + static_cast<unsigned>(length != across[1]));
   };
-  const double shortest = std::min({lab, lac, lbc});
+  const auto angle_at = [&](unsigned i) {
+    return angle_between(corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+  };
+  const double shortest = std::min(std::min(across[0], across[1]), across[2]);
   if (shortest == 0) return {};
+  const unsigned smallest = corner_across(shortest);
   TriangleShape shape;
-  shape.min_angle = angle_across(shortest).degrees();
-  shape.max_angle = angle_across(std::max({lab, lac, lbc}));
+  shape.min_angle = angle_at(smallest).degrees();
+  shape.max_angle = angle_at(corner_across(std::max(std::max(across[0], across[1]), across[2])));
 
   // R / l = l1 l2 / (2 |cross|) with the two longer edges l1, l2: R = l l1 l2 / (4 area).
   const double doubled_area = norm(cross(b, c));
-  const double longer = shortest == lab ? lac * lbc : shortest == lac ? lab * lbc : lab * lac;
+  const double longer = across[(smallest + 1) % 3] * across[(smallest + 2) % 3];
   // An area within rounding of zero (of products of unit numbers) says nothing.
   shape.is_degenerate = doubled_area <= 4e-16 * longer;
   if (!shape.is_degenerate) shape.radius_edge = std::min(longer / (2 * doubled_area), kDegenerateRadiusEdge);
