@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "surface/blocks.h"
@@ -25,13 +27,6 @@ struct Angle {
 Angle angle_between(const Vec3& u, const Vec3& v) { return {norm(cross(u, v)), dot(u, v)}; }
 bool is_larger(const Angle& a, const Angle& b) { return b.along * a.across > a.along * b.across; }
 
-struct TriangleShape {
-  double min_angle = 0;      // degrees
-  Angle max_angle = {1, 0};  // a right one
-  double radius_edge = kDegenerateRadiusEdge;
-  bool is_degenerate = true;
-};
-
 // The triangle 0bc at about unit size, where its own could let products overflow or underflow. False when it has none.
 bool bring_to_size(Vec3& b, Vec3& c) {
   constexpr double kModest = 0x1p100;
@@ -46,35 +41,32 @@ bool bring_to_size(Vec3& b, Vec3& c) {
   return true;
 }
 
-TriangleShape shape_of(const Vec3& a, const Vec3& second, const Vec3& third) {
-  Vec3 b = 0.5 * second - 0.5 * a, c = 0.5 * third - 0.5 * a;  // halved terms cannot overflow
-  if (!bring_to_size(b, c)) return {};
+// A triangle from its first corner on, and its edges.
+struct Edges {
+  Vec3 b, c;                           // the other two corners
+  std::array<double, 3> across{};      // the length across from each corner
+  unsigned smallest = 0, largest = 0;  // the corners across from the shortest and from the longest edge
+};
 
-  // Each angle from its own two edges; the smallest lies across from the shortest edge, the largest from the longest.
+Edges edges_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Edges edges{0.5 * b - 0.5 * a, 0.5 * c - 0.5 * a};  // halved terms cannot overflow
+  if (!bring_to_size(edges.b, edges.c)) return edges;
+  edges.across = {norm(edges.c - edges.b), norm(edges.c), norm(edges.b)};
   // Which they are cannot be foretold, so corners are picked by number.
-  const std::array<Vec3, 3> corners = {Vec3{}, b, c};
-  const std::array<double, 3> across = {norm(c - b), norm(c), norm(b)};  // from each corner: the edge there
+  const auto [at_a, at_b, at_c] = edges.across;
   const auto corner_across = [&](double length) {
-    return static_cast<unsigned>(length != across[0]) * (1u + static_cast<unsigned>(length != across[1]));
+    return static_cast<unsigned>(length != at_a) * (1u + static_cast<unsigned>(length != at_b));
   };
-  const auto angle_at = [&](unsigned i) {
-    return angle_between(corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
-  };
-  const double shortest = std::min(std::min(across[0], across[1]), across[2]);
-  if (shortest == 0) return {};
-  const unsigned smallest = corner_across(shortest);
-  TriangleShape shape;
-  shape.min_angle = angle_at(smallest).degrees();
-  shape.max_angle = angle_at(corner_across(std::max(std::max(across[0], across[1]), across[2])));
-
-  // R / l = l1 l2 / (2 |cross|) with the two longer edges l1, l2: R = l l1 l2 / (4 area).
-  const double doubled_area = norm(cross(b, c));
-  const double longer = across[(smallest + 1) % 3] * across[(smallest + 2) % 3];
-  // An area within rounding of zero (of products of unit numbers) says nothing.
-  shape.is_degenerate = doubled_area <= 4e-16 * longer;
-  if (!shape.is_degenerate) shape.radius_edge = std::min(longer / (2 * doubled_area), kDegenerateRadiusEdge);
-  return shape;
+  edges.smallest = corner_across(std::min(std::min(at_a, at_b), at_c));
+  edges.largest = corner_across(std::max(std::max(at_a, at_b), at_c));
+  return edges;
 }
+
+struct TriangleShape {
+  Angle min_angle = {0, 1};
+  double radius_edge = kDegenerateRadiusEdge;
+  bool is_degenerate = true;
+};
 
 // Figures of some triangles.
 struct Figures {
@@ -86,22 +78,72 @@ struct Figures {
   std::array<std::int64_t, 12> histogram{};
 
   void add(const TriangleShape& shape) {
-    min_angle = std::min(min_angle, shape.min_angle);
-    if (is_larger(shape.max_angle, max_angle)) max_angle = shape.max_angle;
-    sum_of_min_angles += shape.min_angle;
-    below_30 += shape.min_angle < 30 ? 1 : 0;
+    const double degrees = shape.min_angle.degrees();
+    min_angle = std::min(min_angle, degrees);
+    sum_of_min_angles += degrees;
+    below_30 += degrees < 30 ? 1 : 0;
     degenerate += shape.is_degenerate ? 1 : 0;
-    ++histogram[std::min<std::size_t>(histogram.size() - 1, static_cast<std::size_t>(shape.min_angle / 5))];
+    ++histogram[std::min<std::size_t>(histogram.size() - 1, static_cast<std::size_t>(degrees / 5))];
+  }
+  // The largest angle of a triangle.
+  void add_largest(const Angle& angle) {
+    if (is_larger(angle, max_angle)) max_angle = angle;
   }
   void add(const Figures& other) {
     min_angle = std::min(min_angle, other.min_angle);
-    if (is_larger(other.max_angle, max_angle)) max_angle = other.max_angle;
+    add_largest(other.max_angle);
     sum_of_min_angles += other.sum_of_min_angles;
     below_30 += other.below_30;
     degenerate += other.degenerate;
     for (std::size_t i = 0; i < histogram.size(); ++i) histogram[i] += other.histogram[i];
   }
 };
+
+// Each angle from its own two edges. Counts the largest one.
+TriangleShape shape_of(const Edges& edges, Figures& figures) {
+  const std::array<Vec3, 3> corners = {Vec3{}, edges.b, edges.c};
+  const auto leaving = [&](unsigned i, unsigned turn) { return corners[(i + turn) % 3] - corners[i]; };
+  const auto [smallest, largest] = std::pair(edges.smallest, edges.largest);
+  if (edges.across[smallest] == 0) {
+    figures.add_largest({1, 0});  // a right one
+    return {};
+  }
+  figures.add_largest(angle_between(leaving(largest, 1), leaving(largest, 2)));
+  TriangleShape shape;
+  shape.min_angle = angle_between(leaving(smallest, 1), leaving(smallest, 2));
+
+  // R / l = l1 l2 / (2 |cross|) with the two longer edges l1, l2: R = l l1 l2 / (4 area).
+  const double doubled_area = norm(cross(edges.b, edges.c));
+  const double longer = edges.across[(smallest + 1) % 3] * edges.across[(smallest + 2) % 3];
+  // An area within rounding of zero (of products of unit numbers) says nothing.
+  shape.is_degenerate = doubled_area <= 4e-16 * longer;
+  if (!shape.is_degenerate) shape.radius_edge = std::min(longer / (2 * doubled_area), kDegenerateRadiusEdge);
+  return shape;
+}
+
+// Step by step for a few triangles at a time, whose points have been fetched ahead: none waits for the roots of
+// another.
+void measure(const TriangleMesh& mesh, std::size_t first, std::size_t last, Figures& figures,
+             std::span<double> radius_edges) {
+  constexpr std::size_t kTogether = 8;
+  std::array<Edges, kTogether> edges;
+  std::array<TriangleShape, kTogether> shapes;
+  for (; first < last; first += kTogether) {
+    const std::size_t count = std::min(kTogether, last - first);
+    for (std::size_t t = first + kTogether; t < std::min(first + 2 * kTogether, last); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) __builtin_prefetch(&mesh.points[v]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [a, b, c] = mesh.triangles[first + i];
+      edges[i] = edges_of(mesh.points[a], mesh.points[b], mesh.points[c]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      shapes[i] = shape_of(edges[i], figures);
+      radius_edges[first + i] = shapes[i].radius_edge;
+    }
+    for (std::size_t i = 0; i < count; ++i) figures.add(shapes[i]);
+  }
+}
 
 }  // namespace
 
@@ -111,12 +153,7 @@ MeshQuality measure_quality(const TriangleMesh& mesh, int threads) {
   std::vector<double> radius_edges(mesh.triangles.size());
   std::vector<Figures> blocks((mesh.triangles.size() + kBlockSize - 1) / kBlockSize);
   for_each_block(mesh.triangles.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto [a, b, c] = mesh.triangles[t];
-      const TriangleShape shape = shape_of(mesh.points[a], mesh.points[b], mesh.points[c]);
-      blocks[first / kBlockSize].add(shape);
-      radius_edges[t] = shape.radius_edge;
-    }
+    measure(mesh, first, last, blocks[first / kBlockSize], radius_edges);
   });
   Figures sum;
   for (const Figures& block : blocks) sum.add(block);
