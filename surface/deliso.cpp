@@ -104,6 +104,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   options.criterion2 = parameters.stage2.criterion2;
   options.new_pole = parameters.stage2.new_pole;
   options.store_hits = parameters.stage2.store_hits;
+  options.keep_neighbours = false;
   return options;
 }
 

@@ -157,7 +157,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
     balls->clear();
     for (const RefinementMesh::Triangle& t : refined.triangles) balls->push_back(t.ball);
   }
-  refined.move_to(mesh, options.threads);
+  refined.move_to(mesh, options.threads, options.keep_neighbours);
 }
 
 }  // namespace deliso

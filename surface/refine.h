@@ -31,6 +31,7 @@ struct RefineOptions {
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
+  bool keep_neighbours = true;        // and pole heights; or else the refined mesh has points and triangles alone
   std::span<const Vec3> landmarks;    // points of the surface that the mesh is to come near (landmarks.h)
   int threads = 1;                    // the result is the same for any number
   std::size_t slab_triangles = 8192;  // of stage 1 in a slab (refinement_slabs.h), about

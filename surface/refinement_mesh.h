@@ -81,8 +81,9 @@ struct RefinementMesh {
 
   // Clears what a refinement that is over has noted: attempts and generations.
   void forget_attempts();
-  // Writes points, pole heights, triangles and neighbours to `mesh`; this mesh is empty afterwards.
-  void move_to(SurfaceMesh& mesh, int threads = 1);
+  // Writes points and triangles to `mesh`, and pole heights and neighbours, if they are to be kept; this mesh is empty
+  // afterwards.
+  void move_to(SurfaceMesh& mesh, int threads = 1, bool keep_neighbours = true);
 };
 
 }  // namespace deliso
