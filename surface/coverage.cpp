@@ -79,16 +79,26 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
   std::array<std::size_t, 3> bricks{};  // along each axis
   for (std::size_t axis = 0; axis < 3; ++axis) bricks[axis] = static_cast<std::size_t>(grid.dims()[axis] / kBrick) + 1;
   std::vector<std::uint32_t> brick_of(all.size());
+  const auto brick = [](std::int32_t place) { return static_cast<std::size_t>(place / kBrick); };
   for_each_block(all.size(), threads, [&](std::size_t first, std::size_t last) {
-    const auto brick = [](double x) { return static_cast<std::size_t>(x) / kBrick; };
+    // They come row by row of samples, so where a row lies is found once.
+    const auto length = static_cast<std::uint64_t>(grid.dims()[0]);
+    std::uint64_t row = 0, row_end = 0;  // its samples
+    std::size_t row_brick = 0;           // the first one that it passes
     for (std::size_t i = first; i < last; ++i) {
-      const Vec3 p = crossing_position(grid, all[i]);
-      brick_of[i] = static_cast<std::uint32_t>(brick(p.x) + bricks[0] * (brick(p.y) + bricks[1] * brick(p.z)));
+      const std::uint64_t sample = all[i].sample;
+      if (sample >= row_end) {
+        const CellIndex at = sample_of(all[i], grid.dims());
+        row = sample - static_cast<std::uint64_t>(at[0]);
+        row_end = row + length;
+        row_brick = bricks[0] * (brick(at[1]) + bricks[1] * brick(at[2]));
+      }
+      brick_of[i] = static_cast<std::uint32_t>((sample - row) / kBrick + row_brick);
     }
   });
   // Sorted by counting; those of one brick stay in order.
   std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // place of each brick's next crossing
-  for (const std::uint32_t brick : brick_of) ++next[brick + 1];
+  for (const std::uint32_t own : brick_of) ++next[own + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<std::uint32_t> crossings(all.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) crossings[next[brick_of[i]]++] = i;

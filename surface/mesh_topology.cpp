@@ -193,15 +193,15 @@ void StarCensus::add_to(MeshTopology& sum) const {
 // Numbers the pieces and counts their vertices and triangles.
 void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
   DisjointSets sets(mesh.points.size());
-  std::vector<bool> referenced(mesh.points.size(), false);
+  std::vector<std::uint8_t> referenced(mesh.points.size(), 0);
   for (const auto& [a, b, c] : mesh.triangles) {
     if (!sets.are_known_as_one(a, b)) sets.join(a, b);
     if (!sets.are_known_as_one(b, c)) sets.join(b, c);
-    referenced[a] = referenced[b] = referenced[c] = true;
+    referenced[a] = referenced[b] = referenced[c] = 1;
   }
   topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    if (!referenced[v]) {
+    if (referenced[v] == 0) {
       ++topology.unreferenced_vertices;
       continue;
     }

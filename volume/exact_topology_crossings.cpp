@@ -1,6 +1,7 @@
 #include "volume/exact_topology_crossings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -162,9 +163,10 @@ CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims) {
 
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
   const auto [i, j, k] = sample_of(crossing, grid.dims());
-  Vec3 position{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-  position[crossing.axis] += crossing.t;
-  return position;
+  // The axis cannot be foretold: zero is added along the others, by a table, for compilers make branches of conditions.
+  static constexpr std::array<Vec3, 3> kAlong = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  return Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} +
+         crossing.t * kAlong[crossing.axis];
 }
 
 }  // namespace deliso
