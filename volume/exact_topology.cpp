@@ -1,10 +1,12 @@
 #include "volume/exact_topology.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "volume/cell_crossings.h"
 #include "volume/exact_topology_cell.h"
 
 namespace deliso {
@@ -25,10 +27,15 @@ class DisjointSets {
   bool unite(std::uint32_t x, std::uint32_t y) {
     x = find(x);
     y = find(y);
-    if (x == y) return false;
-    if (y < x) std::swap(x, y);
-    parent_[y] = x;
-    return true;
+    add(x, y);
+    return x != y;
+  }
+  // Unites the set of a representative with that of x; returns the representative of both.
+  std::uint32_t add(std::uint32_t representative, std::uint32_t x) {
+    x = find(x);
+    const std::uint32_t low = std::min(representative, x);
+    parent_[std::max(representative, x)] = low;
+    return low;
   }
 
  private:
@@ -71,8 +78,8 @@ class TopologyBuilder {
 
   void join_cells();
   void join_layers(std::int32_t first, std::int32_t last, Found& found);
-  void join_simple_cell(const CellIndex& cell, std::uint8_t pattern);
-  void join_cell(const CellIndex& cell, std::uint8_t pattern, Found& found);
+  void join_simple_cell(const CellCrossings& crossings, std::uint8_t pattern);
+  void join_cell(const CellIndex& cell, const CellCrossings& crossings, std::uint8_t pattern, Found& found);
   [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
   void number_components();
   void count_on_box();
@@ -108,26 +115,31 @@ void TopologyBuilder::join_cells() {
 }
 
 void TopologyBuilder::join_layers(std::int32_t first, std::int32_t last, Found& found) {
+  CellCrossings crossings(result_.index);
   result_.index.for_each_active_cell(first, last, [&](const CellIndex& cell, std::uint8_t pattern) {
+    crossings.move_to(cell);
     if (is_simple(pattern)) {
-      join_simple_cell(cell, pattern);
+      join_simple_cell(crossings, pattern);
     } else {
-      join_cell(cell, pattern, found);
+      join_cell(cell, crossings, pattern, found);
     }
   });
 }
 
 // One disk through all crossings of the cell.
-void TopologyBuilder::join_simple_cell(const CellIndex& cell, std::uint8_t pattern) {
+void TopologyBuilder::join_simple_cell(const CellCrossings& crossings, std::uint8_t pattern) {
   unsigned edges = crossed_edges(pattern);
-  const std::uint32_t first = result_.index.number(cell, std::countr_zero(edges));
-  twice_euler_of_crossing_[first] += 2 - std::popcount(edges);
+  std::uint32_t representative = sets_.find(crossings.number(std::countr_zero(edges)));
+  std::int32_t twice_euler = 1;
   for (edges &= edges - 1; edges != 0; edges &= edges - 1) {
-    sets_.unite(first, result_.index.number(cell, std::countr_zero(edges)));
+    representative = sets_.add(representative, crossings.number(std::countr_zero(edges)));
+    --twice_euler;
   }
+  twice_euler_of_crossing_[representative] += twice_euler;
 }
 
-void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern, Found& found) {
+void TopologyBuilder::join_cell(const CellIndex& cell, const CellCrossings& crossings, std::uint8_t pattern,
+                                Found& found) {
   const CellSweep sweep(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
   bool singular = sweep.singular_inside();
   for (unsigned faces = sweep.saddle_faces(); faces != 0; faces &= faces - 1) {
@@ -139,7 +151,7 @@ void TopologyBuilder::join_cell(const CellIndex& cell, std::uint8_t pattern, Fou
   for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
     const int edge = std::countr_zero(edges);
     const int piece = sweep.piece_of_edge(edge);
-    const std::uint32_t crossing = result_.index.number(cell, edge);
+    const std::uint32_t crossing = crossings.number(edge);
     std::uint32_t& start = first[static_cast<std::size_t>(piece)];
     if (start == CrossingIndex::kNone) {
       start = crossing;
