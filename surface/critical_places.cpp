@@ -1,6 +1,7 @@
 #include "surface/critical_places.h"
 
 #include <bit>
+#include <utility>
 
 #include "surface/blocks.h"
 #include "volume/critical_points.h"
@@ -13,13 +14,13 @@ namespace {
 constexpr std::size_t kPlacesAtOnce = 4096;
 
 void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const CellIndex& cell,
-                   std::vector<CriticalPoint>& saddles, std::vector<CriticalPlace>& places) {
+                   std::vector<CriticalPlace>& places) {
   const auto append = [&](const Vec3& uvw, bool is_above) {
     const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
     places.push_back({scaled(p, isosurface.step()), cell, is_above});
   };
   const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
-  saddles.clear();
+  std::vector<CriticalPoint> saddles;
   append_critical_points(corners, saddles);
   for (const CriticalPoint& saddle : saddles) {
     const int side = side_of_saddle(corners, isosurface.isovalue(), saddle);
@@ -34,13 +35,38 @@ void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const C
 
 }  // namespace
 
-std::vector<CriticalPlace> critical_places(const ScalarGrid& grid, const Isosurface& isosurface,
-                                           const CrossingIndex& index) {
+void LocatedPlaces::find(std::span<const CellIndex> cells, int threads) {
+  // A cell whose places are known is left alone; one that was found to have none is asked again.
+  std::vector<CellIndex> asked;
+  auto known = places_.begin();
+  for (const CellIndex& cell : cells) {
+    while (known != places_.end() && is_before(known->cell, cell)) ++known;
+    if (known == places_.end() || known->cell != cell) asked.push_back(cell);
+  }
+  const Isosurface& isosurface = restricted_.isosurface();
+  add(collect_in_blocks<CriticalPlace>(asked.size(), threads, [&](std::size_t i, std::vector<CriticalPlace>& places) {
+    append_places(isosurface, grid_, asked[i], places);
+  }));
+}
+
+// Those of cells that had none.
+void LocatedPlaces::add(const std::vector<CriticalPlace>& found) {
   std::vector<CriticalPlace> places;
-  std::vector<CriticalPoint> saddles;
-  index.for_each_active_cell(
-      [&](const CellIndex& cell, std::uint8_t) { append_places(isosurface, grid, cell, saddles, places); });
-  return places;
+  std::vector<TetId> tets;
+  places.reserve(places_.size() + found.size());
+  tets.reserve(places.capacity());
+  auto next = found.begin();
+  for (std::size_t i = 0; i <= places_.size(); ++i) {
+    for (; next != found.end() && (i == places_.size() || is_before(next->cell, places_[i].cell)); ++next) {
+      places.push_back(*next);
+      tets.push_back(TetId::none());
+    }
+    if (i == places_.size()) break;
+    places.push_back(places_[i]);
+    tets.push_back(tets_[i]);
+  }
+  places_ = std::move(places);
+  tets_ = std::move(tets);
 }
 
 void LocatedPlaces::renew(const ExchangedPoints& exchanged) {

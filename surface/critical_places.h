@@ -1,14 +1,15 @@
 // Saddles and critical samples of the field, and the tetrahedra that hold them.
 //
 // There the topology of the isosurface is decided, and the exact side of each is known. Where they are depends on the
-// volume alone; a tetrahedron is looked for when it is asked for, and again only as points are exchanged.
+// volume alone: they are found once, in the cells that are asked for. A tetrahedron is looked for when it is asked for,
+// and again only as points are exchanged.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "raycast/isosurface.h"
 #include "surface/signed_delaunay.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
@@ -21,19 +22,22 @@ struct CriticalPlace {
   bool is_above = false;
 };
 
-// Those of the active cells, cell by cell, x fastest.
-std::vector<CriticalPlace> critical_places(const ScalarGrid& grid, const Isosurface& isosurface,
-                                           const CrossingIndex& index);
+// The order of cells, x fastest.
+inline bool is_before(const CellIndex& a, const CellIndex& b) {
+  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+}
 
 class LocatedPlaces {
  public:
   // Keeps references.
-  LocatedPlaces(const SignedDelaunay& restricted, const std::vector<CriticalPlace>& places)
-      : restricted_(restricted), places_(places), tets_(places.size()) {}
+  LocatedPlaces(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
 
   // Takes account of an exchange of points.
   void renew(const ExchangedPoints& exchanged);
 
+  // Finds those of some cells (x fastest); the same for any number of threads.
+  void find(std::span<const CellIndex> cells, int threads);
+  // Of all cells that have been asked for, cell by cell, x fastest.
   [[nodiscard]] const std::vector<CriticalPlace>& places() const { return places_; }
   // Finds the tetrahedra of these places (ascending); the same for any number of threads.
   void locate(std::span<const std::uint32_t> wanted, int threads);
@@ -41,10 +45,12 @@ class LocatedPlaces {
   [[nodiscard]] TetId tet(std::uint32_t place) const { return tets_[place]; }
 
  private:
+  void add(const std::vector<CriticalPlace>& found);
   [[nodiscard]] TetId located(const CriticalPlace& place, TetId hint) const;
 
   const SignedDelaunay& restricted_;
-  const std::vector<CriticalPlace>& places_;
+  const ScalarGrid& grid_;
+  std::vector<CriticalPlace> places_;
   std::vector<TetId> tets_;  // of each place, as far as it has been asked for
 };
 

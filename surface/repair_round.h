@@ -66,10 +66,8 @@ class RepairRound {
   };
   std::vector<Attempt> attempts(std::span<const SignRule> rules,
                                 const std::function<bool(const MatchedMesh&)>& is_last);
-  // The saddles and critical samples of the volume (SurfaceFacts) in the triangulation.
-  LocatedPlaces& located(const std::vector<CriticalPlace>& places) {
-    return located_ ? *located_ : located_.emplace(*restricted_, places);
-  }
+  // The saddles and critical samples of the volume in the triangulation, as far as they are asked for.
+  LocatedPlaces& located() { return located_ ? *located_ : located_.emplace(*restricted_, grid_); }
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 

@@ -59,7 +59,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     std::vector<CellName> cells = cells_in_trouble(
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
-         round != kRoundOfAllTrouble, round_->evidence(), round_->located(facts_.critical_places()), threads_});
+         round != kRoundOfAllTrouble, round_->evidence(), round_->located(), threads_});
     cells.insert(cells.end(), along_.begin(), along_.end());
     along_.clear();
     if (!mend_once(std::move(cells), controls)) break;

@@ -1,6 +1,7 @@
 #include "surface/surface_facts.h"
 
 #include <exception>
+#include <stop_token>
 
 namespace deliso {
 
@@ -8,9 +9,6 @@ SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface,
                            int threads)
     : grid_(grid),
       topology_(topology),
-      critical_(std::async(
-          std::launch::deferred,
-          [&grid, &isosurface, &topology] { return deliso::critical_places(grid, isosurface, topology.index); })),
       sweeps_(
           std::async(std::launch::deferred,
                      [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface.isovalue(), topology); })),
@@ -20,9 +18,8 @@ SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface,
   if (threads < 2) return;
   try {
     // Through futures of its own; what a search throws is thrown to those who ask.
-    finder_ = std::jthread([places = critical_, sweeps = sweeps_](const std::stop_token& stop) {
-      places.wait();
-      if (!stop.stop_requested()) sweeps.wait();  // nobody will ask any more
+    finder_ = std::jthread([sweeps = sweeps_](const std::stop_token& stop) {
+      if (!stop.stop_requested()) sweeps.wait();  // else nobody will ask any more
     });
   } catch (const std::exception&) {
     // No thread to be had: facts are found when they are asked for.

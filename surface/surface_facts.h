@@ -3,10 +3,8 @@
 
 #include <future>
 #include <thread>
-#include <vector>
 
 #include "raycast/isosurface.h"
-#include "surface/critical_places.h"
 #include "surface/polygonized_components.h"
 #include "surface/surface_sweeps.h"
 #include "volume/exact_topology.h"
@@ -23,7 +21,6 @@ class SurfaceFacts {
 
   [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
   [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
-  [[nodiscard]] const std::vector<CriticalPlace>& critical_places() const { return critical_.get(); }
   [[nodiscard]] const SurfaceSweeps& sweeps() const { return sweeps_.get(); }
   // Needed by few surfaces, and large: never found beforehand.
   [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
@@ -32,7 +29,6 @@ class SurfaceFacts {
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   // Deferred: whoever asks first does the work, anyone else waits for it.
-  std::shared_future<std::vector<CriticalPlace>> critical_;
   std::shared_future<SurfaceSweeps> sweeps_;
   std::shared_future<PolygonizedSurface> polygonized_;
   std::jthread finder_;

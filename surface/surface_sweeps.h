@@ -34,6 +34,7 @@ class SurfaceSweeps {
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
+  class Changes;
   void find_layers(const IsosurfaceTopology& topology);
 
   Dims dims_;

@@ -1,9 +1,12 @@
 #include "surface/trouble.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "surface/evidence.h"
+#include "volume/cell_crossings.h"
+#include "volume/exact_topology_cell.h"
 
 namespace deliso {
 
@@ -31,7 +34,8 @@ class TroubleFinder {
         near_places_(context.places.size()),
         has_sign_(context.done.size(), false) {
     for (std::size_t c = 0; context.is_near_places && c < places_.size(); ++c) {
-      if (!places_[c].all.empty()) near_places_[c].emplace(places_[c].all, grid_.dims(), kNear);
+      // One layer more is asked for where points are not known yet, only their cells.
+      if (!places_[c].all.empty()) near_places_[c].emplace(places_[c].all, grid_.dims(), kNear + 1);
     }
   }
 
@@ -52,17 +56,23 @@ class TroubleFinder {
   void flag_unused_vertices();
   void flag_critical_points();
   void flag_silent_components();
+  void find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const;
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
   // What a sign of trouble tells of: of a component whose piece has the right topology only some signs matter.
   enum class Tells { kTopology, kMissingPart, kMixing };
-  [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, Tells tells) const {
+  [[nodiscard]] bool matters(std::uint32_t component, Tells tells) const {
     if (done_[component]) return false;
     const Agreement agreement = mesh_.match.agreement[component];
     if (agreement == Agreement::kMixed && tells != Tells::kMixing) return false;
-    if (agreement == Agreement::kPartial && tells != Tells::kMissingPart) return false;
-    return !near_places_[component] || near_places_[component]->reaches(cells_.cell_of(p));
+    return agreement != Agreement::kPartial || tells == Tells::kMissingPart;
+  }
+  [[nodiscard]] bool is_near_places(const CellIndex& cell, std::uint32_t component, std::int32_t layers) const {
+    return !near_places_[component] || (*near_places_[component])(cell) <= layers;
+  }
+  [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, Tells tells) const {
+    return matters(component, tells) && is_near_places(cells_.cell_of(p), component, kNear);
   }
   void flag(const Vec3& p, std::uint32_t component, Tells tells) {
     if (!matters(p, component, tells)) return;
@@ -146,15 +156,19 @@ void TroubleFinder::flag_unused_vertices() {
 // Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
 // way.
 void TroubleFinder::flag_critical_points() {
+  std::vector<CellIndex> cells;
+  std::vector<std::uint32_t> open;  // the component of each that is not done
+  find_open_cells(cells, open);
+  critical_.find(cells, threads_);
   const std::vector<CriticalPlace>& places = critical_.places();
   std::vector<std::uint32_t> wanted;
   std::vector<std::uint32_t> component_of;  // of each of these
-  std::optional<std::uint32_t> component;
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    if (i == 0 || places[i].cell != places[i - 1].cell) component = open_component_in(places[i].cell);
-    if (!component || !matters(places[i].point, *component, Tells::kTopology)) continue;
-    wanted.push_back(i);
-    component_of.push_back(*component);
+  for (std::size_t i = 0, at = 0; i < places.size(); ++i) {
+    while (at < cells.size() && is_before(cells[at], places[i].cell)) ++at;
+    if (at == cells.size()) break;
+    if (cells[at] != places[i].cell || !matters(places[i].point, open[at], Tells::kTopology)) continue;
+    wanted.push_back(static_cast<std::uint32_t>(i));
+    component_of.push_back(open[at]);
   }
   critical_.locate(wanted, threads_);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -162,6 +176,27 @@ void TroubleFinder::flag_critical_points() {
     if (restricted_.is_above(critical_.tet(wanted[k])) == place.is_above) continue;
     flag(place.point, component_of[k], Tells::kTopology);
   }
+}
+
+// The active cells in which critical points may matter, and a component for each.
+void TroubleFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const {
+  const CrossingIndex& index = topology_.index;
+  std::vector<bool> counts(done_.size());
+  for (std::uint32_t c = 0; c < counts.size(); ++c) counts[c] = matters(c, Tells::kTopology);
+  if (std::find(counts.begin(), counts.end(), true) == counts.end()) return;
+  CellCrossings crossings(index);
+  index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+    std::optional<std::uint32_t> component;
+    if (is_simple(pattern)) {  // one disk
+      crossings.move_to(cell);
+      component = topology_.crossings[crossings.number(std::countr_zero(crossed_edges(pattern)))].component;
+    } else {
+      component = open_component_in(cell);
+    }
+    if (!component || !counts[*component] || !is_near_places(cell, *component, kNear + 1)) return;
+    cells.push_back(cell);
+    components.push_back(*component);
+  });
 }
 
 void TroubleFinder::flag_silent_components() {

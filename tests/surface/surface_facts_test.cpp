@@ -55,15 +55,16 @@ std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<Critic
 
 TEST(SurfaceFacts, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({14, 13, 12}, 4);
-  const auto cells = critical_cells_by_search(*scene);
-  ASSERT_GT(cells.size(), 100u);
   const PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
+  const SurfaceSweeps sweeps(scene->grid, scene->isovalue, scene->topology);
   for (const int threads : {1, 2, 3, 5}) {
     const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, threads);
     EXPECT_EQ(facts.polygonized().mesh.points, surface.mesh.points) << threads;
     EXPECT_EQ(facts.polygonized().mesh.triangles, surface.mesh.triangles) << threads;
     EXPECT_EQ(facts.polygonized().component, surface.component) << threads;
-    EXPECT_EQ(cells_of(facts.critical_places()), cells) << threads;
+    for (std::uint32_t c = 0; c < scene->topology.components.size(); ++c) {
+      EXPECT_EQ(facts.sweeps().of(c), sweeps.of(c)) << threads;
+    }
   }
 }
 
@@ -72,26 +73,77 @@ TEST(SurfaceFacts, NobodyHasToAsk) {
   for (int i = 0; i < 20; ++i) SurfaceFacts(scene->grid, *scene->isosurface, scene->topology, 2);
 }
 
+std::vector<CellIndex> active_cells(const Scene& scene) {
+  std::vector<CellIndex> cells;
+  scene.topology.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t) { cells.push_back(cell); });
+  return cells;
+}
+
+TEST(LocatedPlaces, AreFoundInTheCellsAskedFor) {
+  const auto scene = noise_scene({14, 13, 12}, 4);
+  const auto expected = critical_cells_by_search(*scene);
+  ASSERT_GT(expected.size(), 100u);
+  const SignedDelaunay restricted(*scene->isosurface, scene->start());
+  const std::vector<CellIndex> cells = active_cells(*scene);
+  for (const int threads : {1, 3}) {
+    LocatedPlaces places(restricted, scene->grid);
+    places.find(cells, threads);
+    EXPECT_EQ(cells_of(places.places()), expected) << threads;
+  }
+  // Some cells, others, and then all of them, many asked for again.
+  LocatedPlaces places(restricted, scene->grid);
+  for (const std::size_t step : {7u, 3u}) {
+    std::vector<CellIndex> some;
+    for (std::size_t i = step / 2; i < cells.size(); i += step) some.push_back(cells[i]);
+    places.find(some, 1);
+    EXPECT_LT(cells_of(places.places()).size(), expected.size());
+  }
+  places.find(cells, 1);
+  EXPECT_EQ(cells_of(places.places()), expected);
+}
+
+TEST(LocatedPlaces, KeepTheirTetrahedraWhenMoreAreFound) {
+  const auto scene = noise_scene({14, 13, 12}, 4);
+  const SignedDelaunay restricted(*scene->isosurface, scene->start());
+  const std::vector<CellIndex> cells = active_cells(*scene);
+  LocatedPlaces places(restricted, scene->grid);
+  places.find(std::span(cells).subspan(cells.size() / 2), 1);
+  const std::size_t count = places.places().size();
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  places.locate(all, 1);
+  std::vector<TetId> tets;
+  for (const std::uint32_t i : all) tets.push_back(places.tet(i));
+  places.find(cells, 1);
+  const std::size_t before = places.places().size() - count;
+  ASSERT_GT(before, 0u);
+  for (std::uint32_t i = 0; i < before; ++i) ASSERT_TRUE(places.tet(i).is_none());
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(places.tet(static_cast<std::uint32_t>(before + i)), tets[i]);
+}
+
 // All at once on several threads, or a few at a time.
 TEST(LocatedPlaces, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({40, 39, 38}, 6);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
-  const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, 1);
-  const std::vector<CriticalPlace>& places = facts.critical_places();
-  ASSERT_GT(places.size(), 2 * kBlockSize);
-  std::vector<std::uint32_t> all(places.size());
+  const std::vector<CellIndex> cells = active_cells(*scene);
+  LocatedPlaces one(restricted, scene->grid);
+  one.find(cells, 1);
+  const std::size_t count = one.places().size();
+  ASSERT_GT(count, 2 * kBlockSize);
+  std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);
-  LocatedPlaces one(restricted, places);
   one.locate(all, 1);
-  LocatedPlaces few(restricted, places);
+  LocatedPlaces few(restricted, scene->grid);
+  few.find(cells, 1);
   for (std::size_t i = 0; i < all.size(); i += 100) few.locate(std::span(all).subspan(i, 1), 1);
-  for (std::uint32_t i = 0; i < places.size(); i += 100) {
+  for (std::uint32_t i = 0; i < count; i += 100) {
     ASSERT_FALSE(few.tet(i).is_none());
     if (restricted.delaunay().is_ghost(one.tet(i))) continue;
     ASSERT_EQ(few.tet(i), one.tet(i));
   }
   for (const int threads : {2, 3, 5}) {
-    LocatedPlaces many(restricted, places);
+    LocatedPlaces many(restricted, scene->grid);
+    many.find(cells, threads);
     many.locate(all, threads);
     for (const std::uint32_t i : all) ASSERT_EQ(many.tet(i), one.tet(i)) << threads;
   }
