@@ -83,7 +83,8 @@ class TopologyBuilder {
   [[nodiscard]] bool passes_through(const CellIndex& cell, int face) const;
   void number_components();
   void count_on_box();
-  [[nodiscard]] bool meets_surface(const CellIndex& corner, std::size_t axis) const;
+  template <class Visit>
+  void for_each_face_on_box(const Visit& visit) const;
 
   const ScalarGrid& grid_;
   double isovalue_;
@@ -197,16 +198,45 @@ void TopologyBuilder::number_components() {
   for (SurfaceSaddle& saddle : result_.saddles) saddle.component = result_.crossings[saddle.component].component;
 }
 
-// Whether the corners of a grid face lie on both sides.
-bool TopologyBuilder::meets_surface(const CellIndex& corner, std::size_t axis) const {
-  const auto above = [&](std::int32_t db, std::int32_t dc) {
-    CellIndex at = corner;
-    at[(axis + 1) % 3] += db;
-    at[(axis + 2) % 3] += dc;
-    return result_.index.above(at[0], at[1], at[2]);
-  };
-  const bool first = above(0, 0);
-  return above(1, 0) != first || above(0, 1) != first || above(1, 1) != first;
+// Calls visit(corner, axis) for the grid faces on the box that have corners on both sides.
+template <class Visit>
+void TopologyBuilder::for_each_face_on_box(const Visit& visit) const {
+  const Dims& dims = grid_.dims();
+  const CrossingIndex& index = result_.index;
+  // Those across x one by one, those along x 64 at a time.
+  for (const std::int32_t i : {0, dims[0] - 1}) {
+    for (std::int32_t k = 0; k + 1 < dims[2]; ++k) {
+      for (std::int32_t j = 0; j + 1 < dims[1]; ++j) {
+        const bool first = index.above(i, j, k);
+        if (index.above(i, j + 1, k) == first && index.above(i, j, k + 1) == first &&
+            index.above(i, j + 1, k + 1) == first) {
+          continue;
+        }
+        visit(CellIndex{i, j, k}, 0);
+      }
+    }
+  }
+  for (const std::size_t axis : {1u, 2u}) {
+    const std::size_t along = 3 - axis;  // beside x
+    for (const std::int32_t plane : {0, dims[axis] - 1}) {
+      CellIndex corner{};
+      corner[axis] = plane;
+      for (corner[along] = 0; corner[along] + 1 < dims[along]; ++corner[along]) {
+        CellIndex next = corner;
+        ++next[along];
+        for (std::int32_t w = 0; w < index.words_per_row(); ++w) {
+          const std::uint64_t first = index.word(w, corner[1], corner[2]);
+          const std::uint64_t mixed = (first ^ index.next_word(w, corner[1], corner[2])) |
+                                      (first ^ index.word(w, next[1], next[2])) |
+                                      (first ^ index.next_word(w, next[1], next[2]));
+          for (std::uint64_t left = mixed & index.cells_in_word(w); left != 0; left &= left - 1) {
+            corner[0] = w * CrossingIndex::kWordBits + std::countr_zero(left);
+            visit(corner, static_cast<int>(axis));
+          }
+        }
+      }
+    }
+  }
 }
 
 // The arcs on the box. Every crossing there ends two of them, so loops are the sets of crossings that they join: as
@@ -223,27 +253,16 @@ void TopologyBuilder::count_on_box() {
     }
     if (sets.unite(from, to)) --result_.components[component].boundary_loops;
   };
-  const Dims& dims = grid_.dims();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t b = (axis + 1) % 3;
-    const std::size_t c = (axis + 2) % 3;
-    for (const std::int32_t plane : {0, dims[axis] - 1}) {
-      CellIndex corner{};
-      corner[axis] = plane;
-      for (corner[c] = 0; corner[c] + 1 < dims[c]; ++corner[c]) {
-        for (corner[b] = 0; corner[b] + 1 < dims[b]; ++corner[b]) {
-          if (!meets_surface(corner, axis)) continue;
-          if (seen.empty()) {
-            seen.resize(result_.crossings.size());
-            sets = DisjointSets(result_.crossings.size());
-          }
-          const FaceArcs arcs = face_arcs(grid_, isovalue_, result_.index, corner, static_cast<int>(axis));
-          add_arc(arcs.arcs[0].crossings[0], arcs.arcs[0].crossings[1]);
-          if (arcs.count == 2) add_arc(arcs.arcs[1].crossings[0], arcs.arcs[1].crossings[1]);
-        }
-      }
+  for_each_face_on_box([&](const CellIndex& corner, int axis) {
+    if (seen.empty()) {
+      seen.resize(result_.crossings.size());
+      sets = DisjointSets(result_.crossings.size());
     }
-  }
+    const FaceArcs arcs = face_arcs(grid_, isovalue_, result_.index, corner, axis);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {
+      add_arc(arcs.arcs[i].crossings[0], arcs.arcs[i].crossings[1]);
+    }
+  });
 }
 
 }  // namespace
