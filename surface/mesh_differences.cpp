@@ -18,28 +18,6 @@ constexpr std::int32_t kWidest = 16;
 constexpr std::size_t kFewComponents = 8;
 constexpr std::size_t kMostByCurvature = 16;
 
-// The cells whose corners' layers may count in some of several boxes, and few others.
-class ReachedCells {
- public:
-  ReachedCells(const std::vector<std::optional<PlaceBoxes>>& boxes, const Dims& dims) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto is_reached = [&](std::int32_t layer) {
-        return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box && box->reach(axis, layer); });
-      };
-      for (std::int32_t layer = 0; layer + 1 < dims[axis]; ++layer) {
-        layers_[axis].push_back(is_reached(layer) || is_reached(layer + 1));
-      }
-    }
-  }
-  bool operator()(const CellIndex& cell) const {
-    return layers_[0][static_cast<std::size_t>(cell[0])] && layers_[1][static_cast<std::size_t>(cell[1])] &&
-           layers_[2][static_cast<std::size_t>(cell[2])];
-  }
-
- private:
-  std::array<std::vector<bool>, 3> layers_;  // of cells, along each axis
-};
-
 bool tell(const std::vector<Place>& swept) {
   const auto is_narrow = [](const Place& place) {
     return std::all_of(place.begin(), place.end(),
@@ -128,7 +106,13 @@ void MeshDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<
                                      std::vector<std::optional<PlaceBoxes>>& boxes) const {
   if (std::none_of(boxes.begin(), boxes.end(), [](const auto& box) { return box.has_value(); })) return;
   const Dims& dims = facts_.grid().dims();
-  const ReachedCells reached(boxes, dims);
+  // The cells whose corners' layers may count in some of the boxes, and few others.
+  const auto is_reached = [&](std::size_t axis, std::int32_t layer) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box && box->reach(axis, layer); });
+  };
+  const CellLayers reached(dims, [&](std::size_t axis, std::int32_t layer) {
+    return is_reached(axis, layer) || is_reached(axis, layer + 1);
+  });
   for_each_mesh_change(mesh.built.mesh, part_of_vertex, isosurface_.step(), dims,
                        [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
                          if (boxes[part]) boxes[part]->add(layers, 2 * change);

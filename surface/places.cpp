@@ -12,13 +12,14 @@ std::int32_t distance_from(const LayerRange& range, std::int32_t layer) {
   return std::max({range.first - layer, layer - range.last, 0});
 }
 
-}  // namespace
-
+// Along the axis along which it is farthest.
 std::int32_t distance_from(const Place& place, const CellIndex& cell) {
   std::int32_t farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) farthest = std::max(farthest, distance_from(place[axis], cell[axis]));
   return farthest;
 }
+
+}  // namespace
 
 DistanceFromPlaces::DistanceFromPlaces(std::vector<Place> places, const std::array<std::int32_t, 3>& dims,
                                        std::int32_t reach)

@@ -43,15 +43,14 @@ class ExactChanges {
   ExactChanges(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology, Changes& changes)
       : grid_(grid), isovalue_(isovalue), topology_(topology), crossings_(topology.index), changes_(changes) {}
 
-  template <class IsWanted>
-  void visit(const IsWanted& is_wanted) {
+  template <class Cells>
+  void visit(const Cells& wanted) {
     const Dims& dims = grid_.dims();
     for_each_crossing(topology_, dims, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
       const CellIndex cell{std::min(at[0], dims[0] - 2), std::min(at[1], dims[1] - 2), std::min(at[2], dims[2] - 2)};
-      if (is_wanted(cell)) changes_.add(crossing.component, at, 2);
+      if (wanted.contain(cell)) changes_.add(crossing.component, at, 2);
     });
-    topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
-      if (!is_wanted(cell)) return;
+    wanted.for_each_active_cell(topology_.index, [&](const CellIndex& cell, std::uint8_t pattern) {
       crossings_.move_to(cell);
       is_simple(pattern) ? visit_simple(cell, pattern) : visit_any(cell, pattern);
     });
@@ -105,6 +104,15 @@ class ExactChanges {
   Changes& changes_;
 };
 
+// As CellLayers, with all cells in them.
+struct AllCells {
+  [[nodiscard]] static bool contain(const CellIndex& /*cell*/) { return true; }
+  template <class Visit>
+  static void for_each_active_cell(const CrossingIndex& index, const Visit& visit) {
+    index.for_each_active_cell(visit);
+  }
+};
+
 // Hands on one by one what is visited.
 struct HandedOn {
   const VisitChange& visit;
@@ -124,9 +132,9 @@ struct HandedOn {
 }  // namespace
 
 void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
-                           const std::function<bool(const CellIndex&)>& is_wanted, const VisitChange& visit) {
+                           const CellLayers& wanted, const VisitChange& visit) {
   const HandedOn changes{visit};
-  ExactChanges(grid, isovalue, topology, changes).visit(is_wanted);
+  ExactChanges(grid, isovalue, topology, changes).visit(wanted);
 }
 
 // Adds up what is visited by layers.
@@ -161,7 +169,9 @@ SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, double isovalue, const Isos
     : dims_(grid.dims()) {
   find_layers(topology);
   Changes changes(*this);
-  ExactChanges(grid, isovalue, topology, changes).visit([](const CellIndex&) { return true; });
+  ExactChanges(grid, isovalue, topology, changes).visit(CellLayers(dims_, [](std::size_t, std::int32_t) {
+    return true;
+  }));
 }
 
 // Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.

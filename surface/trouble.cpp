@@ -101,11 +101,11 @@ void TroubleFinder::flag_places() {
     const std::vector<Place>& likely = places_[c].likely;
     if (done_[c] || likely.empty() || likely.size() > kFewPlaces) continue;
     for (const Place& place : likely) {
-      const std::int32_t first = std::max(place[2].first - kVeryNear, 0);
-      const std::int32_t last = std::min(place[2].last + kVeryNear + 1, topology_.index.cell_layers());
-      topology_.index.for_each_active_cell(first, last, [&](const CellIndex& cell, unsigned) {
-        if (distance_from(place, cell) <= kVeryNear) found_.push_back(cells_.name(cell));
+      const CellLayers near(grid_.dims(), [&](std::size_t axis, std::int32_t layer) {
+        return place[axis].first - kVeryNear <= layer && layer <= place[axis].last + kVeryNear;
       });
+      near.for_each_active_cell(topology_.index,
+                                [&](const CellIndex& cell, unsigned) { found_.push_back(cells_.name(cell)); });
     }
   }
 }
@@ -181,11 +181,17 @@ void TroubleFinder::flag_critical_points() {
 // The active cells in which critical points may matter, and a component for each.
 void TroubleFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const {
   const CrossingIndex& index = topology_.index;
-  std::vector<bool> counts(done_.size());
-  for (std::uint32_t c = 0; c < counts.size(); ++c) counts[c] = matters(c, Tells::kTopology);
-  if (std::find(counts.begin(), counts.end(), true) == counts.end()) return;
+  std::vector<std::uint32_t> counting;
+  for (std::uint32_t c = 0; c < done_.size(); ++c) {
+    if (matters(c, Tells::kTopology)) counting.push_back(c);
+  }
+  if (counting.empty()) return;
+  const CellLayers layers(grid_.dims(), [&](std::size_t axis, std::int32_t layer) {
+    return std::any_of(counting.begin(), counting.end(),
+                       [&](std::uint32_t c) { return !near_places_[c] || near_places_[c]->reaches(axis, layer); });
+  });
   CellCrossings crossings(index);
-  index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+  layers.for_each_active_cell(index, [&](const CellIndex& cell, std::uint8_t pattern) {
     std::optional<std::uint32_t> component;
     if (is_simple(pattern)) {  // one disk
       crossings.move_to(cell);
@@ -193,7 +199,7 @@ void TroubleFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<s
     } else {
       component = open_component_in(cell);
     }
-    if (!component || !counts[*component] || !is_near_places(cell, *component, kNear + 1)) return;
+    if (!component || !matters(*component, Tells::kTopology) || !is_near_places(cell, *component, kNear + 1)) return;
     cells.push_back(cell);
     components.push_back(*component);
   });

@@ -116,6 +116,12 @@ class CrossingIndex {
   template <class Visit>
   void for_each_active_cell(std::int32_t first_layer, std::int32_t last_layer, const Visit& visit) const;
   [[nodiscard]] std::int32_t cell_layers() const { return dims_[2] - 1; }
+  // The same for a row of cells along x, of cell_rows() in a layer.
+  template <class Visit>
+  void for_each_active_cell_in_row(std::int32_t j, std::int32_t k, const Visit& visit) const {
+    for (std::int32_t w = 0; w < words_per_row_; ++w) visit_active_cells_in_word(w, j, k, visit);
+  }
+  [[nodiscard]] std::int32_t cell_rows() const { return dims_[1] - 1; }
 
  private:
   std::uint64_t count_in_layers(std::int32_t first, std::int32_t last);
@@ -158,9 +164,7 @@ void CrossingIndex::for_each_crossing_of_cell(const CellIndex& cell, const Visit
 template <class Visit>
 void CrossingIndex::for_each_active_cell(std::int32_t first_layer, std::int32_t last_layer, const Visit& visit) const {
   for (std::int32_t k = first_layer; k < last_layer; ++k) {
-    for (std::int32_t j = 0; j + 1 < dims_[1]; ++j) {
-      for (std::int32_t w = 0; w < words_per_row_; ++w) visit_active_cells_in_word(w, j, k, visit);
-    }
+    for (std::int32_t j = 0; j < cell_rows(); ++j) for_each_active_cell_in_row(j, k, visit);
   }
 }
 

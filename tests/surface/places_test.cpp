@@ -46,6 +46,35 @@ TEST(Places, DistancesAreThoseFromTheNearest) {
   }
 }
 
+TEST(CellLayers, HaveTheActiveCellsInThem) {
+  Rng rng(4);
+  const Dims dims{70, 9, 8};
+  std::vector<double> samples(70 * 9 * 8);
+  for (double& sample : samples) sample = rng.uniform(-1, 2);
+  const ScalarGrid grid(dims, samples);
+  const CrossingIndex index(grid, 0);
+  for (int round = 0; round < 10; ++round) {
+    std::array<std::vector<bool>, 3> some;
+    for (auto& along : some) {
+      for (std::int32_t layer = 0; layer < dims[0]; ++layer) along.push_back(rng.below(3) != 0);
+    }
+    const auto is_in = [&](std::size_t axis, std::int32_t layer) -> bool {
+      return some[axis][static_cast<std::size_t>(layer)];
+    };
+    const CellLayers layers(dims, is_in);
+    std::vector<std::pair<CellIndex, std::uint8_t>> expected, found;
+    index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+      const bool is_here = is_in(0, cell[0]) && is_in(1, cell[1]) && is_in(2, cell[2]);
+      EXPECT_EQ(layers.contain(cell), is_here);
+      if (is_here) expected.emplace_back(cell, pattern);
+    });
+    layers.for_each_active_cell(
+        index, [&](const CellIndex& cell, std::uint8_t pattern) { found.emplace_back(cell, pattern); });
+    EXPECT_EQ(found, expected) << round;
+    EXPECT_GT(found.size(), 0u);
+  }
+}
+
 using Layers = std::array<std::int32_t, 3>;
 
 Place place_at(const Layers& at) {
