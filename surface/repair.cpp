@@ -73,7 +73,7 @@ class Repair {
   AssembledMesh result_;              // at last
   std::vector<bool> is_polygonized_;  // of each component in it
   std::vector<Box3> dents_;           // left in it
-  bool is_apart_ = false;             // its triangles are known not to cross
+  bool is_apart_ = false;             // its triangles are known not to cross; taking dents out keeps that
 };
 
 SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
@@ -112,7 +112,7 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
 
 // More rounds where the topology is right and yet triangles cross; unless they do not help.
 void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
-  if (!rounds_.may_go_on(max_rounds) || controls.poll()) return;
+  if (is_apart_ || !rounds_.may_go_on(max_rounds) || controls.poll()) return;
   SelfIntersections found = crossing_triangles();
   is_apart_ = found.crossing_pairs == 0;
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
@@ -120,6 +120,7 @@ void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
     if (crossings.empty()) return;
     std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
     if (!before) return;
+    if (is_apart_) return;
     SelfIntersections left = crossing_triangles();
     if (left.crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
     found = std::move(left);
@@ -180,6 +181,7 @@ bool Repair::ends_without_intruders() {
   if (is_whole && take_intruders_out()) return true;
   if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};
+  is_apart_ = false;
   stats_.intruders_removed = 0;
   return false;
 }
@@ -206,12 +208,16 @@ bool Repair::take_intruders_out() {
   };
   SurfaceMesh without = result_.mesh;
   const auto [removed, left] = remove_intruders(without, result_.component);
-  if (removed == 0) return left == 0 && !crosses(result_.mesh);
-  const bool is_crossing = crosses(without);
-  if (is_crossing && !crosses(result_.mesh)) return false;
+  if (removed == 0 && left > 0) return false;
+  is_apart_ = !crosses(without);
+  if (removed == 0) return is_apart_;
+  if (!is_apart_ && !crosses(result_.mesh)) {
+    is_apart_ = true;  // as it is
+    return false;
+  }
   stats_.intruders_removed = removed;
   result_ = {std::move(without), {}};
-  return left == 0 && !is_crossing;
+  return left == 0 && is_apart_;
 }
 
 }  // namespace
