@@ -23,6 +23,9 @@ constexpr double kLeastDistance = 0.5;
 // The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
 constexpr double kFarthestCover = 0.2;
 
+// So many triangles share a box when they are looked for all over the mesh: most lie near those before them.
+constexpr std::size_t kTrianglesAtOnce = 32;
+
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 class Dents {
@@ -74,6 +77,7 @@ class Dents {
   const Isosurface& isosurface_;
   VertexFans fans_;
   std::vector<Apex> apexes_;
+  std::vector<Box3> boxes_;  // of kTrianglesAtOnce triangles each, as the mesh was
   SearchCounters search_;
 };
 
@@ -147,8 +151,12 @@ void Dents::find_surroundings() {
     boxes.push_back(apex.box);
   }
   const BoxTree tree(boxes);
+  boxes_.resize((mesh_.triangles.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    tree.for_each_meeting(box_of(mesh_, t), [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+    const Box3 box = box_of(mesh_, t);
+    boxes_[t / kTrianglesAtOnce].extend(box.low);
+    boxes_[t / kTrianglesAtOnce].extend(box.high);
+    tree.for_each_meeting(box, [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
   }
 }
 
@@ -162,13 +170,19 @@ Box3 Dents::box_around(std::uint32_t v, const VertexFan& fan) const {
   return box;
 }
 
-// The same for one whose link is no longer the one it had.
+// The same for one whose link is no longer the one it had. Triangles that are not where they were are among the renewed
+// ones, whatever the boxes say.
 void Dents::look_around(Apex& apex, const Box3& box) {
   if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
   apex.box = box;
   apex.surroundings.clear();
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (fans_.has_triangle(t) && box.meets(box_of(mesh_, t))) apex.surroundings.push_back(t);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (!boxes_[i].meets(box)) continue;
+    const std::size_t last = std::min((i + 1) * kTrianglesAtOnce, mesh_.triangles.size());
+    for (std::size_t t = i * kTrianglesAtOnce; t < last; ++t) {
+      const auto triangle = static_cast<std::uint32_t>(t);
+      if (fans_.has_triangle(triangle) && box.meets(box_of(mesh_, triangle))) apex.surroundings.push_back(triangle);
+    }
   }
 }
 
