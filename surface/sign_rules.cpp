@@ -18,7 +18,7 @@ constexpr double kLongEdge = 2;
 constexpr double kInwards = 1e-5;
 
 struct Shape {
-  Vec3 centroid;
+  Vec3 centroid;  // of a small one
   bool is_small = false;
 };
 
@@ -29,17 +29,16 @@ Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   const bool is_ghost = delaunay.is_ghost(t);
   const unsigned corners = is_ghost ? 3 : 4;
   Vec3 sum;
-  double longest = 0;
   for (unsigned a = 0; a < corners; ++a) {
     if (restricted.is_virtual(v[a]) || (is_ghost && !restricted.is_on_box(v[a]))) return {};
     sum += delaunay.point(v[a]);
     for (unsigned b = 0; b < a; ++b) {
-      longest = std::max(longest, squared_distance(delaunay.point(v[a]), delaunay.point(v[b])));
+      if (squared_distance(delaunay.point(v[a]), delaunay.point(v[b])) > kLongEdge * kLongEdge) return {};
     }
   }
   const Vec3 centroid = sum / corners;
   if (is_ghost && !SignedDelaunay::on_box(restricted.isosurface().box(), centroid)) return {};
-  return {centroid, longest <= kLongEdge * kLongEdge};
+  return {centroid, true};
 }
 
 // A set of cells behind a sieve that holds back nearly all others.
