@@ -86,6 +86,9 @@ class BowyerWatson : public Tetrahedralization {
   // of what was rim()[i]. Their ids may be those of destroyed tetrahedra.
   VertexId fill_cavity();
   [[nodiscard]] std::span<const TetId> created() const { return created_; }
+  // Right after fill_cavity(): centers[i] = the circumcenter of created()[i], as circumcenter() has it; those of ghosts
+  // are left alone. Precondition: as many centers as tetrahedra.
+  void circumcenters_of_star(std::span<Vec3> centers) const;
   // Forgets the region instead.
   void abandon_cavity();
 

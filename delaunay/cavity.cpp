@@ -4,6 +4,8 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/bowyer_watson.h"
+#include "delaunay/circumcenter_pairs.h"
+#include "delaunay/constructions.h"
 
 namespace deliso {
 
@@ -100,6 +102,26 @@ void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
     mirrors[1] = edges.at(z, y);
     mirrors[2] = edges.at(x, z);
     mirrors[3] = edges.at(y, x);
+  }
+}
+
+void BowyerWatson::circumcenters_of_star(std::span<Vec3> centers) const {
+  const auto row = [&](std::size_t i, unsigned k) -> const LiftedRow& {
+    const std::uint32_t from = rim_from_[i];
+    return rows_.row(region_corners_[from >> 2][kStarSlots[from & 3u][k]]);
+  };
+  for (std::size_t i = 0; i < created_.size(); i += 2) {
+    const std::array<std::size_t, 2> pair = {i, std::min(i + 1, created_.size() - 1)};
+    const auto rows = [&](unsigned k) { return RowPair(row(pair[0], k), row(pair[1], k)); };
+    const CircumcenterPair found = circumcenter_pair(pending_, rows(0), rows(1), rows(2));
+    for (unsigned k = 0; k < 2; ++k) {
+      if (found.is_certain[k]) [[likely]] {
+        centers[pair[k]] = found.centers.at(k);
+      } else if (const TetId t = created_[pair[k]]; !is_ghost(t)) {
+        const auto& v = vertices(t);
+        centers[pair[k]] = circumcenter(point(v[0]), point(v[1]), point(v[2]), point(v[3]));
+      }
+    }
   }
 }
 

@@ -38,7 +38,8 @@ Circumcircle circumcircle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double ca = squared_distance(c, a);
   const double bc = squared_distance(b, c);
   const bool is_b = ca > bc;
-  const std::size_t opposite = squared_distance(a, b) > std::max(ca, bc) ? 2 : static_cast<std::size_t>(is_b);
+  const bool is_c = squared_distance(a, b) > std::max(ca, bc);
+  const std::size_t opposite = std::max(2 * static_cast<std::size_t>(is_c), static_cast<std::size_t>(is_b));
   const std::array<Vec3, 5> around = {a, b, c, a, b};
   const Vec3& corner = around[opposite];
   const Vec3& left = around[opposite + 1];

@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "delaunay/base/huge_pages.h"
+#include "delaunay/base/pair.h"
 #include "delaunay/base/vec3.h"
 #include "delaunay/ids.h"
 
 namespace deliso {
-
-// Two numbers that are worked on together (a vector type of GCC and Clang).
-using Pair = double __attribute__((vector_size(16)));
-inline Pair swapped(Pair a) { return Pair{a[1], a[0]}; }
 
 // (x, y, z, w = x^2 + y^2 + z^2) of a vertex relative to the inserted point; (0, 0, 0, 1) for the infinite vertex,
 // which turns the insphere determinant of a ghost into the orientation of its hull facet.

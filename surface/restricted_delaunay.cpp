@@ -38,7 +38,7 @@ void RestrictedDelaunay::search_everything() {
   umbrellas_.resize(delaunay_.vertex_count());
   std::vector<DualEnd> dual_ends(slots);
   for (std::size_t i = 0; i < slots; ++i) {
-    if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_of(TetId(i));
+    if (delaunay_.is_live(TetId(i))) dual_ends[i] = dual_end_at(dual_point(TetId(i)), TetId(i));
   }
   for (std::size_t i = 0; i < slots; ++i) {
     if (!delaunay_.is_live(TetId(i))) continue;
@@ -85,8 +85,8 @@ void RestrictedDelaunay::forget_region() {
   rim_edges_.clear();
   for (const FacetId f : delaunay_.rim()) {
     const DualEdgeId e = dual_edge_of(f);
-    const bool inside_is_begin = !e.is_none() && dual_edges_[e.index()].facet != f;
-    rim_edges_.push_back({e, inside_is_begin, is_dual_to_surface(f)});
+    rim_edges_.push_back({e, is_dual_to_surface(f)});
+    prefetch(e);
   }
   const std::span<const TetId> region = delaunay_.conflict_region();
   rim_faces_.assign(region.size(), 0);
@@ -117,9 +117,8 @@ std::span<const FacetId> RestrictedDelaunay::facets_once(std::span<const TetId> 
   return std::span(facets_once_).first(count);
 }
 
-RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_of(TetId t) const {
-  const Vec3 p = dual_point(t);
-  const DualEnd end{p, isosurface_.place_of(p), !delaunay_.is_ghost(t)};
+RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_at(const Vec3& dual_point, TetId t) const {
+  const DualEnd end{dual_point, isosurface_.place_of(dual_point), !delaunay_.is_ghost(t)};
   isosurface_.prefetch(end.place);
   return end;
 }
@@ -132,15 +131,24 @@ void RestrictedDelaunay::renew_star() {
   umbrellas_.resize(delaunay_.vertex_count());
   const std::span<const TetId> created = delaunay_.created();
   dual_ends_.resize(created.size());
+  circumcenters_.resize(created.size());
+  delaunay_.circumcenters_of_star(circumcenters_);
   for (std::size_t i = 0; i < created.size(); ++i) {
-    tets_[created[i].index()] = {{}, static_cast<std::uint32_t>(i)};
-    dual_ends_[i] = dual_end_of(created[i]);
+    const TetId t = created[i];
+    tets_[t.index()] = {{}, static_cast<std::uint32_t>(i)};
+    dual_ends_[i] = dual_end_at(delaunay_.is_ghost(t) ? dual_point(t) : circumcenters_[i], t);
   }
   for (std::size_t i = 0; i < created.size(); ++i) {
     const bool is_above = isosurface_.is_above(dual_ends_[i].point, dual_ends_[i].place);
     sign_[created[i].index()] = is_above ? Sign::kAbove : Sign::kBelow;
   }
-  for (std::size_t i = 0; i < created.size(); ++i) renew_rim_facet(created[i], rim_edges_[i]);
+  for (std::size_t i = 0; i < created.size(); ++i) {
+    const RimEdge& rim = rim_edges_[i];
+    // Most facets of the rim have nothing to do with the surface: one branch for all of them.
+    const unsigned concerns = static_cast<unsigned>(!rim.edge.is_none()) | static_cast<unsigned>(rim.was_restricted) |
+                              static_cast<unsigned>(is_dual_to_surface(FacetId(created[i], 0)));
+    if (concerns != 0) renew_rim_facet(created[i], rim);
+  }
   for (const FacetId f : facets_once(created, 1, {})) {
     const TetId across = delaunay_.mirror(f).tet();
     const bool restricted = sign_[f.tet().index()] != sign_[across.index()];
@@ -175,7 +183,8 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
 bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
   DualEdge& edge = dual_edges_[rim.edge.index()];
   tets_[f.tet().index()].edges[f.face()] = rim.edge;
-  if (rim.inside_is_begin) {
+  const bool begins_inside = edge.facet != delaunay_.mirror(f);  // in the region, before it went
+  if (begins_inside) {
     edge.facet = f;
     edge.t_begin = std::min(dual_end(edge, f.tet(), -1), edge.t_end);
   } else {
@@ -189,10 +198,9 @@ bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
   return changed;
 }
 
-bool RestrictedDelaunay::is_dual_to_surface(FacetId f) const {
-  return rule_ == FacetRule::kSigns
-             ? is_restricted(f)
-             : RestrictedDelaunay::falls_through(f) || RestrictedDelaunay::falls_through(delaunay_.mirror(f));
+// By kHits; a facet with a virtual vertex goes by its signs.
+bool RestrictedDelaunay::has_odd_hits(FacetId f) const {
+  return RestrictedDelaunay::falls_through(f) || RestrictedDelaunay::falls_through(delaunay_.mirror(f));
 }
 
 bool RestrictedDelaunay::falls_through(FacetId f) const {
@@ -203,7 +211,7 @@ bool RestrictedDelaunay::falls_through(FacetId f) const {
   return edge.hits.size() % 2 == 1 && edge.hits.front().falling == (edge.facet == f);
 }
 
-bool RestrictedDelaunay::has_virtual_vertex(FacetId f) const {
+bool RestrictedDelaunay::has_virtual_vertex_or_guard(FacetId f) const {
   const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
   return is_virtual(v[0]) || is_virtual(v[1]) || is_virtual(v[2]);
 }

@@ -4,6 +4,7 @@
 // insertion shortens a dual edge its hits are filtered, not searched again.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -76,7 +77,9 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return tets_[f.tet().index()].edges[f.face()]; }
 
   // Restricted by the rule. Facets with a virtual vertex have no dual edge: their signs tell.
-  [[nodiscard]] bool is_dual_to_surface(FacetId f) const;
+  [[nodiscard]] bool is_dual_to_surface(FacetId f) const {
+    return rule_ == FacetRule::kSigns ? is_restricted(f) : has_odd_hits(f);
+  }
   [[nodiscard]] bool falls_through(FacetId f) const override;
 
   // The umbrella of a vertex, as far as what insertions changed of it or a quick walk can tell (see link_change.h,
@@ -103,11 +106,11 @@ class RestrictedDelaunay : public SignedDelaunay {
   [[nodiscard]] std::size_t edges_left() const { return free_edges_.size() + dual_edges_.room_left(); }
 
   struct RimEdge {
-    DualEdgeId edge;               // of a facet on the rim, or none
-    bool inside_is_begin = false;  // its t_begin end was in the region
+    DualEdgeId edge;  // of a facet on the rim, or none
     bool was_restricted = false;
   };
 
+  [[nodiscard]] bool has_odd_hits(FacetId f) const;
   void search_everything();
   void forget_region();
   [[nodiscard]] std::span<const FacetId> facets_once(std::span<const TetId> tets, unsigned first_face,
@@ -124,14 +127,22 @@ class RestrictedDelaunay : public SignedDelaunay {
     Isosurface::Place place;
     bool is_finite = false;
   };
-  [[nodiscard]] DualEnd dual_end_of(TetId t) const;
+  [[nodiscard]] DualEnd dual_end_at(const Vec3& dual_point, TetId t) const;
   void search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to);
-  [[nodiscard]] bool has_virtual_vertex(FacetId f) const;
+  // Fast but for the few triangulations with guards.
+  [[nodiscard]] bool has_virtual_vertex(FacetId f) const {
+    return guards_ == 0 ? f.face() != 3 && delaunay_.is_ghost(f.tet()) : has_virtual_vertex_or_guard(f);
+  }
+  [[nodiscard]] bool has_virtual_vertex_or_guard(FacetId f) const;
   void count_restricted(FacetId from_above);
   void add_restricted(FacetId f);
   void remove_restricted(FacetId f);
   LinkChange& touch(VertexId v);
   void judge_umbrellas();
+  // Tells the processor that a dual edge, if there is one, will be read soon: without a branch on whether there is.
+  void prefetch(DualEdgeId e) const {
+    if (!dual_edges_.empty()) __builtin_prefetch(&dual_edges_[std::min(e.index(), dual_edges_.size() - 1)]);
+  }
   DualEdgeId make_edge();
   void release_edge(DualEdgeId e);
 
@@ -147,6 +158,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   };
   SharedArray<Touch> touches_;  // of each vertex
   std::uint32_t stamp_ = 1;
+  std::vector<Vec3> circumcenters_;      // of created(), but for ghosts
   std::vector<DualEnd> dual_ends_;       // of created()
   std::vector<FacetId> facets_once_;     // the latest
   std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: bits of its faces on the rim

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
+#include "delaunay/constructions.h"
 #include "tests/support/delaunay_oracle.h"
 #include "tests/support/delaunay_point_sets.h"
 
@@ -27,6 +28,28 @@ void insert_one_by_one(BowyerWatson& tets, const Points& points, Rng& rng) {
   for (; next < points.size(); ++next) {
     if (tets.find_conflicts(points[next], some_live_tet(tets, rng))) continue;
     tets.fill_cavity();
+  }
+}
+
+TEST(BowyerWatson, CircumcentersOfAStarAreThoseOfItsTetrahedra) {
+  Rng rng(11);
+  for (const auto& [name, points] : test::all_kinds(100, rng)) {
+    BowyerWatson tets(test::box_of(points));
+    std::size_t next = 4;
+    while (!tets.build(std::span(points).first(next))) ++next;
+    for (; next < points.size(); ++next) {
+      if (tets.find_conflicts(points[next], some_live_tet(tets, rng))) continue;
+      tets.fill_cavity();
+      std::vector<Vec3> centers(tets.created().size());
+      tets.circumcenters_of_star(centers);
+      for (std::size_t i = 0; i < centers.size(); ++i) {
+        const TetId t = tets.created()[i];
+        if (tets.is_ghost(t)) continue;
+        const auto& v = tets.vertices(t);
+        ASSERT_EQ(centers[i], circumcenter(tets.point(v[0]), tets.point(v[1]), tets.point(v[2]), tets.point(v[3])))
+            << name << " vertex " << next;
+      }
+    }
   }
 }
 

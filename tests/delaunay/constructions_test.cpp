@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "delaunay/base/rng.h"
+#include "delaunay/circumcenter_pairs.h"
 #include "delaunay/predicates.h"
 
 namespace deliso {
@@ -60,6 +63,34 @@ TEST(Circumcenter, IsFiniteForTheFlattestTetrahedronThereIs) {
   const Vec3 center = circumcenter({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0x1p-160});
   EXPECT_TRUE(is_finite(center));
   EXPECT_LT(center.z, -1e40);
+}
+
+LiftedRow lifted(const Vec3& p) { return {Pair{p.x, p.y}, Pair{p.z, squared_norm(p)}}; }
+
+// Round tetrahedra, slivers, flat ones and tiny ones, two at a time.
+TEST(Circumcenter, OfAPairIsThatOfEachBitForBitOrUncertain) {
+  Rng rng(5);
+  int certain = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 a = random_point(rng);
+    std::array<std::array<Vec3, 3>, 2> others;
+    for (auto& [b, c, d] : others) {
+      const double size = std::exp2(-static_cast<double>(rng.below(4) == 0 ? rng.below(300) : 0));
+      for (Vec3* const p : {&b, &c, &d}) *p = a + size * random_point(rng);
+      if (rng.below(4) == 0) d = a + 0.3 * (b - a) + rng.uniform() * (c - a) + 1e-9 * rng.uniform() * random_point(rng);
+      if (orient3d(a, b, c, d) < 0) std::swap(b, c);
+    }
+    const auto rows = [&](std::size_t k) { return RowPair(lifted(others[0][k] - a), lifted(others[1][k] - a)); };
+    const CircumcenterPair pair = circumcenter_pair(a, rows(0), rows(1), rows(2));
+    for (unsigned k = 0; k < 2; ++k) {
+      if (!pair.is_certain[k]) continue;
+      const auto& [b, c, d] = others[k];
+      ASSERT_EQ(pair.centers.at(k), circumcenter(a, b, c, d)) << "case " << i;
+      ++certain;
+    }
+  }
+  EXPECT_GT(certain, 12000);
+  EXPECT_LT(certain, 20000);
 }
 
 TEST(Circumcircle, LiesInThePlaneAndIsEquallyFarFromAllThreeVertices) {
