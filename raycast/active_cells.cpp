@@ -49,6 +49,27 @@ void activate_row(const std::array<const Word*, 4>& rows, std::size_t samples, s
   }
 }
 
+// Bits of a brick whose coordinate along an axis is at least, or at most, so much.
+using BrickMasks = std::array<std::array<Word, 4>, 3>;
+constexpr BrickMasks brick_masks(bool is_least) {
+  BrickMasks masks{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t bound = 0; bound < 4; ++bound)
+      for (std::size_t bit = 0; bit < kWordBits; ++bit) {
+        const std::size_t c = (bit >> (2 * axis)) & 3;
+        if (is_least ? c >= bound : c <= bound) masks[axis][bound] |= Word{1} << bit;
+      }
+  return masks;
+}
+constexpr BrickMasks kFrom = brick_masks(true);
+constexpr BrickMasks kTo = brick_masks(false);
+
+// Bits of a brick whose coordinate along an axis lies in [first, last]; first is at most 3, last at least 0.
+Word mask(std::size_t axis, std::int32_t first, std::int32_t last) {
+  return kFrom[axis][static_cast<std::size_t>(std::max(first, 0))] &
+         kTo[axis][static_cast<std::size_t>(std::min(last, 3))];
+}
+
 }  // namespace
 
 ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
@@ -85,15 +106,11 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
 }
 
 bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
-  // Bits of a brick whose coordinates along an axis lie in [first, last]; first is at most 3, last at least 0.
-  const auto mask = [](std::size_t axis, std::int32_t first, std::int32_t last) {
-    constexpr std::array<Word, 3> kRun = {0xFu, 0xFFFFu, ~Word{0}};  // where the coordinate goes from 0 to 3 once
-    constexpr std::array<Word, 3> kRepeat = {0x1111111111111111u, 0x0001000100010001u, 1};
-    const auto bits = [axis](std::int32_t cells) { return static_cast<unsigned>(cells) << (2 * axis); };
-    const Word from_first = kRun[axis] << bits(std::max(first, 0));
-    const Word to_last = kRun[axis] >> bits(3 - std::min(last, 3));
-    return (from_first & to_last) * kRepeat[axis];
-  };
+  const auto bricks = [&](std::size_t axis) { return (high[axis] >> 2) - (low[axis] >> 2); };
+  return (bricks(0) | bricks(1) | bricks(2)) <= 1 ? any_active_of_eight(low, high) : any_active_of_many(low, high);
+}
+
+bool ActiveCells::any_active_of_many(const Cell& low, const Cell& high) const {
   for (std::int32_t z = low[2] & ~3; z <= high[2]; z += 4) {
     const Word in_z = mask(2, low[2] - z, high[2] - z);
     for (std::int32_t y = low[1] & ~3; y <= high[1]; y += 4) {
@@ -103,6 +120,27 @@ bool ActiveCells::any_active(const Cell& low, const Cell& high) const {
     }
   }
   return false;
+}
+
+// In a box that reaches over two bricks at most along every axis. How many it is cannot be foretold: so eight are
+// looked at in any case, the same ones twice if need be.
+bool ActiveCells::any_active_of_eight(const Cell& low, const Cell& high) const {
+  std::array<std::array<std::size_t, 2>, 3> bricks;  // what each coordinate contributes to the number of a word
+  std::array<std::array<Word, 2>, 3> masks;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::int32_t first = low[a] & ~3, second = high[a] & ~3;
+    bricks[a] = {places_[a][static_cast<std::size_t>(first)] / kWordBits,
+                 places_[a][static_cast<std::size_t>(second)] / kWordBits};
+    const Word from_low = kFrom[a][static_cast<std::size_t>(low[a] & 3)];
+    const Word to_high = kTo[a][static_cast<std::size_t>(high[a] & 3)];
+    const Word any_in_two = Word{0} - static_cast<Word>(first != second);  // the other end is in the other brick
+    masks[a] = {from_low & (to_high | any_in_two), to_high & (from_low | any_in_two)};
+  }
+  const auto row = [&](std::size_t y, std::size_t z) {
+    const Word* const words = words_.data() + bricks[1][y] + bricks[2][z];
+    return ((words[bricks[0][0]] & masks[0][0]) | (words[bricks[0][1]] & masks[0][1])) & masks[1][y] & masks[2][z];
+  };
+  return (row(0, 0) | row(1, 0) | row(0, 1) | row(1, 1)) != 0;
 }
 
 std::size_t ActiveCells::count() const {

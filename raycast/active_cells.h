@@ -39,6 +39,9 @@ class ActiveCells {
            places_[2][static_cast<std::size_t>(cell[2])];
   }
 
+  [[nodiscard]] bool any_active_of_eight(const Cell& low, const Cell& high) const;
+  [[nodiscard]] bool any_active_of_many(const Cell& low, const Cell& high) const;
+
   std::array<std::vector<std::size_t>, 3> places_;
   LargeArray<std::uint64_t> words_;
 };

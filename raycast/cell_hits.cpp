@@ -1,30 +1,43 @@
 #include "raycast/cell_hits.h"
 
+#include "delaunay/base/pair.h"
 #include "raycast/voxel_intersection.h"
 
 namespace deliso {
 
 namespace {
 
-// Where a place on the line lies in an extended cell, in the parameters of the grid cell behind it. The place is a
-// crossing, or the end of a segment at `end`. The one formula for both cells of a face: only the coordinate across the
-// face differs, and that is exactly 0 or 1.
-Vec3 position_in_cell(const IndexLine& line, const Crossing& at, const AxisValues& end, const Cell& cell,
-                      const Cell& base, const Dims& dims) {
-  AxisValues inside = end;
-  if (at.axis >= 0) {
-    for (std::size_t a = 0; a < 3; ++a) inside[a] = line.base[a] + at.s * line.direction[a];
-    inside[static_cast<std::size_t>(at.axis)] = at.plane;
+// Where a line comes into an extended cell and leaves it, in the parameters of the grid cell behind it. Either place is
+// a crossing, or the end of the segment, at `low` or `high`. The one formula for both cells of a face: only the
+// coordinate across the face differs, and that is exactly 0 or 1.
+std::array<Vec3, 2> positions_in_cell(const IndexLine& line, const CellVisit& visit, const AxisValues& low,
+                                      const AxisValues& high, const Cell& base, const Dims& dims) {
+  // Without branches: what kind of place it is, and along which axis, cannot be foretold. The plane of an end, which
+  // has none, is put behind the coordinates.
+  std::array<std::array<double, 4>, 2> crossings;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Pair at = line.base[a] + Pair{visit.in.s, visit.out.s} * line.direction[a];
+    crossings[0][a] = at[0];
+    crossings[1][a] = at[1];
   }
-  const auto coordinate = [&](std::size_t a) {
-    // By selection: crossings lie on either face as often as between them.
-    double u = inside[a] - base[a];
-    u = u < 0 ? 0 : u;
-    u = u > 1 ? 1 : u;
-    // Outer cells: the coordinate stays that of the box's face.
-    return cell[a] == 0 ? 0.0 : cell[a] == dims[a] ? 1.0 : u;
+  crossings[0][static_cast<std::size_t>(visit.in.axis & 3)] = visit.in.plane;
+  crossings[1][static_cast<std::size_t>(visit.out.axis & 3)] = visit.out.plane;
+  const auto place = [&](const Crossing& at, const AxisValues& end, std::size_t i) {
+    return std::array<const double*, 2>{end.data(), crossings[i].data()}[static_cast<std::size_t>(at.axis >= 0)];
   };
-  return {coordinate(0), coordinate(1), coordinate(2)};
+  const double* const in = place(visit.in, low, 0);
+  const double* const out = place(visit.out, high, 1);
+  const auto coordinate = [&](std::size_t a) {
+    // By selection: crossings lie on either face as often as between them. In outer cells the coordinate stays that of
+    // the box's face.
+    const auto least = static_cast<double>(visit.cell[a] == dims[a]);
+    const auto most = static_cast<double>(visit.cell[a] != 0);
+    const Pair u = Pair{in[a], out[a]} - static_cast<double>(base[a]);
+    const Pair at_least = u < least ? Pair{least, least} : u;
+    return at_least > most ? Pair{most, most} : at_least;
+  };
+  const Pair x = coordinate(0), y = coordinate(1), z = coordinate(2);
+  return {Vec3{x[0], y[0], z[0]}, Vec3{x[1], y[1], z[1]}};
 }
 
 }  // namespace
@@ -33,8 +46,7 @@ CellHits solve_cell(const ScalarGrid& grid, double isovalue, CubicSolver solver,
                     const CellVisit& visit, const AxisValues& low, const AxisValues& high) {
   const Cell base = grid_cell(visit.cell, grid.dims());
   const CellCorners corners = relative_to(grid.cell(base[0], base[1], base[2]), isovalue);
-  const Vec3 a = position_in_cell(line, visit.in, low, visit.cell, base, grid.dims());
-  const Vec3 b = position_in_cell(line, visit.out, high, visit.cell, base, grid.dims());
+  const auto [a, b] = positions_in_cell(line, visit, low, high, base, grid.dims());
   CellHits hits;
   hits.changes = voxel_intersection(corners, a, b, solver, hits.starts_above);
   hits.s_in = visit.in.s;

@@ -66,8 +66,9 @@ class CellWalk {
   CellWalk(const IndexLine& line, const Cell& start, const Cell& end, double s_start, double s_end)
       : line_(&line), cell_(start), entry_{s_start, -1, 0}, key_low_(to_key(s_start)), key_high_(to_key(s_end)) {
     for (std::size_t a = 0; a < 3; ++a) {
-      step_[a] = 1 - 2 * static_cast<std::int32_t>(end[a] < start[a]);
-      remaining_[a] = step_[a] * (end[a] - start[a]);
+      const std::int32_t ahead = end[a] - start[a];
+      step_[a] = 1 | (ahead >> 31);  // -1 when it goes back
+      remaining_[a] = step_[a] * ahead;
       set_next(a);
     }
   }
@@ -112,8 +113,9 @@ class CellWalk {
   }
   [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return to_key(line_->crossing(a, plane)); }
   void set_next(std::size_t a) {
-    const double next = key(a, plane_after(a, 1));
-    next_[a] = remaining_[a] > 0 ? next : kNever;
+    // By a look-up: compilers would make a branch of a choice, and which step is the last cannot be foretold.
+    const std::array<double, 2> never_or_next = {kNever, key(a, plane_after(a, 1))};
+    next_[a] = never_or_next[static_cast<std::size_t>(remaining_[a] > 0)];
   }
   [[nodiscard]] double clamped(double key) const { return to_key(std::min(std::max(key, key_low_), key_high_)); }
   [[nodiscard]] std::size_t next_axis() const {

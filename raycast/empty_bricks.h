@@ -36,6 +36,16 @@ class EmptyBricks {
       apart = std::max(apart, std::abs((a[axis] >> kShift) - (b[axis] >> kShift)));
     return apart < std::max(std::abs(clearance_a), std::abs(clearance_b));
   }
+  // Cells without the isovalue around a cell with that clearance, which is not 0. May reach beyond the extended cells.
+  static CellBlock clear_block(const Cell& cell, int clearance) {
+    const std::int32_t aside = (std::abs(clearance) - 1) << kShift, side = (1 << kShift) - 1;
+    CellBlock block;
+    for (std::size_t a = 0; a < 3; ++a) {
+      block.low[a] = (cell[a] & ~side) - aside;
+      block.high[a] = (cell[a] | side) + aside;
+    }
+    return block;
+  }
   [[nodiscard]] std::size_t bytes() const { return clearance_.size(); }
 
  private:

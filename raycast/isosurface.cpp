@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "delaunay/base/check.h"
 #include "raycast/active_cells.h"
@@ -56,6 +57,38 @@ struct Isosurface::Segment {
     high = end(t1, moves_to, s_high, last);
     if (s_low > s_high) (std::isinf(t0) ? s_low : s_high) = std::isinf(t0) ? s_high : s_low;
   }
+
+  // How far from its first (side +1) or last (side -1) cell on the segment certainly stays within a block around it.
+  [[nodiscard]] double within(const CellBlock& block, const Dims& dims, int side) const {
+    constexpr double kMargin = 1.0 / 16;  // cells, far above rounding
+    double until = kNever;                // times `side`
+    for (std::size_t a = 0; a < 3; ++a) {
+      // Without branches: where it goes cannot be foretold.
+      const auto is_up = static_cast<std::size_t>(line.direction[a] * side > 0);
+      const std::int32_t plane = std::array{block.low[a] - 1, block.high[a]}[is_up];
+      const double s = side * line.crossing(a, plane + std::array{kMargin, -kMargin}[is_up]);
+      // Outermost cells go on for ever.
+      const std::size_t is_open = static_cast<std::size_t>(line.direction[a] == 0) |
+                                  static_cast<std::size_t>(plane < 0) | static_cast<std::size_t>(plane >= dims[a]);
+      until = std::min(until, std::array{s, kNever}[is_open]);
+    }
+    return side * until;
+  }
+  // The cell that the walk over the segment is in when all crossings up to parameter s are behind it.
+  [[nodiscard]] Cell cell_at(double s, const Dims& dims) const {
+    Cell cell;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int32_t step = 1 | ((last[a] - first[a]) >> 31);  // -1 when it goes back
+      const auto passed = [&](std::int32_t c) { return line.crossing(a, c - (step + 1) / 2) <= s; };  // on the way to c
+      // A guess from the rounded position, then settled by crossings.
+      std::int32_t& c = cell[a];
+      c = std::clamp(extended_cell(line.base[a] + s * line.direction[a], dims[a]), std::min(first[a], last[a]),
+                     std::max(first[a], last[a]));
+      while (c != first[a] && !passed(c)) c -= step;
+      while (c != last[a] && passed(c + step)) c += step;
+    }
+    return cell;
+  }
 };
 
 Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options)
@@ -105,10 +138,32 @@ Vec3 Isosurface::gradient(const Vec3& p) const {
   return scaled(trilinear_gradient(corners, uvw), inverse_step_);
 }
 
+// The first and the last cell of a segment but for what lies near an end that is far from the isosurface. The walk from
+// one to the other is a part of the whole one, and meets all of its active cells.
+std::pair<Cell, Cell> Isosurface::without_clear_ends(const Segment& segment) const {
+  constexpr int kWorthwhile = 2;  // bricks: what is nearer is passed as fast step by step
+  std::pair<Cell, Cell> ends(segment.first, segment.last);
+  double from = segment.s_low;
+  // Tells whether anything is left.
+  const auto cut = [&](Cell& end, int side) {
+    for (;;) {
+      const int clearance = bricks_->clearance(end);
+      if (std::abs(clearance) < kWorthwhile) return true;
+      const double s = segment.within(EmptyBricks::clear_block(end, clearance), grid_.dims(), side);
+      if (side > 0 ? s >= segment.s_high : s <= from) return false;
+      end = segment.cell_at(s, grid_.dims());
+      if (side > 0) from = s;
+    }
+  };
+  if (!cut(ends.first, +1) || !cut(ends.second, -1)) ends.second = ends.first;  // a cell that is not active
+  return ends;
+}
+
 // Calls solve(walk) for every cell of the segment that can hold the isovalue, front to back.
 template <class Solve>
 void Isosurface::search_cells(const Segment& segment, Solve&& solve) const {
-  CellWalk<> walk(segment.line, segment.first, segment.last, segment.s_low, segment.s_high);
+  const auto [first, last] = active_ != nullptr ? without_clear_ends(segment) : std::pair(segment.first, segment.last);
+  CellWalk<> walk(segment.line, first, last, segment.s_low, segment.s_high);
   if (active_ != nullptr) {
     do {
       if (active_->is_active(walk.cell())) solve(walk.visit());

@@ -11,6 +11,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/box3.h"
@@ -94,6 +95,7 @@ class Isosurface {
   [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b,
                               int halvings) const;
   [[nodiscard]] CellCorners relative_corners(const Vec3& p, Vec3& uvw) const;
+  [[nodiscard]] std::pair<Cell, Cell> without_clear_ends(const Segment& segment) const;
   template <class Solve>
   void search_cells(const Segment& segment, Solve&& solve) const;
   void hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -147,6 +148,36 @@ TEST(EmptyBricks, SegmentsCalledClearHaveNoHit) {
   }
   // Most segments without a hit are recognised.
   EXPECT_GT(clear, missed);
+}
+
+// Rays that begin or end far from the isosurface are cut there: the hits are those of the whole walk, bit for bit.
+TEST(EmptyBricks, RaysThroughEmptySpaceHaveTheSameHits) {
+  SearchOptions no_pruning;
+  no_pruning.min_max_pruning = false;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::size_t found = 0;
+  for (const ScalarGrid& grid : sparse_grids()) {
+    const Isosurface surface(grid, kIsovalue, {});
+    const Isosurface plain(grid, kIsovalue, no_pruning);
+    Rng rng(8);
+    for (int trial = 0; trial < 4000; ++trial) {
+      Line line = random_line(surface, rng);
+      // Along an axis, or nearly; on a plane of the grid, or nearly.
+      const std::size_t axis = rng.below(3);
+      if (rng.below(4) == 0) line.direction[axis] *= rng.below(2) == 0 ? 0 : 1e-17;
+      if (rng.below(4) == 0) line.origin[axis] = std::nextafter(std::round(line.origin[axis]), rng.uniform(-100, 100));
+      const double t0 = rng.below(4) == 0 ? -kInfinity : rng.uniform(-80, 20);
+      const double t1 = rng.below(4) == 0 ? kInfinity : rng.uniform(std::max(t0, -80.0), 100);
+      std::vector<Hit> hits, expected;
+      SearchCounters counters, expected_counters;
+      surface.all_hits(line, t0, t1, hits, counters);
+      plain.all_hits(line, t0, t1, expected, expected_counters);
+      ASSERT_EQ(hits.size(), expected.size()) << describe(line, t0, t1);
+      for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(hits[i].t, expected[i].t) << describe(line, t0, t1);
+      found += hits.size();
+    }
+  }
+  EXPECT_GT(found, 1000u);
 }
 
 }  // namespace
