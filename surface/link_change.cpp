@@ -5,6 +5,13 @@
 namespace deliso {
 
 bool LinkChange::keeps_cycle(VertexId newest) const {
+  if (gained_count_ == 2 && lost_count_ <= kMost) {
+    // Nearly always a path gives way to two edges over the newest vertex.
+    const bool is_swapped = gained_[0].from == newest;
+    const LinkEdge& to_newest = gained_[is_swapped ? 1 : 0];
+    const LinkEdge& from_newest = gained_[is_swapped ? 0 : 1];
+    if (to_newest.to == newest && from_newest.from == newest) return was_path(to_newest.from, from_newest.to);
+  }
   if (gained_count_ == 0 || gained_count_ > kMost) return false;
   const std::optional<Ends> ends = ends_of_lost_path();
   if (!ends) return false;
@@ -19,6 +26,20 @@ bool LinkChange::keeps_cycle(VertexId newest) const {
     at = edge->to;
   }
   return at == ends->last;
+}
+
+// Whether the edges lost, which are distinct ones of a cycle, are a path from `first` to `last`. Counted without
+// branches: few edges in any order.
+bool LinkChange::was_path(VertexId first, VertexId last) const {
+  std::size_t joints = 0;
+  unsigned begins = 0, ends = 0, passes = 0;
+  for (const LinkEdge& edge : lost()) {
+    for (const LinkEdge& other : lost()) joints += static_cast<std::size_t>(edge.to == other.from);
+    begins += static_cast<unsigned>(edge.from == first);
+    ends += static_cast<unsigned>(edge.to == last);
+    passes += static_cast<unsigned>(edge.to == first) + static_cast<unsigned>(edge.from == last);
+  }
+  return joints + 1 == lost_count_ && begins == 1 && ends == 1 && passes == 0;
 }
 
 // Edges of a cycle are one path when one of them begins where none ends, and one ends where none begins.

@@ -44,6 +44,7 @@ class LinkChange {
   }
   [[nodiscard]] std::span<const LinkEdge> lost() const { return std::span(lost_).first(lost_count_); }
   [[nodiscard]] std::span<const LinkEdge> gained() const { return std::span(gained_).first(gained_count_); }
+  [[nodiscard]] bool was_path(VertexId first, VertexId last) const;
   [[nodiscard]] std::optional<Ends> ends_of_lost_path() const;
   [[nodiscard]] const LinkEdge* only_edge_from(VertexId v) const;
 

@@ -129,6 +129,8 @@ class RankedQueue {
     std::vector<Entry> entries;  // some, unless the bucket is free
   };
 
+  static constexpr std::size_t kMostKept = 16;  // entries
+
   static RankedElement ranked(const Bucket& bucket, const Entry& entry) {
     return {std::uint64_t{bucket.key} << 32 | entry.rank, entry.queued};
   }
@@ -154,7 +156,9 @@ class RankedQueue {
   }
   void drop_first_bucket() {
     const auto [key, place] = places_.front();
-    buckets_[place] = {};
+    Bucket& bucket = buckets_[place];
+    bucket.is_heap = false;
+    if (bucket.entries.capacity() > kMostKept) bucket.entries = std::vector<Entry>();  // else it serves the next one
     free_.push_back(place);
     place_of_.erase(key);
     std::pop_heap(places_.begin(), places_.end());

@@ -60,7 +60,7 @@ void Recovery::queue_edge(DualEdgeId e) {
 }
 
 void Recovery::queue_umbrella(VertexId q) {
-  umbrella_queued_.resize(delaunay_.vertex_count(), false);
+  if (umbrella_queued_.size() < delaunay_.vertex_count()) umbrella_queued_.resize(delaunay_.vertex_count(), false);
   if (umbrella_queued_[q.index()]) return;
   umbrella_queued_[q.index()] = true;
   queue_.push({ViolationKind::kExtractManifold, q.value, 0}, 0, 0, {});

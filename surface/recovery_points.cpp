@@ -120,7 +120,10 @@ double Recovery::geometric_badness(const DualEdge& edge) const {
   const GeometryCriterion& limit = options_.geometry;
   if (!restricted_.is_dual_to_surface(edge.facet) || edge.radius <= limit.r_min) return 0;
   const double h = std::abs(surface_hit(edge));
-  if (std::hypot(h, edge.radius) < options_.size_bound) return 0;
+  // Squares tell, but for near ties.
+  const double squared_bound = options_.size_bound * options_.size_bound;
+  const bool may_be_small = h * h + edge.radius * edge.radius <= 1.001 * squared_bound;
+  if (may_be_small && std::hypot(h, edge.radius) < options_.size_bound) return 0;
   const Vec3& a = delaunay_.point(edge.vertices[0]);
   const Vec3& b = delaunay_.point(edge.vertices[1]);
   const Vec3& c = delaunay_.point(edge.vertices[2]);

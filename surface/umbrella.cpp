@@ -92,16 +92,19 @@ void UmbrellaInspector::collect(VertexId q) {
   const Tetrahedralization& delaunay = restricted_.delaunay();
   seen_.resize(delaunay.tet_slots(), 0);
   ++inspection_;
-  star_.clear();
   facets_.clear();
   link_.clear();
-  star_.push_back(delaunay.incident_tet(q));
+  star_.resize(64);
+  std::size_t star_size = 1;
+  star_.front() = delaunay.incident_tet(q);
   seen_[star_.front().index()] = inspection_;
-  for (std::size_t i = 0; i < star_.size(); ++i) {
+  for (std::size_t i = 0; i < star_size; ++i) {
+    if (star_size + 3 > star_.size()) star_.resize(2 * star_.size());
     const TetId t = star_[i];
     const auto& v = delaunay.vertices(t);
-    for (unsigned face = 0; face < 4; ++face) {
-      if (v[face] == q) continue;
+    const unsigned slot = slot_of(v, q);
+    for (unsigned k = 0; k < 3; ++k) {
+      const unsigned face = k + static_cast<unsigned>(k >= slot);  // all but the one opposite q
       const TetId neighbour = delaunay.neighbour(t, face);
       if (restricted_.falls_through(FacetId(t, face))) {
         // The facet is counterclockwise seen from the neighbour, which lies below.
@@ -110,11 +113,14 @@ void UmbrellaInspector::collect(VertexId q) {
         facets_.emplace_back(t, face);
         link_.push_back({v[slots[(at + 1) % 3]], v[slots[(at + 2) % 3]]});
       }
-      if (seen_[neighbour.index()] == inspection_) continue;
-      seen_[neighbour.index()] = inspection_;
-      star_.push_back(neighbour);
+      // Whether it is new cannot be foretold: appended in any case, and overwritten unless it is.
+      std::uint32_t& seen = seen_[neighbour.index()];
+      star_[star_size] = neighbour;
+      star_size += static_cast<std::size_t>(seen != inspection_);
+      seen = inspection_;
     }
   }
+  star_.resize(star_size);
 }
 
 }  // namespace deliso
