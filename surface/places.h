@@ -35,7 +35,10 @@ class CellLayers {
   template <class Has>
   CellLayers(const std::array<std::int32_t, 3>& dims, const Has& has) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::int32_t layer = 0; layer + 1 < dims[axis]; ++layer) has_[axis].push_back(has(axis, layer));
+      has_[axis].resize(static_cast<std::size_t>(dims[axis]) - 1);
+      for (std::int32_t layer = 0; layer + 1 < dims[axis]; ++layer) {
+        has_[axis][static_cast<std::size_t>(layer)] = has(axis, layer);
+      }
     }
   }
   [[nodiscard]] bool has(std::size_t axis, std::int32_t layer) const {

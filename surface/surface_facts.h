@@ -12,7 +12,7 @@
 
 namespace deliso {
 
-// Each fact is found when it is first asked for; with more than one thread a thread of its own finds most of them
+// Each fact is found when it is first asked for; with more than one thread a thread of its own finds the sweeps
 // beforehand, while others build the mesh that they are for. The facts are the same either way.
 class SurfaceFacts {
  public:
