@@ -53,12 +53,12 @@ Edges edges_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (!bring_to_size(edges.b, edges.c)) return edges;
   edges.across = {norm(edges.c - edges.b), norm(edges.c), norm(edges.b)};
   // Which they are cannot be foretold, so corners are picked by number.
-  const auto [at_a, at_b, at_c] = edges.across;
+  const auto& across = edges.across;
   const auto corner_across = [&](double length) {
-    return static_cast<unsigned>(length != at_a) * (1u + static_cast<unsigned>(length != at_b));
+    return static_cast<unsigned>(length != across[0]) * (1u + static_cast<unsigned>(length != across[1]));
   };
-  edges.smallest = corner_across(std::min(std::min(at_a, at_b), at_c));
-  edges.largest = corner_across(std::max(std::max(at_a, at_b), at_c));
+  edges.smallest = corner_across(std::min(std::min(across[0], across[1]), across[2]));
+  edges.largest = corner_across(std::max(std::max(across[0], across[1]), across[2]));
   return edges;
 }
 
