@@ -25,40 +25,34 @@ class VertexExamination {
   // less than half a turn. So with every full turn they change sides of a line through the vertex twice, and once
   // around is the way of a single closed walk.
   bool is_laid_out(std::span<const TriangleCorner> corners) {
+    constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
     if (corners.size() < 3 || corners.size() > kMostTriangles) return false;
+    std::array<std::uint32_t, kMostTriangles> begins{}, ends{};
     std::uint32_t senses = 63, changes = 0;  // of these eight bits for each axis
-    for (const TriangleCorner corner : corners) {
-      const ProjectedTriangle& triangle = projected_[corner >> 2];
-      const std::uint32_t straddles = triangle.straddles(corner & 3);
-      senses &= triangle.senses();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t t = corners[i] >> 2, corner = corners[i] & 3;
+      const std::uint32_t straddles = projected_[t].straddles(corner);
+      senses &= projected_[t].senses();
       changes += (straddles & 1) | (straddles & 2) << 7;
+      begins[i] = triangles_[t][kNext[corner]];
+      ends[i] = triangles_[t][kPrevious[corner]];
+      place_[begins[i]] = static_cast<std::uint8_t>(i);
     }
     const bool is_twice_along_x = (changes & 255) == 2, is_twice_along_y = changes >> 8 == 2;
     const std::uint32_t once_around = (is_twice_along_x ? 6U : 0U) | (is_twice_along_y ? 1U : 0U);
-    return ((senses | senses >> 3) & once_around) != 0 && closes_up(corners);
+    if (((senses | senses >> 3) & once_around) == 0) return false;
+
+    // The edges close up when each end of one is the beginning of one, each of another one.
+    std::uint32_t seen = 0, others = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::size_t place = place_[ends[i]];
+      others |= begins[place] ^ ends[i];
+      seen |= 1U << place;
+    }
+    return others == 0 && seen == (1U << corners.size()) - 1;
   }
 
  private:
-  // Whether each end of an edge of the link is the beginning of one, each of another one.
-  bool closes_up(std::span<const TriangleCorner> corners) {
-    constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
-    std::array<std::uint32_t, kMostTriangles> begins, ends;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto& triangle = triangles_[corners[i] >> 2];
-      begins[i] = triangle[kNext[corners[i] & 3]];
-      ends[i] = triangle[kPrevious[corners[i] & 3]];
-      place_[begins[i]] = static_cast<std::uint8_t>(i);
-    }
-    std::uint32_t seen = 0;
-    bool is_open = false;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const std::size_t place = place_[ends[i]];
-      is_open |= begins[place] != ends[i];
-      seen |= 1U << place;
-    }
-    return !is_open && seen == (1U << corners.size()) - 1;
-  }
-
   Triangles triangles_;
   std::span<const ProjectedTriangle> projected_;
   std::vector<std::uint8_t> place_;  // of the last edge that began at a vertex, below kMostTriangles
