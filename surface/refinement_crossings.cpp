@@ -70,32 +70,43 @@ class CellMarks {
   using Cells = CoarseGrid::Cells;
 
   void add(const Cells& cells) {
-    any_of_rows(rows_, cells, [](std::uint64_t& row, std::uint64_t bits) {
-      row |= bits;
-      return false;
-    });
-  }
-  [[nodiscard]] bool has_any_of(const Cells& cells) const {
-    return any_of_rows(rows_, cells, [](std::uint64_t row, std::uint64_t bits) { return (row & bits) != 0; });
-  }
-
- private:
-  // Calls visit(row, bits within it), until it returns true.
-  template <class Rows, class Visit>
-  static bool any_of_rows(Rows& rows, const Cells& cells, const Visit& visit) {
-    // The bits low[0] to high[0].
-    const std::uint64_t bits = ~std::uint64_t{0} >> (CoarseGrid::kCells[0] - 1 - cells.high[0] + cells.low[0])
-                                                        << cells.low[0];
     for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
       for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
-        if (visit(rows[CoarseGrid::kCells[1] * z + y], bits)) return true;
+        rows_[CoarseGrid::kCells[1] * z + y] |= row(cells);
+        bundles_[bundle(y, z)] |= row(cells);
+      }
+    }
+  }
+  [[nodiscard]] bool has_any_of(const Cells& cells) const {
+    const std::uint64_t bits = row(cells);
+    if ((in_bundles(cells) & bits) == 0) return false;
+    for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
+      for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
+        if ((rows_[CoarseGrid::kCells[1] * z + y] & bits) != 0) return true;
       }
     }
     return false;
   }
 
-  std::vector<std::uint64_t> rows_ =
-      std::vector<std::uint64_t>(std::size_t{CoarseGrid::kCells[1]} * CoarseGrid::kCells[2]);
+ private:
+  static constexpr std::size_t kSide = 8;  // of a bundle, in rows: most boxes reach into two at most along either axis
+  static constexpr std::size_t kBundles = CoarseGrid::kCells[1] / kSide;
+  static_assert(CoarseGrid::kCells[1] == CoarseGrid::kCells[2]);
+
+  static std::size_t bundle(std::size_t y, std::size_t z) { return kBundles * (z / kSide) + y / kSide; }
+  // The bits low[0] to high[0].
+  static std::uint64_t row(const Cells& cells) {
+    return ~std::uint64_t{0} >> (CoarseGrid::kCells[0] - 1 - cells.high[0] + cells.low[0]) << cells.low[0];
+  }
+  // What the bundles have that cells reach into, or everything when these are many.
+  [[nodiscard]] std::uint64_t in_bundles(const Cells& cells) const {
+    if (cells.high[1] - cells.low[1] > kSide || cells.high[2] - cells.low[2] > kSide) return ~std::uint64_t{0};
+    return bundles_[bundle(cells.low[1], cells.low[2])] | bundles_[bundle(cells.high[1], cells.low[2])] |
+           bundles_[bundle(cells.low[1], cells.high[2])] | bundles_[bundle(cells.high[1], cells.high[2])];
+  }
+
+  std::vector<std::uint64_t> rows_ = std::vector<std::uint64_t>(kBundles * kSide * kBundles * kSide);
+  std::vector<std::uint64_t> bundles_ = std::vector<std::uint64_t>(kBundles * kBundles);
 };
 
 using Places = std::vector<std::uint32_t>;
