@@ -77,13 +77,16 @@ class OrderedTriangles {
   OrderedTriangles(std::span<const Vec3> points, std::span<const Corners> triangles, int threads) {
     DELISO_CHECK(points.size() < LabelRow::kVoid, "numbers of vertices leave the top bit free");
     for (const Vec3& p : points) whole_.extend(p);
-    std::vector<ProjectedTriangle> projected;
-    std::vector<std::uint8_t> has_area;
-    look_at(points, triangles, projected, has_area);
-    const CornersOfVertices corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
-    const std::vector<std::uint8_t> laid_out =
-        laid_out_umbrellas(triangles, projected, corners, points.size(), threads);
-    place(umbrella_rows(triangles, has_area, corners, points.size()), points, threads);
+    std::vector<std::uint8_t> laid_out;
+    {
+      // Gone before the new arrays are made, for the peak of a whole run may lie here.
+      std::vector<ProjectedTriangle> projected;
+      std::vector<std::uint8_t> has_area;
+      look_at(points, triangles, projected, has_area);
+      const CornersOfVertices corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
+      laid_out = laid_out_umbrellas(triangles, projected, corners, points.size(), threads);
+      place(umbrella_rows(triangles, has_area, corners, points.size()), points, threads);
+    }
     renumber(points, triangles, laid_out);
   }
 
