@@ -134,4 +134,27 @@ void RestrictedDelaunay::settle_hits(DualEdge& edge) {
   }
 }
 
+DualEdgeId RestrictedDelaunay::make_edge() {
+  DualEdgeId e;
+  if (free_edges_.empty()) {
+    e = DualEdgeId(dual_edges_.size());
+    dual_edges_.emplace_back();
+  } else {
+    e = free_edges_.back();
+    free_edges_.pop_back();
+  }
+  ++dual_edges_[e.index()].generation;
+  return e;
+}
+
+void RestrictedDelaunay::release_edge(DualEdgeId e) {
+  DualEdge& edge = dual_edges_[e.index()];
+  const FacetId mirror = delaunay_.mirror(edge.facet);
+  tets_[edge.facet.tet().index()].edges[edge.facet.face()] = DualEdgeId::none();
+  tets_[mirror.tet().index()].edges[mirror.face()] = DualEdgeId::none();
+  edge.hits.clear();
+  ++edge.generation;
+  free_edges_.push_back(e);
+}
+
 }  // namespace deliso
