@@ -1,8 +1,8 @@
 // Pairs of boxes that may meet, among many.
 //
-// Boxes near each other in space stand near each other, as in the order of halving (surface/halving_order.h): eight in a
-// row make a block, eight blocks one of the next level, up to a single one. A block holds the boxes of its eight parts side by side, so that a box is
-// compared with all of them at once; only blocks of the same level are compared.
+// Boxes near each other in space stand near each other, as in the order of halving (surface/halving_order.h): eight in
+// a row make a block, eight blocks one of the next level, up to a single one. A block holds the boxes of its eight
+// parts side by side, so that a box is compared with all of them at once; only blocks of the same level are compared.
 //
 // In floats this takes half as long as in doubles. Rounding to floats keeps the order of numbers, so boxes that have a
 // point in common still have one; but those that are apart by less than the rounding, some 2^-24 of the whole, seem to
