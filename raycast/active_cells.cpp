@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "delaunay/base/parallel.h"
 #include "volume/sample_sides.h"
 
 namespace deliso {
@@ -11,6 +12,8 @@ namespace {
 
 using Word = std::uint64_t;
 constexpr std::size_t kWordBits = kSidesPerWord;
+// Layers that a thread takes at a time: whole bricks, so that threads write to words of their own.
+constexpr std::size_t kSlabLayers = 32;
 
 // The signs of all samples, in rows of whole words.
 struct SampleSigns {
@@ -18,7 +21,7 @@ struct SampleSigns {
   std::size_t rows_per_slice = 0;
   std::vector<Word> words;
 
-  SampleSigns(const ScalarGrid& grid, double isovalue) {
+  SampleSigns(const ScalarGrid& grid, double isovalue, int threads) {
     const auto n = static_cast<std::size_t>(grid.dims()[0]);
     words_per_row = n / kWordBits + 1;  // one spare bit: extended cells outnumber samples by one
     rows_per_slice = static_cast<std::size_t>(grid.dims()[1]);
@@ -26,7 +29,13 @@ struct SampleSigns {
     words.resize(rows * words_per_row);
     visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& samples) {
       const SideTest<Sample> sides(isovalue);
-      for (std::size_t row = 0; row < rows; ++row) sides.pack(samples.data() + row * n, n, &words[row * words_per_row]);
+      const std::size_t rows_per_slab = rows_per_slice * kSlabLayers;
+      run_tasks((rows + rows_per_slab - 1) / rows_per_slab, threads, [&](std::size_t slab) {
+        const std::size_t last = std::min(rows, (slab + 1) * rows_per_slab);
+        for (std::size_t row = slab * rows_per_slab; row < last; ++row) {
+          sides.pack(samples.data() + row * n, n, &words[row * words_per_row]);
+        }
+      });
     });
   }
   [[nodiscard]] const Word* row(std::int32_t j, std::int32_t k) const {
@@ -72,7 +81,7 @@ Word mask(std::size_t axis, std::int32_t first, std::int32_t last) {
 
 }  // namespace
 
-ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
+ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue, int threads) {
   const Dims& n = grid.dims();
   // A coordinate's low two bits tell the place in a brick, the third the brick in a line, the rest the line.
   std::size_t line_stride = 512;
@@ -83,26 +92,33 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue) {
     line_stride *= (static_cast<std::size_t>(n[a]) >> 3) + 1;
   }
   words_.assign(line_stride / 64, 0);
-  const SampleSigns signs(grid, isovalue);
-  std::vector<Word> active(signs.words_per_row);
-  for (std::int32_t z = 0; z <= n[2]; ++z)
-    for (std::int32_t y = 0; y <= n[1]; ++y) {
-      const std::int32_t j0 = std::max(y - 1, 0);
-      const std::int32_t j1 = std::min(y, n[1] - 1);
-      const std::int32_t k0 = std::max(z - 1, 0);
-      const std::int32_t k1 = std::min(z, n[2] - 1);
-      activate_row({signs.row(j0, k0), signs.row(j1, k0), signs.row(j0, k1), signs.row(j1, k1)},
-                   static_cast<std::size_t>(n[0]), active);
-      // Deal the row out to its bricks, four cells each.
-      for (std::size_t word = 0; word < active.size(); ++word) {
-        std::int32_t x = static_cast<std::int32_t>(word * kWordBits);
-        for (Word left = active[word]; left != 0; left >>= 4, x += 4) {
-          if ((left & 15u) == 0) continue;
-          const std::size_t place = place_of({x, y, z});
-          words_[place / kWordBits] |= (left & 15u) << (place % kWordBits);
-        }
+  const SampleSigns signs(grid, isovalue, threads);
+  const std::size_t layers = places_[2].size();
+  run_tasks((layers + kSlabLayers - 1) / kSlabLayers, threads, [&](std::size_t slab) {
+    std::vector<Word> active(signs.words_per_row);
+    const auto last = static_cast<std::int32_t>(std::min(layers, (slab + 1) * kSlabLayers));
+    for (auto z = static_cast<std::int32_t>(slab * kSlabLayers); z < last; ++z) {
+      for (std::int32_t y = 0; y <= n[1]; ++y) {
+        const std::int32_t j0 = std::max(y - 1, 0), j1 = std::min(y, n[1] - 1);
+        const std::int32_t k0 = std::max(z - 1, 0), k1 = std::min(z, n[2] - 1);
+        activate_row({signs.row(j0, k0), signs.row(j1, k0), signs.row(j0, k1), signs.row(j1, k1)},
+                     static_cast<std::size_t>(n[0]), active);
+        deal_out(active, y, z);
       }
     }
+  });
+}
+
+// A row of cells to its bricks, four cells each.
+void ActiveCells::deal_out(const std::vector<std::uint64_t>& active, std::int32_t y, std::int32_t z) {
+  for (std::size_t word = 0; word < active.size(); ++word) {
+    auto x = static_cast<std::int32_t>(word * kWordBits);
+    for (Word left = active[word]; left != 0; left >>= 4, x += 4) {
+      if ((left & 15u) == 0) continue;
+      const std::size_t place = place_of({x, y, z});
+      words_[place / kWordBits] |= (left & 15u) << (place % kWordBits);
+    }
+  }
 }
 
 bool ActiveCells::any_active(const Cell& low, const Cell& high) const {

@@ -16,8 +16,8 @@ namespace deliso {
 class ActiveCells {
  public:
   // Works on extended cells (see cell_walk.h): the outer ones are active when the face of the box they continue is
-  // crossed. Precondition: no sample equals `isovalue`.
-  ActiveCells(const ScalarGrid& grid, double isovalue);
+  // crossed. Precondition: no sample equals `isovalue`. The same for any number of threads.
+  ActiveCells(const ScalarGrid& grid, double isovalue, int threads = 1);
 
   [[nodiscard]] bool is_active(const Cell& cell) const {
     const std::size_t place = place_of(cell);
@@ -33,6 +33,7 @@ class ActiveCells {
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
  private:
+  void deal_out(const std::vector<std::uint64_t>& active, std::int32_t y, std::int32_t z);
   // The number of a cell's bit: every coordinate contributes on its own.
   [[nodiscard]] std::size_t place_of(const Cell& cell) const {
     return places_[0][static_cast<std::size_t>(cell[0])] + places_[1][static_cast<std::size_t>(cell[1])] +

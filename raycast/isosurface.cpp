@@ -94,7 +94,8 @@ struct Isosurface::Segment {
 Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options)
     : Isosurface(grid, isovalue, options, grid.spacing()) {}
 
-Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing)
+Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing,
+                       int threads)
     : grid_(grid), isovalue_(isovalue), options_(options) {
   if (options.leaf_cells < 1)
     throw InputError("search.leaf_cells is " + std::to_string(options.leaf_cells) + ": it must be at least 1");
@@ -107,7 +108,7 @@ Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOpti
   if (options.traversal == Traversal::kKdTree) {
     tree_ = std::make_unique<MinMaxKdTree>(grid, options.leaf_cells);
   } else {
-    active_ = std::make_unique<ActiveCells>(grid, isovalue);
+    active_ = std::make_unique<ActiveCells>(grid, isovalue, threads);
     bricks_ = std::make_unique<EmptyBricks>(grid, *active_, isovalue);
   }
 }

@@ -41,7 +41,9 @@ class Isosurface {
   // Throws InputError when options.leaf_cells is below 1.
   Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options);
   // The same with another spacing than the grid's.
-  Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing);
+  // The same for any number of threads.
+  Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options, const Vec3& spacing,
+             int threads = 1);
   ~Isosurface();
   Isosurface(const Isosurface&) = delete;
   Isosurface& operator=(const Isosurface&) = delete;

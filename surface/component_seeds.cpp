@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
+
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -22,36 +25,67 @@ struct Extremes {
   void extend(const Vec3& p) {
     for (std::size_t i = 0; i < kDirections.size(); ++i) {
       const double along = dot(kDirections[i], p);
-      if (along > reach[2 * i]) {
-        reach[2 * i] = along;
-        point[2 * i] = p;
-      }
-      if (-along > reach[2 * i + 1]) {
-        reach[2 * i + 1] = -along;
-        point[2 * i + 1] = p;
-      }
+      offer(2 * i, along, p);
+      offer(2 * i + 1, -along, p);
     }
   }
+  // By those of points that come later.
+  void extend(const Extremes& later) {
+    for (std::size_t i = 0; i < reach.size(); ++i) offer(i, later.reach[i], later.point[i]);
+  }
+
+ private:
+  void offer(std::size_t i, double along, const Vec3& p) {
+    if (!(along > reach[i])) return;
+    reach[i] = along;
+    point[i] = p;
+  }
 };
+
+// What a share of the crossings gives: those of small components, and the extremes of each large one.
+struct FoundSeeds {
+  std::vector<Vec3> of_small;
+  std::vector<Extremes> of_large;
+};
+
+constexpr std::uint32_t kIsSmall = 0xFFFFFFFFu;
+
+// The number of each large component among them, and kIsSmall for the others.
+std::vector<std::uint32_t> numbers_of_large(const IsosurfaceTopology& topology, std::uint32_t& count) {
+  std::vector<std::uint32_t> crossings(topology.components.size(), 0);
+  for (const EdgeCrossing& c : topology.crossings) ++crossings[c.component];
+  count = 0;
+  for (std::uint32_t& number : crossings) number = number > kSmallComponent ? count++ : kIsSmall;
+  return crossings;
+}
 
 }  // namespace
 
 std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
-                                  const IsosurfaceTopology& topology) {
-  std::vector<std::size_t> crossings(topology.components.size(), 0);
-  for (const EdgeCrossing& c : topology.crossings) ++crossings[c.component];
-  std::vector<Extremes> extremes(topology.components.size());
-  std::vector<Vec3> seeds;
-  for (const EdgeCrossing& c : topology.crossings) {
-    const Vec3 p = scaled(crossing_position(grid, c), isosurface.step());
-    if (crossings[c.component] <= kSmallComponent) {
-      seeds.push_back(p);
-    } else {
-      extremes[c.component].extend(p);
+                                  const IsosurfaceTopology& topology, int threads) {
+  std::uint32_t large_count = 0;
+  const std::vector<std::uint32_t> large = numbers_of_large(topology, large_count);
+  const Shares shares(topology.crossings.size(), threads);
+  std::vector<FoundSeeds> found(shares.count());
+  shares.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    FoundSeeds& mine = found[share];
+    mine.of_large.resize(large_count);
+    for (std::size_t i = first; i < last; ++i) {
+      const EdgeCrossing& c = topology.crossings[i];
+      const Vec3 p = scaled(crossing_position(grid, c), isosurface.step());
+      if (large[c.component] == kIsSmall) {
+        mine.of_small.push_back(p);
+      } else {
+        mine.of_large[large[c.component]].extend(p);
+      }
     }
-  }
-  for (std::size_t i = 0; i < extremes.size(); ++i) {
-    if (crossings[i] > kSmallComponent) seeds.insert(seeds.end(), extremes[i].point.begin(), extremes[i].point.end());
+  });
+  std::vector<Vec3> seeds;
+  for (const FoundSeeds& part : found) seeds.insert(seeds.end(), part.of_small.begin(), part.of_small.end());
+  for (std::size_t i = 0; i < large_count; ++i) {
+    Extremes extremes;
+    for (const FoundSeeds& part : found) extremes.extend(part.of_large[i]);
+    seeds.insert(seeds.end(), extremes.point.begin(), extremes.point.end());
   }
   return seeds;
 }

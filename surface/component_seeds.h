@@ -16,7 +16,7 @@ inline constexpr std::size_t kSmallComponent = 12;
 // Seeds on each component, in mesh space: all crossings of a small one, else its extreme crossings in fourteen
 // directions.
 std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
-                                  const IsosurfaceTopology& topology);
+                                  const IsosurfaceTopology& topology, int threads = 1);
 
 // `count` points of the isosurface hit by random lines through the box, in mesh space (InitTriangulation of the paper).
 // Fewer when 1000 lines in a row miss.

@@ -117,7 +117,7 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
   const std::vector<Vec3> curves = boundary_curve_points(grid, isosurface);
   points.insert(points.end(), curves.begin(), curves.end());
   if (initial.seeding == Seeding::kComponents) {
-    const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology);
+    const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology, options.threads);
     points.insert(points.end(), seeds.begin(), seeds.end());
   }
   if (!points.empty()) return points;
@@ -234,7 +234,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   const IsosurfaceTopology& topology = regular.topology;
   result.isovalue_used = regular.isovalue;
   const auto isosurface = timed(result.index, [&] {
-    return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search, spacing);
+    return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search, spacing, options.threads);
   });
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;

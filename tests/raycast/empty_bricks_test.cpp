@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -74,6 +75,28 @@ TEST(EmptyBricks, ClearanceIsTheDistanceToTheNearestActiveBrick) {
       for (const Cell& other : active_cells) nearest = std::min(nearest, brick_distance(cell, other));
       ASSERT_EQ(std::abs(bricks.clearance(cell)), nearest) << cell[0] << " " << cell[1] << " " << cell[2];
     }
+  }
+}
+
+TEST(ActiveCells, AreThoseWhoseCornersDifferForAnyNumberOfThreads) {
+  Rng rng(5);
+  const ScalarGrid grid = noise_grid({9, 66, 67}, {1, 1, 1}, rng);
+  const Dims& dims = grid.dims();
+  // Values close to one side, so that not all cells are active.
+  const double isovalue = grid.range().second - 0.05 * (grid.range().second - grid.range().first);
+  for (const int threads : {1, 2, 5}) {
+    const ActiveCells active(grid, isovalue, threads);
+    for_every_cell(dims, [&](const Cell& cell) {
+      int above = 0, below = 0;
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        // Extended cell e has samples e - 1 and e, as far as there are any.
+        const auto sample = [&](std::size_t axis) {
+          return std::clamp(cell[axis] - 1 + static_cast<std::int32_t>(corner >> axis & 1u), 0, dims[axis] - 1);
+        };
+        ++(grid.at(sample(0), sample(1), sample(2)) > isovalue ? above : below);
+      }
+      ASSERT_EQ(active.is_active(cell), above > 0 && below > 0) << cell[0] << " " << cell[1] << " " << cell[2];
+    });
   }
 }
 

@@ -59,6 +59,15 @@ TEST(ComponentSeeds, SeedsOfClosedComponentsSpanSpace) {
   }
 }
 
+TEST(ComponentSeeds, AreTheSameForAnyNumberOfThreads) {
+  const auto scene = noise_scene({34, 33, 35}, 2);
+  ASSERT_GT(scene->topology.crossings.size(), std::size_t{50000}) << "too few to be shared";
+  const std::vector<Vec3> alone = component_seeds(scene->grid, *scene->isosurface, scene->topology);
+  for (const int threads : {2, 3}) {
+    EXPECT_EQ(component_seeds(scene->grid, *scene->isosurface, scene->topology, threads), alone) << threads;
+  }
+}
+
 TEST(RandomRayPoints, LieOnTheSurfaceInTheBoxAndFollowTheSeed) {
   for (const auto& scene : {field_scene("torus", 16), field_scene("gyroid", 16), noise_scene({5, 5, 5}, 2)}) {
     SCOPED_TRACE(scene->name);
