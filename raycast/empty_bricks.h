@@ -19,8 +19,8 @@ class EmptyBricks {
  public:
   static constexpr int kFarthest = 12;  // bricks; greater distances count as this one
 
-  // `active` has been made for this grid and isovalue.
-  EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, double isovalue);
+  // `active` has been made for this grid and isovalue. The same for any number of threads.
+  EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, double isovalue, int threads = 1);
 
   // 0 when the cell's brick has an active cell. Otherwise plus or minus d >= 1: all bricks up to d - 1 away from it in
   // every direction have none, and the field in them is above (plus) or below the isovalue.
@@ -49,6 +49,7 @@ class EmptyBricks {
   [[nodiscard]] std::size_t bytes() const { return clearance_.size(); }
 
  private:
+  void set_signs(const ScalarGrid& grid, double isovalue, std::size_t y, std::size_t z);
   static constexpr unsigned kShift = 2;  // cells per side of a brick, as a power of two
 
   // The first cell of a brick along an axis.

@@ -109,7 +109,7 @@ Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOpti
     tree_ = std::make_unique<MinMaxKdTree>(grid, options.leaf_cells);
   } else {
     active_ = std::make_unique<ActiveCells>(grid, isovalue, threads);
-    bricks_ = std::make_unique<EmptyBricks>(grid, *active_, isovalue);
+    bricks_ = std::make_unique<EmptyBricks>(grid, *active_, isovalue, threads);
   }
 }
 

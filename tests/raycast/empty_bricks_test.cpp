@@ -75,6 +75,11 @@ TEST(EmptyBricks, ClearanceIsTheDistanceToTheNearestActiveBrick) {
       for (const Cell& other : active_cells) nearest = std::min(nearest, brick_distance(cell, other));
       ASSERT_EQ(std::abs(bricks.clearance(cell)), nearest) << cell[0] << " " << cell[1] << " " << cell[2];
     }
+    const EmptyBricks of_three_threads(grid, active, kIsovalue, 3);
+    for_every_cell(grid.dims(), [&](const Cell& cell) {
+      ASSERT_EQ(of_three_threads.clearance(cell), bricks.clearance(cell))
+          << cell[0] << " " << cell[1] << " " << cell[2];
+    });
   }
 }
 
