@@ -210,19 +210,22 @@ void Refinement::replace_disk(const Candidate& candidate) {
     guard_->forget(t);
   }
   mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
-  const auto first_new = static_cast<std::uint32_t>(mesh_.triangles.size() - old.size());
-  mesh_.triangles.resize(first_new + rim.size());
-  const auto slot = [&](std::size_t i) { return i < old.size() ? old[i] : first_new + static_cast<std::uint32_t>(i); };
   const std::size_t count = rim.size();
+  slots_.assign(old.begin(), old.end());
+  while (slots_.size() < count) {
+    slots_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
+    mesh_.triangles.emplace_back();
+  }
+  std::uint32_t before = slots_.back();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t t = slot(i);
+    const std::uint32_t t = slots_[i], after = i + 1 < count ? slots_[i + 1] : slots_.front();
     const RimEdge& edge = rim[i];
     const bool first = !closed && i == 0;
     const bool last = !closed && i + 1 == count;
     RefinementMesh::Triangle& triangle = mesh_.triangles[t];
     triangle.corners = {p, edge.from, edge.to};
-    triangle.neighbours = {edge.outer, last ? kNoSide : 4 * slot((i + 1) % count) + 2,
-                           first ? kNoSide : 4 * slot((i + count - 1) % count) + 1};
+    triangle.neighbours = {edge.outer, last ? kNoSide : 4 * after + 2, first ? kNoSide : 4 * before + 1};
+    before = t;
     if (edge.outer != kNoSide) {
       start_->keep(edge.outer >> 2, mesh_);
       mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
@@ -233,7 +236,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
     if (triangle.is_coarse()) queue(t, star_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!star_[i].has_hit) guard_->distrust(slot(i));
+    if (!star_[i].has_hit) guard_->distrust(slots_[i]);
   }
 }
 

@@ -99,6 +99,7 @@ class Refinement {
   std::optional<CrossingGuard> guard_;  // while it runs
   std::vector<Shape> shapes_;           // D, one for each edge of E's rim,
   std::vector<NewTriangle> star_;       // and what is measured of it
+  std::vector<std::uint32_t> slots_;    // the places of the star's triangles
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
   // What is changed: each triangle as it was at the start, and how many vertices there were.
   class Start {
