@@ -14,7 +14,7 @@ namespace {
 // A triangle is tight when its clearance is below so many of its longest edge.
 constexpr double kTightness = 1.5;
 // Other sheets matter when the clearance is below so many times what the mesh moves.
-constexpr double kReach = 10;
+constexpr double kReach = 15;
 // The surface lies far from a triangle whose ball is so many times larger than its box.
 constexpr double kFarBall = 1.3;
 // A star can fold over its neighbours when it moves by so much of the rim's distance from p.
