@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "delaunay/base/box3.h"
 #include "surface/blocks.h"
@@ -106,7 +107,9 @@ LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) con
   return vicinity;
 }
 
+// Where triangles are large there are fewer of them than landmarks: then all of them are asked at once.
 std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) const {
+  if (landmarks.size() > mesh_.triangles.size()) return beside_no_triangle(landmarks);
   return beside_no_triangle(beside_no_likely_triangle(landmarks));
 }
 
@@ -145,11 +148,14 @@ std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3
 std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> landmarks) const {
   if (landmarks.empty()) return {};
   const PointBlocks blocks(landmarks, kBlock);
-  const NearBlocks near_blocks(landmarks, kRounding * (kSmallRadius * kRounding + least_));
+  std::optional<NearBlocks> near_blocks;  // where it pays
+  if (landmarks.size() < mesh_.triangles.size()) {
+    near_blocks.emplace(landmarks, kRounding * (kSmallRadius * kRounding + least_));
+  }
   std::vector<std::uint8_t> is_near(landmarks.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      if (is_small(t) && !near_blocks.is_near(mesh_.triangles[t].ball.center)) continue;
+      if (near_blocks && is_small(t) && !near_blocks->is_near(mesh_.triangles[t].ball.center)) continue;
       const Vicinity vicinity = vicinity_of(t);
       const double most = vicinity.reach * vicinity.reach;
       blocks.for_each_near(vicinity.box, [&](std::uint32_t i) {
