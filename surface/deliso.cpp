@@ -239,7 +239,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
 
-  // What repair will want to know is found beside stage 1, which takes one thread.
+  // What repair will want to know is found beside stage 1.
   auto facts = std::make_unique<SurfaceFacts>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
 
   controls.report("initial", 0, 0);

@@ -79,7 +79,6 @@ class Refinement {
   };
   [[nodiscard]] NewTriangle measure(const Shape& shape);
   void measure(std::span<const Shape> shapes, std::span<NewTriangle> measured);
-  [[nodiscard]] double badness(double h, double r, double l, double mean_pole) const;
   [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
   [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
   [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "delaunay/constructions.h"
 #include "surface/blocks.h"
 #include "surface/refinement.h"
 #include "surface/triangle_lanes.h"
@@ -16,6 +15,11 @@ namespace deliso {
 namespace {
 
 constexpr double kMostExpected = 1e6;  // insertions for one triangle
+
+BadnessLimits badness_limits(const RefineOptions& options) {
+  return {options.epsilon1, options.epsilon2, options.rho, options.max_distance,
+          options.criterion2 == Criterion2::kShortestEdge};
+}
 
 }  // namespace
 
@@ -27,8 +31,7 @@ Refinement::NewTriangle Refinement::measure(const Shape& shape) {
 
 // Balls and badness of triangles; a dual line without a falling hit gives its circumball and no further refinement.
 void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
-  const BadnessLimits limits = {options_.epsilon1, options_.epsilon2, options_.rho, options_.max_distance,
-                                options_.criterion2 == Criterion2::kShortestEdge};
+  const BadnessLimits limits = badness_limits(options_);
   TriangleLanes lanes;
   for (std::size_t first = 0; first < shapes.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, shapes.size() - first);
@@ -59,13 +62,6 @@ void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> m
   }
 }
 
-// What the criteria say of a triangle alone.
-double Refinement::badness(double h, double r, double l, double mean_pole) const {
-  const double size = options_.criterion2 == Criterion2::kCircumradius ? r : l;
-  return std::max({h / (r * options_.epsilon1), size / (mean_pole * options_.epsilon2), r / (l * options_.rho),
-                   h / options_.max_distance});
-}
-
 double Refinement::mean_pole_height(std::uint32_t triangle) const {
   double mean = 0;
   for (const std::uint32_t v : mesh_.triangles[triangle].corners) mean += mesh_.vertices[v].pole_height / 3;
@@ -76,11 +72,16 @@ double Refinement::mean_pole_height(std::uint32_t triangle) const {
 Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
   if (!mesh_.triangles[triangle].has_hit()) return {.ball = ball_of(triangle)};
   const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
-  const Circumcircle circle = circumcircle(a, b, c);
   const SurfaceDelaunayBall ball = ball_of(triangle);
-  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-  const double bad = badness(distance(ball.center, circle.center), circle.radius, shortest, mean_pole_height(triangle));
-  return {.ball = ball, .has_hit = true, .badness = bad, .radius = circle.radius};
+  TriangleLanes lanes;  // one of them
+  lanes.a.set(0, a);
+  lanes.b.set(0, b);
+  lanes.c.set(0, c);
+  lanes.mean_pole[0] = mean_pole_height(triangle);
+  measure_in_planes(lanes);
+  lanes.height[0] = distance(ball.center, lanes.dual.origin.at(0));
+  measure_balls(lanes, badness_limits(options_));
+  return {ball, true, lanes.badness[0], lanes.radius[0], lanes.squared_longest[0]};
 }
 
 // What is learnt of a triangle of the mesh.

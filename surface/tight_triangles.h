@@ -9,8 +9,8 @@
 
 namespace deliso {
 
-// Cells of 2^level mesh-space units; a triangle is kept at the first level whose cells are larger than its box, in the
-// cell of the box's low corner.
+// Cells of 2^level mesh-space units; a triangle is kept at the first level whose cells are more than twice as large as
+// its box, in the cell of the box's low corner.
 class TightTriangles {
  public:
   [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < held_.size() && held_[triangle] != 0; }
