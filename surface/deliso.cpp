@@ -212,7 +212,7 @@ void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, 
 
 // Stage 1 and repair alone look up crossings.
 void drop_crossings(IsosurfaceTopology& topology) {
-  std::vector<EdgeCrossing>().swap(topology.crossings);
+  LargeArray<EdgeCrossing>().swap(topology.crossings);
   topology.index = {};
   release_free_memory();
 }

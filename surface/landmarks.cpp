@@ -55,6 +55,8 @@ class LandmarkSearch {
     const double squared_radius = mesh_.triangles[triangle].ball.squared_radius;
     return squared_radius > 0 && squared_radius < kSmallRadius * kSmallRadius;
   }
+  // How far from the middle of its ball a small triangle's vicinity of some width may reach.
+  static double reach_of_small(double width) { return kRounding * (kSmallRadius * kRounding + width); }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
   // How near a landmark has to be to a triangle. All that is so near lies in a box, and not far from a plane.
   struct Vicinity {
@@ -135,13 +137,11 @@ std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3
       });
     }
   });
-  std::vector<Vec3> left;
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+  return collect_in_blocks<Vec3>(landmarks.size(), threads_, [&](std::size_t i, std::vector<Vec3>& left) {
     const auto triangle = static_cast<std::uint32_t>(likely[i]);
     const bool is_near = likely[i] != kNone && squared_distance_to(landmarks[i], triangle) <= least_ * least_;
     if (!is_near) left.push_back(landmarks[i]);
-  }
-  return left;
+  });
 }
 
 // Those that no triangle is as near to as it would have to be.
@@ -149,9 +149,7 @@ std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> landm
   if (landmarks.empty()) return {};
   const PointBlocks blocks(landmarks, kBlock);
   std::optional<NearBlocks> near_blocks;  // where it pays
-  if (landmarks.size() < mesh_.triangles.size()) {
-    near_blocks.emplace(landmarks, kRounding * (kSmallRadius * kRounding + least_));
-  }
+  if (landmarks.size() < mesh_.triangles.size()) near_blocks.emplace(landmarks, reach_of_small(least_));
   std::vector<std::uint8_t> is_near(landmarks.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
@@ -177,7 +175,12 @@ std::vector<MissedLandmark> LandmarkSearch::with_nearest(std::span<const Vec3> l
   const PointBlocks blocks(landmarks, kBlock);
   std::vector<MissedLandmark> found;
   for (const Vec3& p : landmarks) found.push_back({p, 0, kFarthest * kFarthest});
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+  const NearBlocks near_blocks(landmarks, reach_of_small(kFarthest));
+  const auto near = collect_in_blocks<std::uint32_t>(mesh_.triangles.size(), threads_, [&](std::size_t i, auto& some) {
+    const auto t = static_cast<std::uint32_t>(i);
+    if (!is_small(t) || near_blocks.is_near(mesh_.triangles[t].ball.center)) some.push_back(t);
+  });
+  for (const std::uint32_t t : near) {
     blocks.for_each_near(widened(mesh_.box_of(t), kFarthest), [&](std::uint32_t i) {
       const double squared = squared_distance_to(landmarks[i], t);
       if (squared < found[i].squared_distance) found[i] = {landmarks[i], t, squared};

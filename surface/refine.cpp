@@ -25,8 +25,9 @@ constexpr std::int64_t kMostRestarts = 3;
 // What slabs leave behind in small pieces matters only beside nearly all of the whole: giving it back takes time.
 constexpr std::size_t kSlabsNearPeak = 2;
 
-// A first round renews most triangles of a part; a later one, of what others have left coarse, few.
-enum class Round { kFirst, kLater };
+// Along the planes between slabs, which renews few triangles of a part; in slabs, or in the whole where that is one,
+// which renews most; and in the whole what slabs have left coarse, which again are few.
+enum class Round { kSeams, kSlabs, kRest };
 
 // What all rounds of a refinement share.
 struct Task {
@@ -62,7 +63,7 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
 void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, const SharedThreads& threads,
                  RefineStats& stats) {
   const auto meeting = [&] {
-    return round == Round::kFirst ? meeting_pairs(part.mesh, threads.count())
+    return round == Round::kSlabs ? meeting_pairs(part.mesh, threads.count())
                                   : meeting_pairs_of_renewed(part.mesh, threads.count());
   };
   RefinementChange least;
@@ -72,7 +73,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineStats counted;
     Refinement refinement(part, task.isosurface, task.options, counted);
     refinement.run(controls, threads.count());
-    if (round == Round::kLater) release_free_memory();  // the peak may lie in the check
+    if (round == Round::kRest) release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
       return;
@@ -90,7 +91,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     if (is_best && fewest <= before) return;
     RefinementChange change = refinement.take_back();
     if (is_best) least = std::move(change);
-    if (restarts == 0 && round == Round::kFirst) before = count_of(meeting_pairs(part.mesh, threads.count()));
+    if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
       distrust_all(part.mesh);
@@ -102,22 +103,35 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   least.redo(part.mesh);
 }
 
-// Refines slabs apart from each other.
-void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const float> work, const Task& task) {
+// Refines disjoint slabs apart from each other: all of them, or around each of the planes.
+void refine_apart(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const double> planes,
+                  std::span<const float> work, const Task& task) {
+  const Round round = planes.empty() ? Round::kSlabs : Round::kSeams;
   std::vector<RefineStats> counted(slabs.size());
   const double share = 1.0 / static_cast<double>(slabs.size());
   std::vector<Controls> limits(slabs.size(), task.controls.for_part(share, mesh.vertices.size()));
   SharedThreads threads(task.options.threads, slabs.size());
   const auto refine = [&](std::size_t k, RefinementPart& part) {
-    if (k + kSlabsNearPeak >= slabs.size()) release_free_memory();
+    if (round == Round::kSlabs && k + kSlabsNearPeak >= slabs.size()) release_free_memory();
+    if (round == Round::kSeams) part.plane = planes[k];
     limits[k].part_begins_with(part.mesh.vertices.size());
-    refine_part(part, Round::kFirst, task, limits[k], threads, counted[k]);
+    refine_part(part, round, task, limits[k], threads, counted[k]);
     threads.part_ends();
   };
   RefinementSlabs(mesh, slabs, work, task.options.threads).refine_each(refine);
-  release_free_memory();
   task.controls.poll();  // what made parts stop stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
+}
+
+// Slabs would leave coarse what their planes meet. So that is refined before them, while the mesh is coarse.
+void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vector<float> work, const Task& task) {
+  std::vector<double> planes;
+  for (std::size_t k = 0; k + 1 < slabs.size(); ++k) planes.push_back(slabs[k].high);
+  refine_apart(mesh, seams_between(slabs, mesh, task.options.threads), planes, work, task);
+  if (task.controls.stopped()) return;
+  work.resize(mesh.triangles.size());  // the new ones are fine
+  refine_apart(mesh, slabs, {}, work, task);
+  release_free_memory();
 }
 
 // Refines in the whole what is still coarse.
@@ -142,13 +156,13 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   refined = RefinementMesh(mesh);
   mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
   set_clearances(refined);
-  const std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
+  std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);
   if (slabs.size() == 1) {
-    refine_whole(refined, Round::kFirst, task);
+    refine_whole(refined, Round::kSlabs, task);
   } else {
-    refine_slabs(refined, slabs, work, task);
-    if (!controls.stopped()) refine_whole(refined, Round::kLater, task);
+    refine_slabs(refined, slabs, std::move(work), task);
+    if (!controls.stopped()) refine_whole(refined, Round::kRest, task);
   }
   release_free_memory();
   stats.stopped_at_r_min = std::count_if(refined.triangles.begin(), refined.triangles.end(),

@@ -34,7 +34,7 @@ struct RefineOptions {
   bool keep_neighbours = true;        // and pole heights; or else the refined mesh has points and triangles alone
   std::span<const Vec3> landmarks;    // points of the surface that the mesh is to come near (landmarks.h)
   int threads = 1;                    // the result is the same for any number
-  std::size_t slab_triangles = 8192;  // of stage 1 in a slab (refinement_slabs.h), about
+  std::size_t slab_triangles = 6144;  // of stage 1 in a slab (refinement_slabs.h), about
 };
 
 // Why an insertion was refused.

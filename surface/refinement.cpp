@@ -21,9 +21,11 @@ constexpr int kLandmarkRounds = 4;
 void Refinement::run(Controls& controls, int threads) {
   start_.emplace(mesh_);
   if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
-  guard_.emplace(mesh_, threads);
   queue_coarse_triangles();
-  refine_queued(controls);
+  if (queue_.size() > 0) {
+    guard_.emplace(mesh_, threads);
+    refine_queued(controls);
+  }
   for (int i = 0; i < kLandmarkRounds && insert_landmarks(controls, threads); ++i) refine_queued(controls);
   guard_.reset();
 }
@@ -74,10 +76,19 @@ void RefinementChange::redo(RefinementMesh& mesh) const {
   mesh.vertices.insert(mesh.vertices.end(), new_vertices.begin(), new_vertices.end());
 }
 
+// Whether a coarse triangle is to be refined here.
+bool Refinement::is_wanted(std::uint32_t triangle) const {
+  if (!part_.plane) return true;
+  const std::size_t axis = part_.slab.axis;
+  const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
+  const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+  return low <= *part_.plane && *part_.plane <= high;
+}
+
 // What another part left coarse is to be tried again; frozen triangles stay as they are.
 void Refinement::queue_coarse_triangles() {
   for (std::uint32_t t = part_.frozen; t < mesh_.triangles.size(); ++t) {
-    if (mesh_.triangles[t].is_coarse()) requeue(t);
+    if (mesh_.triangles[t].is_coarse() && is_wanted(t)) requeue(t);
   }
 }
 
@@ -233,7 +244,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
     triangle.renew();
     learn(t, star_[i]);
     guard_->learn(t, star_[i].squared_longest);
-    if (triangle.is_coarse()) queue(t, star_[i]);
+    if (triangle.is_coarse() && is_wanted(t)) queue(t, star_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (!star_[i].has_hit) guard_->distrust(slots_[i]);

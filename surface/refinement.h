@@ -58,6 +58,7 @@ class Refinement {
     double squared_longest = 0;  // of its longest edge
   };
 
+  [[nodiscard]] bool is_wanted(std::uint32_t triangle) const;
   void queue_coarse_triangles();
   void refine_queued(Controls& controls);
   bool insert_landmarks(Controls& controls, int threads);

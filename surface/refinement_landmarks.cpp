@@ -18,6 +18,8 @@ bool Refinement::insert_landmarks(Controls& controls, int threads) {
   // Balls that are not kept are searched, and that is counted.
   const std::vector<MissedLandmark> missed = missed_landmarks(
       part_.landmarks, mesh_, [this](std::uint32_t t) { return ball_of(t); }, least, options_.store_hits ? threads : 1);
+  if (missed.empty()) return false;
+  if (!guard_) guard_.emplace(mesh_, threads);
   const auto generation = [&](const MissedLandmark& m) {
     return mesh_.triangles[m.triangle].state | RefinementMesh::Triangle::kFlags;
   };

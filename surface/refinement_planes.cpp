@@ -13,10 +13,12 @@ namespace deliso {
 
 namespace {
 
-constexpr std::size_t kMostSlabs = 8;
+constexpr std::size_t kMostSlabs = 10;
 // A plane may move by so much of a slab's work to either side of where it would be fair, to one of so many places.
 constexpr double kFreedom = 0.125;
 constexpr std::size_t kPlaces = 65;
+// Of a seam around a coarse triangle, in lengths of it along the axis.
+constexpr double kMargin = 1;
 
 std::size_t longest_axis(const RefinementMesh& mesh) {
   Box3 box;
@@ -121,6 +123,22 @@ class WorkAlong {
   std::vector<Bin> bins_ = std::vector<Bin>(kBins + 1);  // behind an empty one
 };
 
+// Of a triangle along an axis.
+struct Extent {
+  double low, high;
+};
+
+std::vector<Extent> extents_of_coarse(const RefinementMesh& mesh, std::size_t axis, int threads) {
+  return collect_in_blocks<Extent>(mesh.triangles.size(), threads, [&](std::size_t t, std::vector<Extent>& found) {
+    if (!mesh.triangles[t].is_coarse()) return;
+    const auto [a, b, c] = mesh.corner_points(mesh.triangles[t].corners);
+    const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+    found.push_back({low, high});
+  });
+}
+
+double middle_of(const Slab& slab) { return 0.5 * slab.low + 0.5 * slab.high; }
+
 }  // namespace
 
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
@@ -131,13 +149,32 @@ std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<cons
   const std::size_t axis = longest_axis(mesh);
   const WorkAlong along(mesh, work, axis, threads);
   const auto count = static_cast<double>(slabs.size());
-  for (std::size_t k = 0; k < slabs.size(); ++k) {
-    slabs[k].axis = axis;
-    if (k == 0) continue;
-    const auto place = [&](double shift) { return along.place_of((static_cast<double>(k) + shift) / count); };
-    slabs[k].low = slabs[k - 1].high = along.least_cut(place(-kFreedom), place(0), place(kFreedom));
-  }
+  run_tasks(slabs.size() - 1, threads, [&](std::size_t k) {
+    const auto place = [&](double shift) { return along.place_of((static_cast<double>(k + 1) + shift) / count); };
+    slabs[k].high = slabs[k + 1].low = along.least_cut(place(-kFreedom), place(0), place(kFreedom));
+  });
+  for (Slab& slab : slabs) slab.axis = axis;
   return slabs;
+}
+
+std::vector<Slab> seams_between(const std::vector<Slab>& slabs, const RefinementMesh& mesh, int threads) {
+  const std::vector<Extent> coarse = extents_of_coarse(mesh, slabs.front().axis, threads);
+  std::vector<Slab> seams;
+  for (std::size_t k = 0; k + 1 < slabs.size(); ++k) {
+    const double plane = slabs[k].high;
+    Slab seam{slabs[k].axis, plane, plane};
+    // What a coarse triangle is replaced by has to lie in the seam, too.
+    for (const Extent& extent : coarse) {
+      if (!(extent.low <= plane && plane <= extent.high)) continue;
+      const double margin = kMargin * (extent.high - extent.low);
+      seam.low = std::min(seam.low, extent.low - margin);
+      seam.high = std::max(seam.high, extent.high + margin);
+    }
+    seam.low = std::max(seam.low, middle_of(slabs[k]));
+    seam.high = std::min(seam.high, middle_of(slabs[k + 1]));
+    seams.push_back(seam);
+  }
+  return seams;
 }
 
 }  // namespace deliso

@@ -1,7 +1,8 @@
 // Where stage 2 cuts the mesh into slabs that are refined apart from each other (refinement_slabs.h).
 //
-// Into slabs of about the same work, by planes that meet few coarse triangles: these have to wait. The cut depends on
-// the mesh alone, so the result does not depend on how many threads refine the slabs.
+// Into slabs of about the same work, by planes that meet few coarse triangles. These would have to wait for all slabs;
+// so they are refined first, within seams around the planes, while the mesh is small. The cuts depend on the mesh
+// alone, so the result does not depend on how many threads refine the parts.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,13 @@
 
 namespace deliso {
 
-// At most 8 slabs next to each other of `slab_triangles` or more, about; a small mesh is one. `work` estimates the
+// At most 10 slabs next to each other of `slab_triangles` or more, about; a small mesh is one. `work` estimates the
 // insertions that each triangle needs. The same for any number of threads.
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
                                       std::size_t slab_triangles, int threads = 1);
+
+// Around the plane between each two slabs, in order: where the coarse triangles that meet it lie and a margin, but no
+// farther than the middles of the two.
+std::vector<Slab> seams_between(const std::vector<Slab>& slabs, const RefinementMesh& mesh, int threads = 1);
 
 }  // namespace deliso

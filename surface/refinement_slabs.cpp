@@ -1,7 +1,9 @@
 #include "surface/refinement_slabs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "delaunay/base/parallel.h"
@@ -17,6 +19,51 @@ namespace {
 constexpr std::size_t kRoom = 2;
 // There is room for at most so many insertions per triangle from the start.
 constexpr double kMostGrowth = 32;
+
+// Where vertices lie among the planes of disjoint slabs in order: a number each, which takes less of the memory that
+// triangles look all over than points do.
+class PlacesAmongPlanes {
+ public:
+  PlacesAmongPlanes(const RefinementMesh& mesh, const std::vector<Slab>& slabs, int threads)
+      : place_(mesh.vertices.size()) {
+    for (const Slab& slab : slabs) {
+      if (planes_.empty() || planes_.back() < slab.low) planes_.push_back(slab.low);
+      slabs_.push_back({on_plane(planes_.size() - 1), on_plane(planes_.size())});
+      planes_.push_back(slab.high);
+    }
+    const std::size_t axis = slabs.front().axis;
+    for_each_block(place_.size(), threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) place_[v] = place_of(mesh.vertices[v].point[axis]);
+    });
+  }
+
+  // Calls visit(slab, is_within) for the slabs that a triangle meets, planes included.
+  template <class Visit>
+  void for_each_slab(const std::array<std::uint32_t, 3>& corners, Visit&& visit) const {
+    const auto [low, high] = std::minmax({place_[corners[0]], place_[corners[1]], place_[corners[2]]});
+    for (std::size_t k = 0; k < slabs_.size(); ++k) {
+      if (high < slabs_[k].low || slabs_[k].high < low) continue;
+      visit(k, slabs_[k].low < low && high < slabs_[k].high);
+    }
+  }
+
+ private:
+  using Place = std::uint16_t;  // even between planes, odd on one
+
+  static Place on_plane(std::size_t plane) { return static_cast<Place>(2 * plane + 1); }
+  [[nodiscard]] Place place_of(double x) const {
+    const auto plane = std::lower_bound(planes_.begin(), planes_.end(), x);
+    const auto below = static_cast<std::size_t>(plane - planes_.begin());
+    return static_cast<Place>(2 * below + (plane != planes_.end() && *plane == x ? 1 : 0));
+  }
+
+  struct Between {
+    Place low, high;
+  };
+  std::vector<double> planes_;  // ascending
+  std::vector<Between> slabs_;  // the places of their planes
+  std::vector<Place> place_;    // of each vertex
+};
 
 }  // namespace
 
@@ -39,19 +86,15 @@ void RefinementSlabs::find_triangles() {
   struct Found {
     std::vector<std::uint32_t> cut, within;
   };
-  const std::size_t axis = slabs_.front().axis, count = whole_.triangles.size();
+  const std::size_t count = whole_.triangles.size();
+  const PlacesAmongPlanes places(whole_, slabs_, threads_);
   std::vector<std::vector<Found>> found(count / kBlockSize + 1, std::vector<Found>(slabs_.size()));
   for_each_block(count, threads_, [&](std::size_t first, std::size_t last) {
     std::vector<Found>& in_block = found[first / kBlockSize];
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      const auto [a, b, c] = whole_.corner_points(whole_.triangles[t].corners);
-      const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-      for (std::size_t k = 0; k < slabs_.size(); ++k) {
-        const Slab& slab = slabs_[k];
-        if (high < slab.low || slab.high < low) continue;
-        const bool is_within = slab.low < low && high < slab.high;
-        (is_within ? in_block[k].within : in_block[k].cut).push_back(t);
-      }
+      places.for_each_slab(whole_.triangles[t].corners, [&](std::size_t slab, bool is_within) {
+        (is_within ? in_block[slab].within : in_block[slab].cut).push_back(t);
+      });
     }
   });
   for (std::size_t k = 0; k < slabs_.size(); ++k) {

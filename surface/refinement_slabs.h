@@ -22,6 +22,7 @@ struct RefinementPart {
   RefinementMesh mesh;
   std::uint32_t frozen = 0;  // the first triangles are
   Slab slab;
+  std::optional<double> plane;      // across the slab's axis: if given, only triangles that meet it are to be refined
   std::span<const Vec3> landmarks;  // that it has to come near to
 };
 

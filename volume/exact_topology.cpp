@@ -39,7 +39,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  LargeArray<std::uint32_t> parent_;
 };
 
 // The Euler characteristic of a component is pieces - arcs + crossings, each piece with its own. A piece has as many
@@ -90,8 +90,8 @@ class TopologyBuilder {
   double isovalue_;
   int threads_;
   DisjointSets sets_;
-  std::vector<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
-  std::vector<std::int64_t> twice_euler_;              // of the components
+  LargeArray<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
+  std::vector<std::int64_t> twice_euler_;             // of the components
   IsosurfaceTopology result_;
 };
 

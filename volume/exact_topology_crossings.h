@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "delaunay/base/huge_pages.h"
 #include "delaunay/base/parallel.h"
 #include "delaunay/base/vec3.h"
 #include "volume/scalar_grid.h"
@@ -136,13 +137,13 @@ class CrossingIndex {
   Dims dims_{};
   std::int32_t words_per_row_ = 0;
   std::uint32_t crossing_count_ = 0;
-  std::vector<std::uint64_t> above_;          // word (w, j, k) -> bits of its samples above the isovalue
-  std::vector<std::uint32_t> first_in_word_;  // word (w, j, k) -> number of the first crossing from its samples
+  LargeArray<std::uint64_t> above_;          // word (w, j, k) -> bits of its samples above the isovalue
+  LargeArray<std::uint32_t> first_in_word_;  // word (w, j, k) -> number of the first crossing from its samples
 };
 
 // The crossings in the order of their numbers; their components are left 0. The same for any number of threads.
-std::vector<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                         int threads = 1);
+LargeArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                        int threads = 1);
 
 // The crossing's place in index space.
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);

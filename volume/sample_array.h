@@ -19,8 +19,9 @@ class SampleArray {
   using iterator = const_iterator;
 
   SampleArray() = default;
-  SampleArray(std::vector<Sample> samples) {  // NOLINT(google-explicit-constructor): a vector is the usual array
-    auto kept = std::make_shared<const std::vector<Sample>>(std::move(samples));
+  template <class Allocator>
+  SampleArray(std::vector<Sample, Allocator> samples) {  // NOLINT(google-explicit-constructor): the usual array
+    auto kept = std::make_shared<const std::vector<Sample, Allocator>>(std::move(samples));
     samples_ = *kept;
     memory_ = std::move(kept);
   }

@@ -59,6 +59,20 @@ TEST(SharedArray, GrowsToAtLeastHalfAsMuchAgainWhereRoomIsMade) {
   EXPECT_GE(array.room_left(), 200u);
 }
 
+// From a few bytes to many huge pages, where pages change hands instead of being copied.
+TEST(SharedArray, KeepsWhatItHoldsHoweverLargeItGrows) {
+  constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
+  SharedArray<std::uint64_t> array;
+  for (const std::size_t size : {10u, 300'000u, 300'001u, 700'000u, 3'000'000u}) {
+    array.reserve(size);
+    while (array.size() < size) array.push_back(array.size() * kStep);
+    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(array[i], i * kStep) << size;
+  }
+  array.make_room(5'000'000);
+  array.resize(4'000'000);
+  for (std::size_t i = 0; i < array.size(); ++i) ASSERT_EQ(array[i], i < 3'000'000 ? i * kStep : 0) << i;
+}
+
 TEST(SharedArray, TakesInWhatViewsOnSeveralThreadsAppend) {
   constexpr std::size_t kViews = 4, kEach = 5000;
   SharedArray<std::string> array(10);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "delaunay/base/parallel.h"
@@ -217,6 +218,47 @@ TEST(RefinementPlanes, PlanesKeepOutOfCoarsePlaces) {
   ASSERT_EQ(slabs.size(), 4u);
   ASSERT_EQ(slabs[0].axis, 1u);
   for (const double share : shares_of(mesh, slabs, work).of_planes) EXPECT_LT(share, 2.0 / 128 / 50);
+}
+
+TEST(RefinementPlanes, SeamsHoldWhatIsCoarseAtThePlanes) {
+  RefinementMesh mesh(wavy_square(128));
+  // Triangles of every third row are coarse.
+  const auto is_coarse = [&](std::uint32_t t) { return std::fmod(mesh.box_of(t).low.y, 3) == 0; };
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    mesh.triangles[t].set(RefinementMesh::Triangle::kCoarse, is_coarse(t));
+  }
+  const double inf = std::numeric_limits<double>::infinity();
+  // One plane within a coarse row, one in a row that is not, and one between two rows, the upper one coarse.
+  const std::vector<Slab> slabs = {{1, -inf, 30.5}, {1, 30.5, 31.75}, {1, 31.75, 60}, {1, 60, inf}};
+  const std::vector<Slab> seams = seams_between(slabs, mesh, 2);
+  ASSERT_EQ(seams.size(), 3u);
+  EXPECT_EQ(seams[0].low, 29);                   // the row from 30 to 31 and its own height around it,
+  EXPECT_EQ(seams[0].high, (30.5 + 31.75) / 2);  // but no farther than the middle of the next slab
+  EXPECT_EQ(seams[1].low, seams[1].high);        // nothing
+  EXPECT_EQ(seams[2].low, 59);
+  EXPECT_EQ(seams[2].high, 62);
+  for (const Slab& seam : seams) EXPECT_EQ(seam.axis, 1u);
+}
+
+TEST(RefinementPlanes, SeamsLeaveFreeWhatMeetsThePlanes) {
+  const RefinementMesh mesh(wavy_square(120));
+  const std::vector<float> work(mesh.triangles.size(), 1);
+  const std::vector<Slab> slabs = slabs_of_equal_work(mesh, work, 8192);
+  RefinementMesh coarse = mesh;
+  for (auto& triangle : coarse.triangles) triangle.set(RefinementMesh::Triangle::kCoarse, true);
+  const std::vector<Slab> seams = seams_between(slabs, coarse);
+  ASSERT_EQ(seams.size() + 1, slabs.size());
+  for (std::uint32_t t = 0; t < coarse.triangles.size(); ++t) {
+    const Box3 box = coarse.box_of(t);
+    for (std::size_t k = 0; k < seams.size(); ++k) {
+      const double plane = slabs[k].high;
+      const std::size_t axis = slabs[k].axis;
+      if (box.low[axis] > plane || box.high[axis] < plane) continue;
+      EXPECT_LT(seams[k].low, box.low[axis]);  // free to be refined there
+      EXPECT_GT(seams[k].high, box.high[axis]);
+    }
+  }
+  for (std::size_t k = 0; k + 1 < seams.size(); ++k) EXPECT_LE(seams[k].high, seams[k + 1].low);
 }
 
 TEST(RunTasks, RunsEachTaskOnceAndThrowsTheFirstError) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/huge_pages.h"
 #include "volume/io/gzip_stream.h"
 #include "volume/io/mapped_file.h"
 
@@ -70,8 +71,8 @@ void reverse_axis(std::span<Sample> samples, const Dims& dims, std::size_t axis)
 
 // Reads chunk by chunk, so that memory is touched only as data really arrive.
 template <class Sample>
-std::vector<Sample> read_all(ByteReader& reader, const InputFile& file, const SampleLayout& layout, std::size_t count) {
-  std::vector<Sample> samples;
+LargeArray<Sample> read_all(ByteReader& reader, const InputFile& file, const SampleLayout& layout, std::size_t count) {
+  LargeArray<Sample> samples;
   samples.reserve(count);
   constexpr std::size_t kChunk = kChunkBytes / sizeof(Sample);
   while (samples.size() < count) {
