@@ -2,24 +2,46 @@
 
 namespace deliso {
 
-Box3 BoxTree::make_nodes(std::uint32_t first, std::uint32_t count) {
-  const std::size_t node = nodes_.size();
-  nodes_.emplace_back();
+namespace {
+
+constexpr int kTaskDepth = 4;  // subtrees of this depth are tasks
+constexpr int kNoDepth = -1;
+
+}  // namespace
+
+// Subtrees first, beside each other; then the nodes above them.
+void BoxTree::make_nodes(int threads) {
+  nodes_.resize(node_count(things_.size()));
+  const Subtree all{0, 0, static_cast<std::uint32_t>(things_.size())};
+  std::vector<Subtree> subtrees;
+  append_subtrees(all, kTaskDepth, subtrees);
+  run_tasks(subtrees.size(), things_.size() < kBlockSize ? 1 : threads,
+            [&](std::size_t i) { make_nodes(subtrees[i], kNoDepth); });
+  make_nodes(all, kTaskDepth);
+}
+
+// Those of a depth.
+void BoxTree::append_subtrees(const Subtree& tree, int depth, std::vector<Subtree>& subtrees) const {
+  if (depth == 0) {
+    subtrees.push_back(tree);
+  } else if (!tree.is_leaf()) {
+    append_subtrees(tree.left(), depth - 1, subtrees);
+    append_subtrees(tree.right(), depth - 1, subtrees);
+  }
+}
+
+// Those above a depth, where there is one. Returns the box of all.
+Box3 BoxTree::make_nodes(const Subtree& tree, int depth) {
+  if (depth == 0) return nodes_[tree.node].box;
   Box3 box;
-  const auto include = [&box](const Box3& part) {
-    box.extend(part.low);
-    box.extend(part.high);
-  };
-  if (count <= kThingsPerLeaf) {
-    for (std::uint32_t i = first; i < first + count; ++i) include(boxes_[i]);
-    nodes_[node] = {box, first, count};
+  if (tree.is_leaf()) {
+    for (std::uint32_t i = tree.first; i < tree.first + tree.count; ++i) include(boxes_[i], box);
+    nodes_[tree.node] = {box, tree.first, tree.count};
     return box;
   }
-  const std::uint32_t left = left_half(count);
-  include(make_nodes(first, left));
-  const auto right_child = static_cast<std::uint32_t>(nodes_.size());
-  include(make_nodes(first + left, count - left));
-  nodes_[node] = {box, right_child, 0};
+  include(make_nodes(tree.left(), depth - 1), box);
+  include(make_nodes(tree.right(), depth - 1), box);
+  nodes_[tree.node] = {box, tree.right().node, 0};
   return box;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "surface/blocks.h"
 #include "surface/halving_order.h"
 
 namespace deliso {
@@ -22,25 +23,33 @@ class BoxTree {
       : BoxTree(
             boxes.size(), [boxes](std::size_t i) { return boxes[i]; }, threads) {}
 
-  // Of `count` things; box_of(i) gives the box of thing i, always the same.
+  // Of `count` things; box_of(i) gives the box of thing i, always the same, to any thread.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
     if (count == 0) return;
     std::vector<Vec3> centres(count);
+    std::vector<Box3> of_blocks((count - 1) / kBlockSize + 1);
+    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const Box3 box = box_of(i);
+        centres[i] = 0.5 * box.low + 0.5 * box.high;  // halved terms cannot overflow
+        of_blocks[first / kBlockSize].extend(centres[i]);
+      }
+    });
     Box3 all;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Box3 box = box_of(i);
-      centres[i] = 0.5 * box.low + 0.5 * box.high;  // halved terms cannot overflow
-      all.extend(centres[i]);
-    }
+    for (const Box3& block : of_blocks) include(block, all);
     const CentreLattice lattice(all);
     std::vector<LatticePlace> places(count);
-    for (std::size_t i = 0; i < count; ++i) places[i] = lattice.place(centres[i], i);
+    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) places[i] = lattice.place(centres[i], i);
+    });
     things_ = halving_order(
         std::move(places), [&](std::uint32_t thing) { return centres[thing]; }, threads);
-    boxes_.reserve(count);
-    for (const std::uint32_t thing : things_) boxes_.push_back(box_of(thing));
-    make_nodes(0, static_cast<std::uint32_t>(count));
+    boxes_.resize(count);
+    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) boxes_[i] = box_of(things_[i]);
+    });
+    make_nodes(threads);
   }
 
   // Calls visit(i) for each box that has a point in common with `box`, faces included.
@@ -73,8 +82,31 @@ class BoxTree {
 
   static double squared_gap(const Box3& box, const Vec3& p) { return squared_distance(p, box.clamp(p)); }
 
-  // Of the `count` things from place `first` on. Returns their box.
-  Box3 make_nodes(std::uint32_t first, std::uint32_t count);
+  // A subtree: its first node, and its things.
+  struct Subtree {
+    std::uint32_t node = 0;
+    std::uint32_t first = 0;  // place in things_
+    std::uint32_t count = 0;
+
+    [[nodiscard]] bool is_leaf() const { return count <= kThingsPerLeaf; }
+    [[nodiscard]] Subtree left() const { return {node + 1, first, left_half(count)}; }
+    [[nodiscard]] Subtree right() const {
+      const std::uint32_t there = left_half(count);
+      return {node + 1 + node_count(there), first + there, count - there};
+    }
+  };
+  // All leaves but the last of a part are full (halving_order.h).
+  static std::uint32_t node_count(std::size_t things) {
+    return static_cast<std::uint32_t>(2 * ((things + kThingsPerLeaf - 1) / kThingsPerLeaf) - 1);
+  }
+  static void include(const Box3& part, Box3& box) {
+    box.extend(part.low);
+    box.extend(part.high);
+  }
+
+  void make_nodes(int threads);
+  void append_subtrees(const Subtree& tree, int depth, std::vector<Subtree>& subtrees) const;
+  Box3 make_nodes(const Subtree& tree, int depth);
 
   std::vector<Node> nodes_;            // depth first, left before right
   std::vector<std::uint32_t> things_;  // in the order of the leaves

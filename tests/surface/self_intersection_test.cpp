@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/predicates.h"
+#include "surface/blocks.h"
 #include "surface/box_tree.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/random_boxes.h"
@@ -39,6 +40,27 @@ TEST(BoxTree, FindsTheNearestAndWhatMeetsABoxLikeBruteForce) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) nearest = std::min(nearest, measure(i));
     EXPECT_EQ(tree.nearest(p, std::numeric_limits<double>::infinity(), measure).second, nearest) << "seed " << seed;
     EXPECT_EQ(tree.nearest(p, nearest, measure).first, BoxTree::kNone) << "seed " << seed;
+  }
+}
+
+// Of so many boxes, a whole number of blocks or not, that threads share the work.
+TEST(BoxTree, ThreadsMakeTheSameTreeOfManyBoxes) {
+  for (const std::size_t count : {2 * kBlockSize, 2 * kBlockSize + 5, 3 * kBlockSize - 1}) {
+    Rng rng(count);
+    const std::vector<Box3> boxes = random_boxes(rng, count, 0.02);
+    const BoxTree one(boxes), several(boxes, 3);
+    for (int i = 0; i < 5; ++i) {
+      const Box3 around = random_boxes(rng, 1, 0.1)[0];
+      std::vector<std::uint32_t> expected, found, found_by_one;
+      for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+        if (have_common_point(boxes[b], around)) expected.push_back(b);
+      }
+      several.for_each_meeting(around, [&](std::uint32_t b) { found.push_back(b); });
+      one.for_each_meeting(around, [&](std::uint32_t b) { found_by_one.push_back(b); });
+      EXPECT_EQ(found, found_by_one) << count;  // in the same order
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, expected) << count;
+    }
   }
 }
 
