@@ -272,10 +272,17 @@ void Refinement::requeue(std::uint32_t triangle) {
   queue(triangle, measured(triangle));
 }
 
-// Triangles around the new star that were refused before get another chance.
+// Triangles around the new star that were refused before get another chance, frozen ones in the whole.
 void Refinement::wake_neighbours() {
   for (const RimEdge& edge : disk_.rim()) {
-    if (edge.outer != kNoSide && mesh_.triangles[edge.outer >> 2].is_refused()) requeue(edge.outer >> 2);
+    const std::uint32_t t = edge.outer >> 2;
+    if (edge.outer == kNoSide || !mesh_.triangles[t].is_refused()) continue;
+    if (t >= part_.frozen) {
+      requeue(t);
+    } else {
+      start_->keep(t, mesh_);
+      mesh_.triangles[t].set(RefinementMesh::Triangle::kCoarse, true);
+    }
   }
 }
 

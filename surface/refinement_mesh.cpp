@@ -24,20 +24,22 @@ void RefinementMesh::forget_attempts() {
   }
 }
 
+// What is not needed any more goes at once: the peak of a whole run may lie here.
 void RefinementMesh::move_to(SurfaceMesh& mesh, int threads, bool keep_neighbours) {
   const auto copy = [](const auto& from, auto& to, auto member) {
     to.reserve(from.size());
     for (const auto& element : from) to.push_back(element.*member);
   };
   mesh = {};
-  const std::size_t arrays = keep_neighbours ? 4 : 2;
+  const std::size_t arrays = keep_neighbours ? 2 : 1;
   run_tasks(arrays, threads, [&](std::size_t task) {
-    if (task == 0) copy(triangles, mesh.triangles, &Triangle::corners);
-    if (task == 1) copy(vertices, mesh.points, &Vertex::point);
-    if (task == 2) copy(triangles, mesh.neighbours, &Triangle::neighbours);
-    if (task == 3) copy(vertices, mesh.pole_heights, &Vertex::pole_height);
+    task == 0 ? copy(vertices, mesh.points, &Vertex::point) : copy(vertices, mesh.pole_heights, &Vertex::pole_height);
   });
   LargeArray<Vertex>().swap(vertices);
+  run_tasks(arrays, threads, [&](std::size_t task) {
+    task == 0 ? copy(triangles, mesh.triangles, &Triangle::corners)
+              : copy(triangles, mesh.neighbours, &Triangle::neighbours);
+  });
   LargeArray<Triangle>().swap(triangles);
 }
 

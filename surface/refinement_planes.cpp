@@ -72,7 +72,7 @@ class WorkAlong {
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i) cut[i] += span.work;
     }
     std::size_t best = 0;
-    const auto place = [&](std::size_t i) { return low + static_cast<double>(i) * step; };
+    const auto place = [&](std::size_t i) { return std::min(low + static_cast<double>(i) * step, high); };
     for (std::size_t i = 1; i < kPlaces; ++i) {
       const bool is_nearer = std::abs(place(i) - fair) < std::abs(place(best) - fair);
       if (cut[i] < cut[best] || (cut[i] == cut[best] && is_nearer)) best = i;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/parallel.h"
 #include "surface/blocks.h"
 
@@ -26,11 +27,7 @@ class PlacesAmongPlanes {
  public:
   PlacesAmongPlanes(const RefinementMesh& mesh, const std::vector<Slab>& slabs, int threads)
       : place_(mesh.vertices.size()) {
-    for (const Slab& slab : slabs) {
-      if (planes_.empty() || planes_.back() < slab.low) planes_.push_back(slab.low);
-      slabs_.push_back({on_plane(planes_.size() - 1), on_plane(planes_.size())});
-      planes_.push_back(slab.high);
-    }
+    for (const Slab& slab : slabs) slabs_.push_back({add_plane(slab.low), add_plane(slab.high)});
     const std::size_t axis = slabs.front().axis;
     for_each_block(place_.size(), threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) place_[v] = place_of(mesh.vertices[v].point[axis]);
@@ -50,7 +47,12 @@ class PlacesAmongPlanes {
  private:
   using Place = std::uint16_t;  // even between planes, odd on one
 
-  static Place on_plane(std::size_t plane) { return static_cast<Place>(2 * plane + 1); }
+  // The place of a plane that is not below those added before.
+  Place add_plane(double x) {
+    DELISO_CHECK(planes_.empty() || planes_.back() <= x, "slabs come in order");
+    if (planes_.empty() || planes_.back() < x) planes_.push_back(x);
+    return static_cast<Place>(2 * planes_.size() - 1);
+  }
   [[nodiscard]] Place place_of(double x) const {
     const auto plane = std::lower_bound(planes_.begin(), planes_.end(), x);
     const auto below = static_cast<std::size_t>(plane - planes_.begin());
@@ -60,7 +62,7 @@ class PlacesAmongPlanes {
   struct Between {
     Place low, high;
   };
-  std::vector<double> planes_;  // ascending
+  std::vector<double> planes_;  // strictly ascending
   std::vector<Between> slabs_;  // the places of their planes
   std::vector<Place> place_;    // of each vertex
 };
@@ -216,10 +218,12 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin)
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const RefinementMesh::Triangle& from = mesh.triangles[t];
     RefinementMesh::Triangle& to = whole_.triangles[place_of_triangle(t)];
-    // A frozen triangle stays; its sides towards the part are as the part left them.
+    // A frozen triangle stays, but may be worth another try; its sides towards the part are as the part left them.
     if (t >= part.frozen) {
       to = from;
       for (std::uint32_t& v : to.corners) v = place(origin.vertices, first_vertex, v);
+    } else if (from.is_coarse()) {
+      to.set(RefinementMesh::Triangle::kCoarse, true);
     }
     for (unsigned i = 0; i < 3; ++i) {
       const TriangleSide side = from.neighbours[i];

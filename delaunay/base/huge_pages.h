@@ -39,13 +39,6 @@ class HugePageAllocator {
     madvise(begin, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost when it is not granted
     return reinterpret_cast<T*>(begin);
   }
-  // Takes the pages of large memory over into larger one, with no copy of what they hold; false, and nothing has
-  // changed, where that is not to be had. Then `from` is no more. Both are what allocate() gave.
-  static bool take_over(T* from, std::size_t from_count, T* to, std::size_t to_count) {
-    if (from_count < kFewest || to_count < from_count) return false;
-    const std::size_t bytes = rounded_bytes(from_count);
-    return mremap(from, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, to) != MAP_FAILED;
-  }
   void deallocate(T* memory, std::size_t count) {
     if (count < kFewest) {
       std::allocator<T>().deallocate(memory, count);
@@ -67,15 +60,7 @@ class HugePageAllocator {
 #else
 
 template <class T>
-class HugePageAllocator : public std::allocator<T> {
- public:
-  using std::allocator<T>::allocator;
-  template <class U>
-  struct rebind {
-    using other = HugePageAllocator<U>;
-  };
-  static bool take_over(T* /*from*/, std::size_t /*count*/, T* /*to*/, std::size_t /*count*/) { return false; }
-};
+using HugePageAllocator = std::allocator<T>;
 
 #endif
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <type_traits>
 #include <utility>
 
 #include "delaunay/base/check.h"
@@ -74,11 +73,11 @@ class SharedArray {
     if (count <= room_) return;
     DELISO_CHECK(!is_view_, "a view stays within its range");
     T* const larger = HugePageAllocator<T>().allocate(count);
-    if (!take_pages_over(larger, count)) {
-      std::uninitialized_move(data_, data_ + size_, larger);
-      drop();
-    }
+    std::uninitialized_move(data_, data_ + size_, larger);
+    const std::size_t size = size_;
+    drop();
     data_ = larger;
+    size_ = size;
     room_ = count;
   }
   // The same, but when it grows it grows by half or more, so that it does not matter how often this is called.
@@ -107,13 +106,6 @@ class SharedArray {
  private:
   static constexpr std::size_t kFewest = 16;
 
-  // Fresh pages would have to be cleared first, and then hold a copy.
-  bool take_pages_over(T* larger, std::size_t count) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      return data_ != nullptr && HugePageAllocator<T>::take_over(data_, room_, larger, count);
-    }
-    return false;
-  }
   void drop() {
     if (data_ == nullptr) return;
     std::destroy(data_ + first_, data_ + size_);

@@ -59,7 +59,7 @@ TEST(SharedArray, GrowsToAtLeastHalfAsMuchAgainWhereRoomIsMade) {
   EXPECT_GE(array.room_left(), 200u);
 }
 
-// From a few bytes to many huge pages, where pages change hands instead of being copied.
+// From a few bytes to many huge pages.
 TEST(SharedArray, KeepsWhatItHoldsHoweverLargeItGrows) {
   constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
   SharedArray<std::uint64_t> array;
