@@ -103,7 +103,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   least.redo(part.mesh);
 }
 
-// Refines disjoint slabs apart from each other: all of them, or around each of the planes.
+// Refines disjoint slabs apart from each other: all that is coarse in them or, given a plane for each, what meets that.
 void refine_apart(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const double> planes,
                   std::span<const float> work, const Task& task) {
   const Round round = planes.empty() ? Round::kSlabs : Round::kSeams;
@@ -129,7 +129,8 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vec
   for (std::size_t k = 0; k + 1 < slabs.size(); ++k) planes.push_back(slabs[k].high);
   refine_apart(mesh, seams_between(slabs, mesh, task.options.threads), planes, work, task);
   if (task.controls.stopped()) return;
-  work.resize(mesh.triangles.size());  // the new ones are fine
+  // Estimates are for room alone by now: that of a slot which was taken anew stands, for others there is some to spare.
+  work.resize(mesh.triangles.size());
   refine_apart(mesh, slabs, {}, work, task);
   release_free_memory();
 }

@@ -78,11 +78,7 @@ void RefinementChange::redo(RefinementMesh& mesh) const {
 
 // Whether a coarse triangle is to be refined here.
 bool Refinement::is_wanted(std::uint32_t triangle) const {
-  if (!part_.plane) return true;
-  const std::size_t axis = part_.slab.axis;
-  const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
-  const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-  return low <= *part_.plane && *part_.plane <= high;
+  return !part_.plane || mesh_.extent_of(triangle, part_.slab.axis).holds(*part_.plane);
 }
 
 // What another part left coarse is to be tried again; frozen triangles stay as they are.

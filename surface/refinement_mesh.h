@@ -1,7 +1,9 @@
 // The mesh that stage 2 works on: what an insertion needs of a triangle lies in one cache line.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -64,6 +66,16 @@ struct RefinementMesh {
   }
   [[nodiscard]] std::array<Vec3, 3> corner_points(const std::array<std::uint32_t, 3>& corners) const {
     return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
+  }
+
+  // From where to where a triangle reaches along an axis.
+  struct Extent {
+    double low = 0, high = 0;
+    [[nodiscard]] bool holds(double x) const { return low <= x && x <= high; }
+  };
+  [[nodiscard]] Extent extent_of(std::uint32_t triangle, std::size_t axis) const {
+    const auto [a, b, c] = corner_points(triangles[triangle].corners);
+    return {std::min({a[axis], b[axis], c[axis]}), std::max({a[axis], b[axis], c[axis]})};
   }
 
   [[nodiscard]] Box3 box_of(std::uint32_t triangle) const {

@@ -34,8 +34,7 @@ class WorkAlong {
       : spans_(work.size()) {
     for_each_block(work.size(), threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t) {
-        const auto [a, b, c] = mesh.corner_points(mesh.triangles[t].corners);
-        const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+        const auto [low, high] = mesh.extent_of(static_cast<std::uint32_t>(t), axis);
         spans_[t] = {0.5 * low + 0.5 * high, low, high, work[t]};
       }
     });
@@ -123,17 +122,11 @@ class WorkAlong {
   std::vector<Bin> bins_ = std::vector<Bin>(kBins + 1);  // behind an empty one
 };
 
-// Of a triangle along an axis.
-struct Extent {
-  double low, high;
-};
+using Extent = RefinementMesh::Extent;
 
 std::vector<Extent> extents_of_coarse(const RefinementMesh& mesh, std::size_t axis, int threads) {
   return collect_in_blocks<Extent>(mesh.triangles.size(), threads, [&](std::size_t t, std::vector<Extent>& found) {
-    if (!mesh.triangles[t].is_coarse()) return;
-    const auto [a, b, c] = mesh.corner_points(mesh.triangles[t].corners);
-    const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-    found.push_back({low, high});
+    if (mesh.triangles[t].is_coarse()) found.push_back(mesh.extent_of(static_cast<std::uint32_t>(t), axis));
   });
 }
 
@@ -165,7 +158,7 @@ std::vector<Slab> seams_between(const std::vector<Slab>& slabs, const Refinement
     Slab seam{slabs[k].axis, plane, plane};
     // What a coarse triangle is replaced by has to lie in the seam, too.
     for (const Extent& extent : coarse) {
-      if (!(extent.low <= plane && plane <= extent.high)) continue;
+      if (!extent.holds(plane)) continue;
       const double margin = kMargin * (extent.high - extent.low);
       seam.low = std::min(seam.low, extent.low - margin);
       seam.high = std::max(seam.high, extent.high + margin);
