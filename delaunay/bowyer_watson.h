@@ -103,7 +103,7 @@ class BowyerWatson : public Tetrahedralization {
 
   // Rooms for parts in slabs that do not meet, for so many insertions each; none when there would be too many
   // tetrahedra. No vertex may wait to be closed up.
-  std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions);
+  std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads = 1);
   // A part of `whole`, which must stay where it is and be left alone until it has joined its parts.
   BowyerWatson(BowyerWatson& whole, const PartRoom& room);
   // Whether there is room for an insertion, unless it is a very large one.

@@ -11,7 +11,7 @@ constexpr std::size_t kTetsPerInsertion = 7;
 
 }  // namespace
 
-std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions) {
+std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads) {
   // Free slots are dealt out; new ones are made for the rest.
   const std::size_t count = slabs.size();
   const std::size_t wanted = kTetsPerInsertion * insertions + kFewestLeft;
@@ -19,9 +19,9 @@ std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std:
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
   if (tets + count * created > kMostTets) return {};
-  points_.make_room(vertices + count * insertions);
-  incident_.make_room(vertices + count * insertions);
-  tets_.make_room(tets + count * created);
+  points_.make_room(vertices + count * insertions, threads);
+  incident_.make_room(vertices + count * insertions, threads);
+  tets_.make_room(tets + count * created, threads);
   std::vector<PartRoom> rooms(count);
   const auto first_free = [&](std::size_t k) {
     return free_.begin() + static_cast<std::ptrdiff_t>(k * free_.size() / count);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <iterator>
 #include <vector>
 
@@ -43,25 +44,47 @@ class Shares {
   std::size_t count_;
 };
 
-// Tasks of two steps: first(i) one after the other in order, second(i) after it, beside the steps of later tasks. When
-// a step throws, its task ends; the others go on, and the exception of the lowest number is thrown on after all.
-template <class First, class Second>
-void run_in_turn(std::size_t count, int threads, First&& first, Second&& second) {
-  std::atomic<std::size_t> turn{0};
-  struct Pass {  // the turn on, whatever happens
-    std::atomic<std::size_t>& turn;
-    ~Pass() {
-      ++turn;
-      turn.notify_all();
-    }
-  };
+// Tasks that take their turn at a step, in the order of their numbers.
+class Turns {
+ public:
+  // Waits for the turn of a task, does its step, and passes the turn on, whatever happens.
+  template <class Step>
+  void take(std::size_t task, const Step& step) {
+    for (std::size_t now = turn_; now != task; now = turn_) turn_.wait(now);
+    struct Pass {
+      std::atomic<std::size_t>& turn;
+      ~Pass() {
+        ++turn;
+        turn.notify_all();
+      }
+    } const pass{turn_};
+    step();
+  }
+
+ private:
+  std::atomic<std::size_t> turn_{0};
+};
+
+// Tasks of three steps, first(i), second(i) and last(i) one after the other: first steps in the order of the tasks, and
+// second steps, too, each beside any other steps of other tasks. When a step throws, its task ends; the others go on,
+// and the exception of the lowest number is thrown on after all.
+template <class First, class Second, class Last>
+void run_in_turn(std::size_t count, int threads, First&& first, Second&& second, Last&& last) {
+  Turns first_turns, second_turns;
   run_tasks(count, threads, [&](std::size_t i) {
-    for (std::size_t now = turn; now != i; now = turn) turn.wait(now);
-    {
-      const Pass pass{turn};
-      first(i);
-    }
-    second(i);
+    std::exception_ptr error;
+    first_turns.take(i, [&] {
+      try {
+        first(i);
+      } catch (...) {
+        error = std::current_exception();
+      }
+    });
+    second_turns.take(i, [&] {
+      if (error != nullptr) std::rethrow_exception(error);
+      second(i);
+    });
+    last(i);
   });
 }
 

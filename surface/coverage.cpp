@@ -105,11 +105,11 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
   return crossings;
 }
 
-std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
-                              const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects, int threads, std::vector<Vec3>* landmarks) {
+std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
+                                   const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
+                                   int threads, std::vector<Vec3>* landmarks) {
   // The facets as they are: how they make up a manifold does not matter here.
-  const SurfaceMesh mesh = facets_alone(restricted);
+  const SurfaceMesh mesh = facets_alone(restricted, threads);
   const auto position = [&](std::uint32_t crossing) {
     return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
   };
@@ -123,7 +123,7 @@ std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& 
   // only.
   const bool are_few = suspects.size() <= mesh.triangles.size() / kFewSuspects;
   if (landmarks == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
-  if (suspects.empty()) return 0;
+  if (suspects.empty()) return {};
   const MeshCover cover(mesh, threads);
   const std::vector<std::uint32_t> asked = std::move(suspects);
   std::vector<MeshCover::Cover> covers(asked.size());
@@ -136,12 +136,7 @@ std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& 
     if (covers[i] == MeshCover::Cover::kNone) suspects.push_back(asked[i]);
     if (landmarks != nullptr && covers[i] != MeshCover::Cover::kClose) landmarks->push_back(position(asked[i]));
   }
-  std::int64_t inserted = 0;
-  for (const std::uint32_t i : suspects) {
-    const TetId start = restricted.delaunay().incident_tet(restricted.last_vertex());
-    if (restricted.insert(position(i), start, min_distance) == RestrictedDelaunay::Outcome::kInserted) ++inserted;
-  }
-  return inserted;
+  return positions(suspects);
 }
 
 }  // namespace deliso

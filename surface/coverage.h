@@ -23,14 +23,13 @@ inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
 std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
                                               const std::function<bool(std::uint32_t)>& takes, int threads = 1);
 
-// Inserts grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover), unless a vertex is
-// nearer than `min_distance`. `suspects` are the crossings to ask about (places in topology.crossings); those that are
-// not covered stay in it. Returns how many went in; stage 1 has to go on then. `landmarks`, when asked for, gets those
-// that the mesh is not close to (MeshCover::look), covered or not. The same for any number of threads.
-std::int64_t insert_uncovered(RestrictedDelaunay& restricted, const ScalarGrid& grid,
-                              const IsosurfaceTopology& topology, double min_distance,
-                              std::vector<std::uint32_t>& suspects, int threads = 1,
-                              std::vector<Vec3>* landmarks = nullptr);
+// The grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover): for stage 1 to insert.
+// `suspects` are the crossings to ask about (places in topology.crossings); those that are not covered stay in it.
+// `landmarks`, when asked for, gets those that the mesh is not close to (MeshCover::look), covered or not. The same for
+// any number of threads.
+std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
+                                   const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
+                                   int threads = 1, std::vector<Vec3>* landmarks = nullptr);
 
 // All crossings, in an order that keeps neighbours together.
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads = 1);

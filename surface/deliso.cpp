@@ -126,8 +126,8 @@ std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosu
                    std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
 }
 
-// Recover; and, when the exact topology is known, again after fingers of the surface that hide within a Voronoi cell
-// have got samples. Returns landmarks for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
+// Recover; and, when the exact topology is known, with samples of fingers of the surface that hide within a Voronoi
+// cell. Returns landmarks for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
 // not close to.
 std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology* topology, const MeshingOptions& options, const Lengths& lengths,
@@ -140,12 +140,9 @@ std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& 
   std::vector<Vec3> landmarks;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
-    const std::int64_t inserted = insert_uncovered(restricted, grid, *topology, lengths.size_bound, suspects,
-                                                   options.threads, i == 0 && wants_landmarks ? &landmarks : nullptr);
-    stats.insertions += inserted;
-    stats.uncovered += inserted;
-    if (inserted == 0 || controls.poll()) break;
-    recover(restricted, stage1, controls, stats);
+    const std::vector<Vec3> points = uncovered_points(restricted, grid, *topology, suspects, options.threads,
+                                                      i == 0 && wants_landmarks ? &landmarks : nullptr);
+    if (recover_with(restricted, points, stage1, controls, stats) == 0 || controls.poll()) break;
   }
   landmarks.shrink_to_fit();
   return landmarks;

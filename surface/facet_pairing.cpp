@@ -18,24 +18,24 @@ constexpr std::size_t kFewestFacets = 2048;
 
 // From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
 // next restricted facet; both are seen from inside that sector.
-FacetId next_restricted_facet(const SignedDelaunay& restricted, FacetId f, VertexId third) {
-  const Tetrahedralization& delaunay = restricted.delaunay();
-  const bool is_above = restricted.is_above(f.tet());
+template <class IsAbove>
+FacetId next_restricted_facet(const Tetrahedralization& delaunay, const IsAbove& is_above, FacetId f, VertexId third) {
+  const bool here = is_above(f.tet());
   for (;;) {
     const FacetId g = facet_opposite(delaunay, f.tet(), third);
     const FacetId beyond = delaunay.mirror(g);
-    if (restricted.is_above(beyond.tet()) != is_above) return g;
+    if (is_above(beyond.tet()) != here) return g;
     third = delaunay.vertices(f.tet())[f.face()];
     f = beyond;
   }
 }
 
-}  // namespace
-
-PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, VertexId third) {
+template <class IsAbove>
+PairingAcross paired(const SignedDelaunay& restricted, const IsAbove& is_above, FacetId facet, VertexId third) {
   const Tetrahedralization& delaunay = restricted.delaunay();
-  const FacetId around_above = next_restricted_facet(restricted, facet, third);
-  const FacetId around_below = delaunay.mirror(next_restricted_facet(restricted, delaunay.mirror(facet), third));
+  const FacetId around_above = next_restricted_facet(delaunay, is_above, facet, third);
+  const FacetId around_below =
+      delaunay.mirror(next_restricted_facet(delaunay, is_above, delaunay.mirror(facet), third));
   if (around_above == around_below) return {around_above, false};
   // The other two vertices are the ends of the edge.
   Vec3 sum;
@@ -45,9 +45,15 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
   return {restricted.isosurface().is_above(0.5 * sum) ? around_below : around_above, true};
 }
 
-FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
-    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(delaunay_.tet_slots(), 0) {
-  restricted_.for_each_change(signs_, [](TetId) {});
+}  // namespace
+
+PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, VertexId third) {
+  return paired(
+      restricted, [&](TetId t) { return restricted.is_above(t); }, facet, third);
+}
+
+FacetPairing::FacetPairing(const SignedDelaunay& restricted, TetSigns signs, int threads)
+    : restricted_(restricted), delaunay_(restricted.delaunay()), signs_(std::move(signs)) {
   facets_ = collect_in_blocks<PairedFacet>(
       delaunay_.tet_slots(), threads,
       [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
@@ -56,7 +62,7 @@ FacetPairing::FacetPairing(const SignedDelaunay& restricted, int threads)
   if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides(threads);
   is_split_.resize(delaunay_.vertex_count());
-  find_split_vertices(std::vector<bool>(delaunay_.vertex_count(), true));
+  find_split_vertices(std::vector<bool>(delaunay_.vertex_count(), true), threads);
 }
 
 PairedTriangles FacetPairing::triangles() const {
@@ -105,8 +111,11 @@ void FacetPairing::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-bool FacetPairing::update() {
-  restricted_.for_each_change(signs_, [&](TetId t) { touch(t); });
+bool FacetPairing::update(const TetSigns& signs) {
+  for_each_difference(signs_, signs, [&](TetId t) {
+    signs_[t.index()] = signs[t.index()];
+    touch(t);
+  });
   if (touched_.empty()) return false;
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -118,7 +127,7 @@ bool FacetPairing::update() {
   forget_sides_between(has_changed);
   constexpr int kThread = 1;  // few sides are left
   pair_sides(kThread);
-  find_split_vertices(has_changed);
+  find_split_vertices(has_changed, kThread);
   return true;
 }
 
@@ -131,32 +140,42 @@ void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
   }
 }
 
-// Of those around which something has changed: walks around a vertex from one of its corners, one way and, if the fan
-// is open, the other; a corner left out belongs to another fan. Corner 3 t + i is that of facet t at its vertex i.
-void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed) {
-  std::vector<bool> has_fan(has_changed.size(), false);
-  std::vector<bool> is_in_fan(3 * facets_.size(), false);
-  for (std::size_t v = 0; v < has_changed.size(); ++v) is_split_[v] = is_split_[v] && !has_changed[v];
-  for (std::uint32_t corner = 0; corner < is_in_fan.size(); ++corner) {
-    const std::size_t v = facets_[corner / 3].vertices[corner % 3].index();
-    if (!has_changed[v] || is_split_[v] || is_in_fan[corner]) continue;
-    if (has_fan[v]) is_split_[v] = true;
-    has_fan[v] = true;
+// Of those around which something has changed: a walk around a vertex from its first corner, one way and, if the fan is
+// open, the other. A vertex with more corners than the walk meets has another fan. Corner 3 t + i is that of facet t at
+// its vertex i.
+void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed, int threads) {
+  struct Corners {
+    std::uint32_t first = 0, count = 0;
+  };
+  std::vector<Corners> corners(has_changed.size());
+  for (auto corner = static_cast<std::uint32_t>(3 * facets_.size()); corner-- > 0;) {
+    Corners& at = corners[facets_[corner / 3].vertices[corner % 3].index()];
+    at = {corner, at.count + 1};
+  }
+  const auto is_one_fan = [&](const Corners& at) {
+    std::uint32_t met = 0;
     for_each_corner_of_fan(
-        corner, [&](TriangleSide side) { return facets_[side >> 2].across[side & 3u]; },
-        [&](std::uint32_t c) {
-          const bool is_news = !is_in_fan[c];
-          is_in_fan[c] = true;
+        at.first, [&](TriangleSide side) { return facets_[side >> 2].across[side & 3u]; },
+        [&](std::uint32_t corner) {
+          const bool is_news = met < at.count && (met == 0 || corner != at.first);
+          met += is_news ? 1 : 0;
           return is_news;
         });
-  }
+    return met == at.count;
+  };
+  static_assert(kBlockSize % 64 == 0, "no two blocks share a word of bits");
+  for_each_block(corners.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (has_changed[v]) is_split_[v] = corners[v].count > 0 && !is_one_fan(corners[v]);
+    }
+  });
 }
 
 void FacetPairing::append_facets_of(TetId t, std::vector<PairedFacet>& facets) const {
-  if (!delaunay_.is_live(t) || !restricted_.is_above(t)) return;
+  if (!delaunay_.is_live(t) || !is_above(t)) return;
   for (unsigned face = 0; face < 4; ++face) {
     const FacetId f(t, face);
-    if (!restricted_.is_restricted(f)) continue;
+    if (is_above(delaunay_.neighbour(t, face))) continue;
     const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
     if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) continue;
     facets.push_back({f, v, {}, {}, {}});
@@ -171,7 +190,8 @@ void FacetPairing::find_places() {
 
 // The facets of some tetrahedra (ascending) anew, the others as they are.
 void FacetPairing::renew_facets(std::span<const TetId> tets) {
-  std::vector<PairedFacet> facets;
+  std::vector<PairedFacet> facets = std::move(spare_);
+  facets.clear();
   facets.reserve(facets_.size() + tets.size());
   std::vector<std::uint32_t> place(facets_.size(), kNoPlace);  // of each old facet that stays: its new place
   std::uint32_t old = 0;
@@ -196,7 +216,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
       across = there == kNoPlace ? kNoSide : 4 * there + (across & 3u);
     }
   }
-  facets_ = std::move(facets);
+  spare_ = std::exchange(facets_, std::move(facets));
   find_places();
 }
 
@@ -223,7 +243,8 @@ void FacetPairing::pair_uncontested_sides(int threads) {
     }
   };
   for_each_unknown_side(shares, threads, [&](PairedFacet& facet, unsigned side, const Share& share) {
-    const FacetId partner = next_restricted_facet(restricted_, facet.facet, facet.vertices[side]);
+    const FacetId partner = next_restricted_facet(
+        delaunay_, [this](TetId t) { return is_above(t); }, facet.facet, facet.vertices[side]);
     const std::uint32_t place = join(facet, side, {partner, false}, share);
     if (number_of(facet) < place) count_way(ways_around(facet, side));
   });
@@ -237,7 +258,8 @@ void FacetPairing::pair_uncontested_sides(int threads) {
 void FacetPairing::pair_sides(int threads) {
   const Shares shares(facets_.size(), threads, kFewestFacets);
   for_each_unknown_side(shares, threads, [&](PairedFacet& facet, unsigned side, const Share& share) {
-    join(facet, side, paired_across(restricted_, facet.facet, facet.vertices[side]), share);
+    const auto above = [this](TetId t) { return is_above(t); };
+    join(facet, side, paired(restricted_, above, facet.facet, facet.vertices[side]), share);
   });
 }
 

@@ -51,12 +51,16 @@ PairingAcross paired_across(const SignedDelaunay& restricted, FacetId facet, Ver
 
 class FacetPairing {
  public:
-  // Keeps a reference. The same for any number of threads.
-  explicit FacetPairing(const SignedDelaunay& restricted, int threads = 1);
+  // Keeps a reference to the triangulation, and signs of its own: those of the triangulation may change beside it. The
+  // same for any number of threads.
+  explicit FacetPairing(const SignedDelaunay& restricted, int threads = 1)
+      : FacetPairing(restricted, restricted.signs(), threads) {}
+  FacetPairing(const SignedDelaunay& restricted, TetSigns signs, int threads);
 
   // Takes account of signs that have changed since the last time: only the facets at the vertices of their tetrahedra
   // are paired anew. Returns whether any have.
-  bool update();
+  bool update() { return update(restricted_.signs()); }
+  bool update(const TetSigns& signs);
   // Takes account of an exchange of points; update() is to follow.
   void renew(const ExchangedPoints& exchanged);
 
@@ -72,12 +76,13 @@ class FacetPairing {
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 
  private:
+  [[nodiscard]] bool is_above(TetId t) const { return signs_[t.index()] != 0; }
   void touch(TetId t);
   void append_facets_of(TetId t, std::vector<PairedFacet>& facets) const;
   void find_places();
   void renew_facets(std::span<const TetId> tets);
   void forget_sides_between(const std::vector<bool>& has_changed);
-  void find_split_vertices(const std::vector<bool>& has_changed);
+  void find_split_vertices(const std::vector<bool>& has_changed, int threads);
   void pair_uncontested_sides(int threads);
   void pair_sides(int threads);
   // The facets that one thread pairs.
@@ -94,12 +99,13 @@ class FacetPairing {
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
-  TetSigns signs_;  // by slot, as of the last update
+  TetSigns signs_;  // as of the last update
   // What update() has to look at, from renew(): tetrahedra that are new, gone, or next to such ones; and the vertices
   // of the new ones.
   std::vector<TetId> touched_;
   std::vector<VertexId> touched_vertices_;
   std::vector<PairedFacet> facets_;
+  std::vector<PairedFacet> spare_;      // whose memory serves the next update
   std::vector<bool> is_split_;          // of each vertex: its facets form more than one fan
   LargeArray<std::uint32_t> first_of_;  // of each tetrahedron: the place of its first facet, or kNoPlace
 };

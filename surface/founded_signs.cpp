@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "delaunay/base/box3.h"
 #include "delaunay/predicates.h"
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -50,8 +52,8 @@ bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId 
 
 }  // namespace
 
-UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid)
-    : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid) {}
+UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads)
+    : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid), threads_(threads) {}
 
 void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
   if (signs_.empty()) return;
@@ -60,13 +62,7 @@ void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
 }
 
 void UnfoundedPockets::update() {
-  state_.assign(delaunay_.tet_slots(), State::kUnseen);
-  if (signs_.empty()) {
-    signs_.assign(delaunay_.tet_slots(), 0);
-    restricted_.for_each_change(signs_, [](TetId) {});
-    for (std::size_t i = 0; i < signs_.size(); ++i) look_at(TetId(i));
-    return;
-  }
+  if (signs_.empty()) return look_everywhere();
   std::vector<bool> touched(signs_.size(), false);
   std::vector<TetId> seeds;
   const auto seed_at = [&](TetId t) {
@@ -81,24 +77,46 @@ void UnfoundedPockets::update() {
   renewed_.clear();
   restricted_.for_each_change(signs_, seed_at);
   for (const TetId t : seeds) touched[t.index()] = true;
-  std::erase_if(pockets_, [&](const std::vector<TetId>& pocket) {
+  std::erase_if(pockets_, [&](const Pocket& pocket) {
     return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });
   });
-  for (const TetId t : seeds) look_at(t);
+  Look look(signs_.size());
+  for (const TetId t : seeds) {
+    if (floods_pocket(t, look) && is_unfounded(look.flood)) pockets_.push_back(look.flood);
+  }
 }
 
-// Floods the face-connected set of tetrahedra of one sign around a seed, until it turns out to be left alone.
-void UnfoundedPockets::look_at(TetId seed) {
-  if (state_[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return;
-  std::vector<TetId>& flood = flood_;
+// Every share of the slots is looked at apart from the others, also beyond its ends; a pocket belongs to the one that
+// holds its first slot, from which that one floods it.
+void UnfoundedPockets::look_everywhere() {
+  signs_.assign(delaunay_.tet_slots(), 0);
+  restricted_.for_each_change(signs_, [](TetId) {});
+  const Shares shares(signs_.size(), threads_);
+  std::vector<std::vector<Pocket>> found(shares.count());
+  shares.for_each(threads_, [&](std::size_t share, std::size_t first, std::size_t last) {
+    Look look(signs_.size());
+    for (std::size_t i = first; i < last; ++i) {
+      if (!floods_pocket(TetId(i), look)) continue;
+      const bool is_own = *std::min_element(look.flood.begin(), look.flood.end()) == TetId(i);
+      if (is_own && is_unfounded(look.flood)) found[share].push_back(look.flood);
+    }
+  });
+  for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets_));
+}
+
+// Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to be
+// left alone.
+bool UnfoundedPockets::floods_pocket(TetId seed, Look& look) const {
+  if (look.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
+  Pocket& flood = look.flood;
   flood.assign(1, seed);
-  state_[seed.index()] = State::kPocket;
+  look.state[seed.index()] = State::kPocket;
   bool is_pocket = true;
   for (std::size_t at = 0; at < flood.size() && is_pocket; ++at) {
     is_pocket = !delaunay_.is_ghost(flood[at]);
     for (unsigned face = 0; face < 4 && is_pocket; ++face) {
       const TetId next = delaunay_.neighbour(flood[at], face);
-      State& state = state_[next.index()];
+      State& state = look.state[next.index()];
       if (restricted_.is_above(next) != restricted_.is_above(seed) || state == State::kPocket) continue;
       is_pocket = state == State::kUnseen && flood.size() < kLargestPocket;
       if (!is_pocket) break;
@@ -107,10 +125,13 @@ void UnfoundedPockets::look_at(TetId seed) {
     }
   }
   if (!is_pocket) {
-    for (const TetId t : flood) state_[t.index()] = State::kLeftAlone;
-  } else if (std::none_of(flood.begin(), flood.end(), [&](TetId t) { return is_founded(restricted_, grid_, t); })) {
-    pockets_.push_back(flood);
+    for (const TetId t : flood) look.state[t.index()] = State::kLeftAlone;
   }
+  return is_pocket;
+}
+
+bool UnfoundedPockets::is_unfounded(const Pocket& pocket) const {
+  return std::none_of(pocket.begin(), pocket.end(), [&](TetId t) { return is_founded(restricted_, grid_, t); });
 }
 
 std::int64_t UnfoundedPockets::overturn(SignedDelaunay& restricted) {

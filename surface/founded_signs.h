@@ -15,8 +15,8 @@ namespace deliso {
 // alone.
 class UnfoundedPockets {
  public:
-  // Keeps references.
-  UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid);
+  // Keeps references. The same for any number of threads.
+  UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads = 1);
 
   // Finds the sets for the signs as they stand; looks only around those that have changed since the last update.
   void update();
@@ -28,17 +28,25 @@ class UnfoundedPockets {
   [[nodiscard]] const std::vector<std::vector<TetId>>& pockets() const { return pockets_; }
 
  private:
+  using Pocket = std::vector<TetId>;
   enum class State : std::uint8_t { kUnseen, kPocket, kLeftAlone };
-  void look_at(TetId seed);
+  // What one look has seen so far, and what it is flooding.
+  struct Look {
+    explicit Look(std::size_t slots) : state(slots, State::kUnseen) {}
+    std::vector<State> state;  // by slot
+    Pocket flood;
+  };
+  void look_everywhere();
+  bool floods_pocket(TetId seed, Look& look) const;
+  [[nodiscard]] bool is_unfounded(const Pocket& pocket) const;
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
+  int threads_;
   std::vector<std::uint8_t> signs_;  // by slot, as of the last update
   std::vector<TetId> renewed_;       // since the last update
-  std::vector<State> state_;
-  std::vector<TetId> flood_;
-  std::vector<std::vector<TetId>> pockets_;
+  std::vector<Pocket> pockets_;
 };
 
 }  // namespace deliso

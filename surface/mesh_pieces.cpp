@@ -5,6 +5,13 @@
 
 namespace deliso {
 
+namespace {
+
+// Vertices of fewer triangles than one for so many vertices of the mesh are sorted, not marked.
+constexpr std::size_t kFewTriangles = 64;
+
+}  // namespace
+
 std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked) {
   std::vector<std::uint32_t> piece = {seed};
   is_marked[seed] = true;
@@ -20,6 +27,16 @@ std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, st
 
 std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {
   std::vector<std::uint32_t> vertices;
+  if (triangles.size() > mesh.points.size() / kFewTriangles) {
+    std::vector<bool> is_met(mesh.points.size(), false);
+    for (const std::uint32_t t : triangles) {
+      for (const std::uint32_t v : mesh.triangles[t]) is_met[v] = true;
+    }
+    for (std::uint32_t v = 0; v < is_met.size(); ++v) {
+      if (is_met[v]) vertices.push_back(v);
+    }
+    return vertices;
+  }
   vertices.reserve(3 * triangles.size());
   for (const std::uint32_t t : triangles) {
     vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());

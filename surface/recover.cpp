@@ -32,8 +32,21 @@ void Recovery::treat(const Violation& violation) {
   if (!candidate || !insert(violation, *candidate)) return;
 
   inherit_pole_height();
-  for (const DualEdgeId e : restricted_.touched_edges()) queue_edge(e);
-  for (const VertexId q : restricted_.touched_vertices()) queue_umbrella(q);
+  queue_touched();
+}
+
+std::int64_t Recovery::insert_points(std::span<const Vec3> points, Controls& controls) {
+  std::int64_t inserted = 0;
+  for (const Vec3& p : points) {
+    if (controls.must_stop("recover", delaunay_.vertex_count(), queue_.size())) break;
+    const TetId start = delaunay_.incident_tet(restricted_.last_vertex());
+    if (restricted_.insert(p, start, options_.size_bound) != RestrictedDelaunay::Outcome::kInserted) continue;
+    ++inserted;
+    queue_touched();
+  }
+  stats_.insertions += inserted;
+  stats_.uncovered += inserted;
+  return inserted;
 }
 
 void Recovery::queue_everything() {
@@ -57,6 +70,12 @@ void Recovery::queue_edge(DualEdgeId e) {
     queue_.push({ViolationKind::kApproximateGeometry, e.value, edge.generation}, badness, edge.radius,
                 edge.dual.origin);
   }
+}
+
+// What the last insertion has changed.
+void Recovery::queue_touched() {
+  for (const DualEdgeId e : restricted_.touched_edges()) queue_edge(e);
+  for (const VertexId q : restricted_.touched_vertices()) queue_umbrella(q);
 }
 
 void Recovery::queue_umbrella(VertexId q) {
@@ -125,6 +144,15 @@ void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Cont
   recovery.queue_everything();
   if (pole_heights == nullptr) recovery.run_in_slabs(controls);
   recovery.run(controls);
+}
+
+std::int64_t recover_with(RestrictedDelaunay& restricted, std::span<const Vec3> points, const RecoverOptions& options,
+                          Controls& controls, RecoverStats& stats) {
+  Recovery recovery(restricted, options, stats);
+  const std::int64_t inserted = recovery.insert_points(points, controls);
+  recovery.run_in_slabs(controls);
+  recovery.run(controls);
+  return inserted;
 }
 
 }  // namespace deliso

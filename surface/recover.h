@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "surface/controls.h"
@@ -67,5 +68,11 @@ struct RecoverStats : StageStats {
 // each vertex, is needed for a finite epsilon2; new vertices inherit from their neighbours (new_pole).
 void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
              std::vector<double>* pole_heights = nullptr);
+
+// Inserts points of the surface, as far as the size bound lets it, and runs until no violation is left that they have
+// caused: for a triangulation that recover() has left without others, with the same options. Returns how many of the
+// points went in; they count as `uncovered`.
+std::int64_t recover_with(RestrictedDelaunay& restricted, std::span<const Vec3> points, const RecoverOptions& options,
+                          Controls& controls, RecoverStats& stats);
 
 }  // namespace deliso

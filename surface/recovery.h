@@ -40,6 +40,8 @@ class Recovery {
 
   // Looks for violations everywhere.
   void queue_everything();
+  // Inserts points, and looks for the violations that this causes. Returns how many went in.
+  std::int64_t insert_points(std::span<const Vec3> points, Controls& controls);
   // Until no violation is left that can be mended here, or there are `enough` vertices, or no room for another one.
   void run(Controls& controls, std::size_t enough = std::numeric_limits<std::size_t>::max());
   // The same on several threads, round after round, each in slabs of the volume that are refined apart from each other
@@ -50,6 +52,7 @@ class Recovery {
   void treat(const Violation& violation);
   void queue_edge(DualEdgeId e);
   void queue_umbrella(VertexId q);
+  void queue_touched();
   bool insert(const Violation& violation, const RefinementPoint& candidate);
   void inherit_pole_height();
 

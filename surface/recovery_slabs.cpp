@@ -55,7 +55,7 @@ std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
   // Step 1: plan.
   const std::vector<Violation> waiting = take_waiting();
   const std::vector<Slab> slabs = slabs_of(waiting, axis);
-  const auto parts = restricted_.parts(slabs, most_insertions(waiting));
+  const auto parts = restricted_.parts(slabs, most_insertions(waiting), options_.threads);
   if (parts.empty()) {
     for (const Violation& violation : waiting) queue_.put_back(violation);
     return 0;

@@ -34,7 +34,7 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
       threads_(threads),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
-      unfounded_(*restricted_, grid),
+      unfounded_(*restricted_, grid, threads),
       poles_(*restricted_) {
   find_components(0);
 }
@@ -112,10 +112,10 @@ void RepairRound::overturn(std::span<const TetId> tets) {
 }
 
 // None when they would be the same as the last time in this round.
-std::optional<PairedTriangles> RepairRound::take_triangles() {
+std::optional<PairedTriangles> RepairRound::take_triangles(const TetSigns& signs) {
   if (!pairing_) {
-    pairing_.emplace(*restricted_, threads_);
-  } else if (!pairing_->update() && has_assembled_) {
+    pairing_.emplace(*restricted_, signs, threads_);
+  } else if (!pairing_->update(signs) && has_assembled_) {
     return std::nullopt;
   }
   has_assembled_ = true;
@@ -123,7 +123,7 @@ std::optional<PairedTriangles> RepairRound::take_triangles() {
 }
 
 std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
-  std::optional<PairedTriangles> triangles = take_triangles();
+  std::optional<PairedTriangles> triangles = take_triangles(restricted_->signs());
   if (!triangles) return std::nullopt;
   return finished(*std::move(triangles), is_of_use, threads_);
 }
@@ -140,7 +140,9 @@ std::vector<RepairRound::Attempt> RepairRound::attempts(std::span<const SignRule
         if (has_last) return;
         take_signs(rules[i]);
         attempts[i].signs = restricted_->signs();
-        triangles[i] = take_triangles();
+      },
+      [&](std::size_t i) {
+        if (!attempts[i].signs.empty()) triangles[i] = take_triangles(attempts[i].signs);
       },
       [&](std::size_t i) {
         if (!triangles[i]) return;

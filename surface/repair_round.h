@@ -90,7 +90,7 @@ class RepairRound {
 
   void find_components(std::size_t first);
   void keep_signs(const ExchangedPoints& exchanged);
-  std::optional<PairedTriangles> take_triangles();
+  std::optional<PairedTriangles> take_triangles(const TetSigns& signs);
   std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
   [[nodiscard]] std::vector<std::uint32_t> crossings_at_strays(const MatchedMesh& mesh) const;

@@ -61,7 +61,8 @@ class RestrictedDelaunay : public SignedDelaunay {
 
   // Parts for several threads, one in each of some slabs that do not meet, with room for so many insertions each (see
   // BowyerWatson); no parts when that is 0 or cannot be. To be left alone until they have joined.
-  std::vector<std::unique_ptr<RestrictedDelaunay>> parts(std::span<const Slab> slabs, std::size_t insertions);
+  std::vector<std::unique_ptr<RestrictedDelaunay>> parts(std::span<const Slab> slabs, std::size_t insertions,
+                                                         int threads = 1);
   // Whether there is room for an insertion, unless it is a very large one in a part.
   [[nodiscard]] bool has_room() const {
     return !is_part_ || (delaunay_.has_room() && edges_left() >= kFewestEdgesLeft);
@@ -100,7 +101,7 @@ class RestrictedDelaunay : public SignedDelaunay {
     std::vector<DualEdgeId> free;
   };
   RestrictedDelaunay(RestrictedDelaunay& whole, const PartRoom& room, const EdgeRoom& edges);
-  void make_room(const PartRoom& last, std::size_t edges);
+  void make_room(const PartRoom& last, std::size_t edges, int threads);
   void forget_facets_gone();
   void rename(std::span<const VertexId> renamed);
   [[nodiscard]] std::size_t edges_left() const { return free_edges_.size() + dual_edges_.room_left(); }

@@ -13,16 +13,16 @@ constexpr std::size_t kEdgesPerInsertion = 4;
 }  // namespace
 
 std::vector<std::unique_ptr<RestrictedDelaunay>> RestrictedDelaunay::parts(std::span<const Slab> slabs,
-                                                                           std::size_t insertions) {
+                                                                           std::size_t insertions, int threads) {
   std::vector<std::unique_ptr<RestrictedDelaunay>> parts;
   if (guards_ > 0 || insertions == 0) return parts;
-  const std::vector<PartRoom> rooms = delaunay_.make_rooms(slabs, insertions);
+  const std::vector<PartRoom> rooms = delaunay_.make_rooms(slabs, insertions, threads);
   if (rooms.empty()) return parts;
   const std::size_t count = slabs.size(), edges = dual_edges_.size();
   const std::size_t wanted = kEdgesPerInsertion * insertions + kFewestEdgesLeft;
   const std::size_t least_free = free_edges_.size() / count;
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
-  make_room(rooms.back(), edges + count * created);
+  make_room(rooms.back(), edges + count * created, threads);
   forget_facets_gone();
   const auto first_free = [&](std::size_t k) {
     return free_edges_.begin() + static_cast<std::ptrdiff_t>(k * free_edges_.size() / count);
@@ -47,12 +47,12 @@ void RestrictedDelaunay::forget_facets_gone() {
   }
 }
 
-void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges) {
-  sign_.make_room(last.tets.last);
-  tets_.make_room(last.tets.last);
-  touches_.make_room(last.vertices.last);
-  umbrellas_.make_room(last.vertices.last);
-  dual_edges_.make_room(edges);
+void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges, int threads) {
+  sign_.make_room(last.tets.last, threads);
+  tets_.make_room(last.tets.last, threads);
+  touches_.make_room(last.vertices.last, threads);
+  umbrellas_.make_room(last.vertices.last, threads);
+  dual_edges_.make_room(edges, threads);
 }
 
 RestrictedDelaunay::RestrictedDelaunay(RestrictedDelaunay& whole, const PartRoom& room, const EdgeRoom& edges)

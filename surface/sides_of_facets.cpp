@@ -1,7 +1,10 @@
 #include "surface/sides_of_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+
+#include "surface/blocks.h"
 
 namespace deliso {
 
@@ -55,27 +58,31 @@ std::optional<TetSigns> sides_of_facets(const SignedDelaunay& restricted) {
   return above;
 }
 
-SurfaceMesh facets_alone(const SignedDelaunay& restricted) {
+SurfaceMesh facets_alone(const SignedDelaunay& restricted, int threads) {
   const Tetrahedralization& delaunay = restricted.delaunay();
+  using Triangle = std::array<std::uint32_t, 3>;
   SurfaceMesh mesh;
+  mesh.triangles = collect_in_blocks<Triangle>(
+      delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<Triangle>& triangles) {
+        if (!delaunay.is_live(TetId(i))) return;
+        for (unsigned face = 0; face < 4; ++face) {
+          const FacetId f(TetId(i), face);
+          if (!restricted.falls_through(f)) continue;
+          const std::array<VertexId, 3> v = delaunay.facet_vertices(f);
+          if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); })) continue;
+          triangles.push_back({v[0].value, v[1].value, v[2].value});
+        }
+      });
   std::vector<bool> is_used(delaunay.vertex_count(), false);
-  for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-    if (!delaunay.is_live(TetId(i))) continue;
-    for (unsigned face = 0; face < 4; ++face) {
-      const FacetId f(TetId(i), face);
-      if (!restricted.falls_through(f)) continue;
-      const std::array<VertexId, 3> v = delaunay.facet_vertices(f);
-      if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); })) continue;
-      mesh.triangles.push_back({v[0].value, v[1].value, v[2].value});
-      for (const VertexId q : v) is_used[q.index()] = true;
-    }
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t q : triangle) is_used[q] = true;
   }
   std::vector<std::uint32_t> name(is_used.size());
   for (std::size_t q = 0; q < is_used.size(); ++q) {
     name[q] = static_cast<std::uint32_t>(mesh.points.size());
     if (is_used[q]) mesh.points.push_back(delaunay.point(VertexId(q)));
   }
-  for (auto& triangle : mesh.triangles) {
+  for (Triangle& triangle : mesh.triangles) {
     for (std::uint32_t& q : triangle) q = name[q];
   }
   return mesh;

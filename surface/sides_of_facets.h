@@ -17,6 +17,6 @@ std::optional<TetSigns> sides_of_facets(const SignedDelaunay& restricted);
 
 // The facets that the surface falls through, counterclockwise seen from below, as they are: no manifold in general.
 // Only points and triangles of the mesh are filled; vertices without triangles are left out.
-SurfaceMesh facets_alone(const SignedDelaunay& restricted);
+SurfaceMesh facets_alone(const SignedDelaunay& restricted, int threads = 1);
 
 }  // namespace deliso

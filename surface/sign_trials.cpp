@@ -42,6 +42,14 @@ bool has_neighbour_of_other_sign(const SignedDelaunay& restricted, std::span<con
   });
 }
 
+bool touches_box(const SignedDelaunay& restricted, std::span<const TetId> tets) {
+  return std::any_of(tets.begin(), tets.end(), [&](TetId t) {
+    const auto& vertices = restricted.delaunay().vertices(t);
+    return std::any_of(vertices.begin(), vertices.end(),
+                       [&](VertexId v) { return !restricted.is_virtual(v) && restricted.is_on_box(v); });
+  });
+}
+
 bool is_nearer(const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; }
 
 // How much is missing or too much in all.
@@ -147,6 +155,9 @@ bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most,
     if (!has_neighbour_of_other_sign(round_.restricted(), cluster.tets)) continue;
     const std::int64_t change = round_.change_of_characteristic(cluster.tets);
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;
+    // Too much is no better than too little, unless loops of the boundary come right.
+    const bool comes_nearer = std::abs(lacks.euler_characteristic - change) < std::abs(lacks.euler_characteristic);
+    if (!comes_nearer && !touches_box(round_.restricted(), cluster.tets)) continue;
     ++trials;
     round_.overturn(cluster.tets);
     const auto is_better = [&](const MatchedMesh& trial) {

@@ -23,6 +23,19 @@ namespace deliso {
 // The signs of tetrahedra by slot: 1 for above, 0 for below.
 using TetSigns = std::vector<std::uint8_t>;
 
+// Calls visit(t) for every slot t, ascending, whose sign is not the same in two arrays of bytes.
+template <class Signs, class Visit>
+void for_each_difference(const TetSigns& known, const Signs& signs, Visit visit) {
+  constexpr std::size_t kAtOnce = 64;
+  for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
+    const std::size_t last = std::min(known.size(), first + kAtOnce);
+    if (std::memcmp(&known[first], &signs[first], last - first) == 0) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      if (known[i] != static_cast<std::uint8_t>(signs[i])) visit(TetId(i));
+    }
+  }
+}
+
 // What an exchange of points has changed.
 struct ExchangedPoints {
   std::vector<VertexId> renamed;    // of each vertex before: what it is called now, or none if it went
@@ -85,7 +98,9 @@ class SignedDelaunay {
   }
   // Calls visit(t) for every slot t, ascending, whose sign is not that in `known`.
   template <class Visit>
-  void for_each_difference(const TetSigns& known, Visit visit) const;
+  void for_each_difference(const TetSigns& known, Visit visit) const {
+    deliso::for_each_difference(known, sign_, visit);
+  }
   // The same, and takes the sign over first.
   template <class Visit>
   void for_each_change(TetSigns& known, Visit visit) const {
@@ -120,17 +135,5 @@ class SignedDelaunay {
   std::uint32_t first_guard_ = 0;
   std::uint32_t guards_ = 0;
 };
-
-template <class Visit>
-void SignedDelaunay::for_each_difference(const TetSigns& known, Visit visit) const {
-  constexpr std::size_t kAtOnce = 64;
-  for (std::size_t first = 0; first < known.size(); first += kAtOnce) {
-    const std::size_t last = std::min(known.size(), first + kAtOnce);
-    if (std::memcmp(&known[first], &sign_[first], last - first) == 0) continue;
-    for (std::size_t i = first; i < last; ++i) {
-      if (known[i] != static_cast<std::uint8_t>(sign_[i])) visit(TetId(i));
-    }
-  }
-}
 
 }  // namespace deliso

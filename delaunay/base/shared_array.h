@@ -11,6 +11,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/huge_pages.h"
+#include "delaunay/base/parallel.h"
 
 namespace deliso {
 
@@ -69,11 +70,15 @@ class SharedArray {
     size_ = count;
   }
   void clear() { resize(0); }
-  void reserve(std::size_t count) {
+  // Several threads share the copying, most of which is waiting for fresh pages.
+  void reserve(std::size_t count, int threads = 1) {
     if (count <= room_) return;
     DELISO_CHECK(!is_view_, "a view stays within its range");
     T* const larger = HugePageAllocator<T>().allocate(count);
-    std::uninitialized_move(data_, data_ + size_, larger);
+    run_tasks((size_ + kMovedAtOnce - 1) / kMovedAtOnce, threads, [&](std::size_t i) {
+      const std::size_t first = i * kMovedAtOnce, last = std::min(size_, first + kMovedAtOnce);
+      std::uninitialized_move(data_ + first, data_ + last, larger + first);
+    });
     const std::size_t size = size_;
     drop();
     data_ = larger;
@@ -81,8 +86,8 @@ class SharedArray {
     room_ = count;
   }
   // The same, but when it grows it grows by half or more, so that it does not matter how often this is called.
-  void make_room(std::size_t count) {
-    if (count > room_) reserve(std::max(count, room_ + room_ / 2));
+  void make_room(std::size_t count, int threads = 1) {
+    if (count > room_) reserve(std::max(count, room_ + room_ / 2), threads);
   }
   void swap(SharedArray& other) noexcept {
     std::swap(data_, other.data_);
@@ -105,6 +110,7 @@ class SharedArray {
 
  private:
   static constexpr std::size_t kFewest = 16;
+  static constexpr std::size_t kMovedAtOnce = (std::size_t{1} << 21) / sizeof(T);
 
   void drop() {
     if (data_ == nullptr) return;

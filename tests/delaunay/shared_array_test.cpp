@@ -59,16 +59,16 @@ TEST(SharedArray, GrowsToAtLeastHalfAsMuchAgainWhereRoomIsMade) {
   EXPECT_GE(array.room_left(), 200u);
 }
 
-// From a few bytes to many huge pages.
+// From a few bytes to many huge pages, copied by several threads.
 TEST(SharedArray, KeepsWhatItHoldsHoweverLargeItGrows) {
   constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
   SharedArray<std::uint64_t> array;
   for (const std::size_t size : {10u, 300'000u, 300'001u, 700'000u, 3'000'000u}) {
-    array.reserve(size);
+    array.reserve(size, 3);
     while (array.size() < size) array.push_back(array.size() * kStep);
     for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(array[i], i * kStep) << size;
   }
-  array.make_room(5'000'000);
+  array.make_room(5'000'000, 2);
   array.resize(4'000'000);
   for (std::size_t i = 0; i < array.size(); ++i) ASSERT_EQ(array[i], i < 3'000'000 ? i * kStep : 0) << i;
 }

@@ -146,6 +146,30 @@ TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
   EXPECT_GT(found, 50u);
 }
 
+// Shares of the slots are looked at apart; pockets reach across their ends, for slots are filled in no order of place.
+TEST(UnfoundedPockets, AreTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({23, 22, 22}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    ASSERT_GT(restricted.delaunay().tet_slots(), 5 * kBlockSize);  // a share for each thread
+    Rng rng(seed);
+    turn_some(restricted, 3000, rng);
+    UnfoundedPockets one(restricted, scene->grid, 1);
+    one.update();
+    std::size_t across = 0;
+    for (const std::vector<TetId>& pocket : one.pockets()) {
+      const auto [low, high] = std::minmax_element(pocket.begin(), pocket.end());
+      across += low->index() / kBlockSize != high->index() / kBlockSize ? 1 : 0;
+    }
+    EXPECT_GT(across, 10u) << "seed " << seed;
+    for (const int threads : {2, 3, 5}) {
+      UnfoundedPockets several(restricted, scene->grid, threads);
+      several.update();
+      EXPECT_EQ(several.pockets(), one.pockets()) << "seed " << seed << ", " << threads << " threads";
+    }
+  }
+}
+
 TEST(SampleLocator, FindsWhatAWalkFromTheSameHintFinds) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({8, 7, 6}, seed);

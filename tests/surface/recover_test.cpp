@@ -184,6 +184,42 @@ TEST(Recover, SlabsLeaveNoViolation) {
   EXPECT_LE(again.refused_by_size_bound, refused);
 }
 
+// Points put in later are mended as if everything were looked at again; those refused stay out.
+TEST(Recover, WithMorePointsLeavesNoViolation) {
+  for (const auto& scene : {field_scene("gyroid", 40), field_scene("bubbles", 24)}) {
+    Recovered result = run(*scene, coarse_options());
+    const std::vector<Vec3> crossings = testing::crossing_points(*scene);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < crossings.size(); i += 20) points.push_back(crossings[i]);
+    const std::size_t before = result.restricted->delaunay().vertex_count();
+    Controls controls = free_run();
+    RecoverStats stats;
+    const std::int64_t inserted = recover_with(*result.restricted, points, coarse_options(), controls, stats);
+    EXPECT_GT(inserted, 10) << scene->name;
+    EXPECT_LT(static_cast<std::size_t>(inserted), points.size()) << scene->name;
+    EXPECT_EQ(stats.uncovered, inserted) << scene->name;
+    EXPECT_GT(stats.insertions, inserted) << scene->name;
+    EXPECT_EQ(result.restricted->delaunay().vertex_count(), before + static_cast<std::size_t>(stats.insertions));
+    RecoverStats again;
+    recover(*result.restricted, coarse_options(), controls, again);
+    EXPECT_EQ(again.insertions, 0) << scene->name;
+  }
+}
+
+TEST(Recover, WithMorePointsEndsAtTheVertexBudget) {
+  const auto scene = field_scene("gyroid", 24);
+  Recovered result = run(*scene, coarse_options());
+  const std::vector<Vec3> points = testing::crossing_points(*scene);
+  const std::size_t most = result.restricted->delaunay().vertex_count() + 9;
+  BudgetParameters budget;
+  budget.max_vertices = static_cast<std::int64_t>(most);
+  Controls limited(budget, nullptr, {});
+  RecoverStats stats;
+  EXPECT_EQ(recover_with(*result.restricted, points, coarse_options(), limited, stats), 9);
+  EXPECT_TRUE(limited.stopped());
+  EXPECT_EQ(result.restricted->delaunay().vertex_count(), most);
+}
+
 TEST(Recover, SlabsEndAtTheVertexBudget) {
   const auto scene = field_scene("gyroid", 40);
   for (const std::size_t more : {100, 777, 1500}) {
