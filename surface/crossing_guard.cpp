@@ -40,14 +40,19 @@ bool has_area(const std::array<Vec3, 3>& points) { return deliso::has_area(point
 }  // namespace
 
 CrossingGuard::CrossingGuard(RefinementMesh& mesh, int threads) : mesh_(mesh) {
-  for (const RefinementMesh::Triangle& t : mesh.triangles) {
-    if (t.has_hit()) continue;
-    for (const std::uint32_t v : t.corners) mesh.vertices[v].is_suspect = true;
+  const auto triangles_that = [&](const auto& holds) {
+    const std::size_t count = mesh.triangles.size();
+    return collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+      const auto t = static_cast<std::uint32_t>(i);
+      if (holds(t)) found.push_back(t);
+    });
+  };
+  for (const std::uint32_t t : triangles_that([&](std::uint32_t i) { return !mesh.triangles[i].has_hit(); })) {
+    for (const std::uint32_t v : mesh.triangles[t].corners) mesh.vertices[v].is_suspect = true;
   }
-  const auto tight = collect_in_blocks<std::uint32_t>(mesh.triangles.size(), threads, [&](std::size_t t, auto& found) {
-    if (is_tight(static_cast<std::uint32_t>(t))) found.push_back(static_cast<std::uint32_t>(t));
-  });
-  for (const std::uint32_t t : tight) tight_.add(t, mesh.box_of(t));
+  for (const std::uint32_t t : triangles_that([&](std::uint32_t i) { return is_tight(i); })) {
+    tight_.add(t, mesh.box_of(t));
+  }
 }
 
 void CrossingGuard::learn(std::uint32_t triangle) {

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kMostRestarts = 3;
 
 // What slabs leave behind in small pieces matters only beside nearly all of the whole: giving it back takes time.
-constexpr std::size_t kSlabsNearPeak = 2;
+constexpr std::size_t kSlabsNearPeak = 1;
 
 // Along the planes between slabs, which renews few triangles of a part; in slabs, or in the whole where that is one,
 // which renews most; and in the whole what slabs have left coarse, which again are few.
@@ -131,7 +131,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vec
   if (task.controls.stopped()) return;
   // Estimates are for room alone by now: that of a slot which was taken anew stands, for others there is some to spare.
   work.resize(mesh.triangles.size());
-  refine_apart(mesh, slabs, {}, work, task);
+  refine_apart(mesh, most_work_first(slabs, mesh, work), {}, work, task);
   release_free_memory();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "delaunay/base/box3.h"
 #include "surface/blocks.h"
@@ -136,7 +137,8 @@ double middle_of(const Slab& slab) { return 0.5 * slab.low + 0.5 * slab.high; }
 
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
                                       std::size_t slab_triangles, int threads) {
-  const std::size_t wanted = (mesh.triangles.size() + slab_triangles / 2) / slab_triangles;
+  std::size_t wanted = (mesh.triangles.size() + slab_triangles / 2) / slab_triangles;
+  if (wanted > 1) wanted += wanted % 2;  // for two threads to share
   std::vector<Slab> slabs(std::clamp<std::size_t>(wanted, 1, kMostSlabs));
   if (slabs.size() == 1) return slabs;
   const std::size_t axis = longest_axis(mesh);
@@ -147,6 +149,22 @@ std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<cons
     slabs[k].high = slabs[k + 1].low = along.least_cut(place(-kFreedom), place(0), place(kFreedom));
   });
   for (Slab& slab : slabs) slab.axis = axis;
+  return slabs;
+}
+
+std::vector<Slab> most_work_first(std::vector<Slab> slabs, const RefinementMesh& mesh, std::span<const float> work) {
+  std::vector<std::pair<double, Slab>> by_work;  // in the order of places
+  for (const Slab& slab : slabs) by_work.emplace_back(0, slab);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!mesh.triangles[t].is_coarse()) continue;
+    const Extent extent = mesh.extent_of(t, slabs.front().axis);
+    const double middle = 0.5 * extent.low + 0.5 * extent.high;
+    std::size_t k = 0;
+    while (k + 1 < by_work.size() && middle > by_work[k].second.high) ++k;
+    by_work[k].first += work[t];
+  }
+  std::stable_sort(by_work.begin(), by_work.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t k = 0; k < slabs.size(); ++k) slabs[k] = by_work[k].second;
   return slabs;
 }
 

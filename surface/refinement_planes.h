@@ -14,13 +14,17 @@
 
 namespace deliso {
 
-// At most 10 slabs next to each other of `slab_triangles` or more, about; a small mesh is one. `work` estimates the
-// insertions that each triangle needs. The same for any number of threads.
+// At most 10 slabs next to each other of `slab_triangles` or more, about, and an even number of them; a small mesh is
+// one. `work` estimates the insertions that each triangle needs. The same for any number of threads.
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
                                       std::size_t slab_triangles, int threads = 1);
 
 // Around the plane between each two slabs, in order: where the coarse triangles that meet it lie and a margin, but no
 // farther than the middles of the two.
 std::vector<Slab> seams_between(const std::vector<Slab>& slabs, const RefinementMesh& mesh, int threads = 1);
+
+// Slabs next to each other, in order, by the work that coarse triangles in them still need, the most first: so threads
+// that share them come to an end at about the same time.
+std::vector<Slab> most_work_first(std::vector<Slab> slabs, const RefinementMesh& mesh, std::span<const float> work);
 
 }  // namespace deliso

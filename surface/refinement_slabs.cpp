@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "delaunay/base/check.h"
@@ -21,13 +23,21 @@ constexpr std::size_t kRoom = 2;
 // There is room for at most so many insertions per triangle from the start.
 constexpr double kMostGrowth = 32;
 
-// Where vertices lie among the planes of disjoint slabs in order: a number each, which takes less of the memory that
+// Where vertices lie among the planes of disjoint slabs: a number each, which takes less of the memory that
 // triangles look all over than points do.
 class PlacesAmongPlanes {
  public:
   PlacesAmongPlanes(const RefinementMesh& mesh, const std::vector<Slab>& slabs, int threads)
-      : place_(mesh.vertices.size()) {
-    for (const Slab& slab : slabs) slabs_.push_back({add_plane(slab.low), add_plane(slab.high)});
+      : slabs_(slabs.size()), place_(mesh.vertices.size()) {
+    std::vector<std::size_t> in_order(slabs.size());
+    std::iota(in_order.begin(), in_order.end(), std::size_t{0});
+    std::sort(in_order.begin(), in_order.end(), [&](std::size_t a, std::size_t b) {
+      return std::tie(slabs[a].low, slabs[a].high) < std::tie(slabs[b].low, slabs[b].high);
+    });
+    for (const std::size_t k : in_order) {
+      slabs_[k].low = add_plane(slabs[k].low);
+      slabs_[k].high = add_plane(slabs[k].high);
+    }
     const std::size_t axis = slabs.front().axis;
     for_each_block(place_.size(), threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) place_[v] = place_of(mesh.vertices[v].point[axis]);
@@ -49,7 +59,7 @@ class PlacesAmongPlanes {
 
   // The place of a plane that is not below those added before.
   Place add_plane(double x) {
-    DELISO_CHECK(planes_.empty() || planes_.back() <= x, "slabs come in order");
+    DELISO_CHECK(planes_.empty() || planes_.back() <= x, "slabs are disjoint");
     if (planes_.empty() || planes_.back() < x) planes_.push_back(x);
     return static_cast<Place>(2 * planes_.size() - 1);
   }

@@ -174,6 +174,7 @@ TEST(RefinementSlabs, PartsHaveWhatTheirSlabsMeet) {
       {{1, -inf, 7}, {1, 7, 7}, {1, 7, 20.5}, {1, 20.5, inf}},
       {{1, 3, 4}, {1, 4, 4.5}, {1, 9, 9}, {1, 30, 50}},
       {{0, -1, 0}, {0, 0, 0}, {0, 40, 40}, {0, 41, inf}},
+      {{1, 7, 20.5}, {1, 30, inf}, {1, 7, 7}, {1, -inf, 7}},  // in any order
   };
   for (const std::vector<Slab>& slabs : cuts) {
     RefinementMesh whole = mesh;
@@ -247,6 +248,46 @@ TEST(RefinementPlanes, SlabsHaveAboutTheSameWork) {
     EXPECT_EQ(slabs[k].axis, slabs[0].axis);
   }
   for (const double share : shares_of(mesh, slabs, work).of_slabs) EXPECT_NEAR(share, 0.25, 0.08);
+}
+
+TEST(RefinementPlanes, ThereIsAnEvenNumberOfSlabs) {
+  const RefinementMesh mesh(wavy_square(120));
+  const std::vector<float> work(mesh.triangles.size(), 1);
+  for (const std::size_t in_slab : {20'000u, 12'000u, 9'600u, 7'200u, 5'760u, 4'000u, 1'000u}) {
+    const std::size_t count = slabs_of_equal_work(mesh, work, in_slab).size();
+    EXPECT_TRUE(count == 1 || count % 2 == 0) << in_slab;
+    EXPECT_LE(count, 10u) << in_slab;
+    EXPECT_NEAR(static_cast<double>(count), std::min(10.0, 28'800.0 / static_cast<double>(in_slab)), 1) << in_slab;
+  }
+}
+
+// Work alone counts that is left: every second row of squares is coarse, the more the farther from the middle.
+TEST(RefinementPlanes, TheSlabWithTheMostWorkLeftComesFirst) {
+  RefinementMesh mesh(wavy_square(60));
+  std::vector<float> work(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < work.size(); ++t) {
+    const double y = mesh.box_of(t).low.y;
+    mesh.triangles[t].set(RefinementMesh::Triangle::kCoarse, std::fmod(y, 2) == 0);
+    work[t] = static_cast<float>(std::fmod(y, 2) == 0 ? std::abs(y - 31) : 1000 + y);
+  }
+  const double inf = std::numeric_limits<double>::infinity();
+  const std::vector<Slab> in_order = {{1, -inf, 10}, {1, 10, 40}, {1, 40, 50}, {1, 50, inf}};
+  const auto left_in = [&](const Slab& slab) {
+    double left = 0;
+    for (std::uint32_t t = 0; t < work.size(); ++t) {
+      const double middle = mesh.box_of(t).low.y + 0.5;
+      if (mesh.triangles[t].is_coarse() && slab.low < middle && middle < slab.high) left += work[t];
+    }
+    return left;
+  };
+  const std::vector<Slab> slabs = most_work_first(in_order, mesh, work);
+  ASSERT_EQ(slabs.size(), in_order.size());
+  double sum = 0;
+  for (const Slab& slab : slabs) sum += left_in(slab);
+  for (std::size_t k = 1; k < slabs.size(); ++k) EXPECT_GT(left_in(slabs[k - 1]), left_in(slabs[k]));
+  EXPECT_EQ(sum, left_in({1, -inf, inf}));
+  EXPECT_EQ(slabs.front().low, 10);
+  EXPECT_EQ(slabs.back().low, 40);
 }
 
 TEST(RefinementPlanes, PlanesKeepOutOfCoarsePlaces) {
