@@ -11,6 +11,10 @@ namespace {
 
 // Points of the input that are fetched together: they lie anywhere, and so their misses overlap.
 constexpr std::size_t kFetched = 256;
+// Parts are worth their start for so many points, once one in so many has been inserted: those of the last round or two
+// are left then.
+constexpr std::size_t kFewestForParts = 16384;
+constexpr std::size_t kInsertedBeforeParts = 8;
 
 // Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
@@ -34,7 +38,8 @@ std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> poi
 
 BowyerWatson::BowyerWatson(const Box3& box) : box_(box), filter_(box) {}
 
-bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of) {
+bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of,
+                         std::optional<int> threads_of_parts) {
   clear();
   if (vertex_of != nullptr) vertex_of->clear();
   for (const Vec3& p : points) DELISO_CHECK(box_.contains(p), "every point lies in the box");
@@ -50,7 +55,8 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
   }
 
   // Step 2: insert, the vertices numbered in that order for the sake of the caches, the perturbation ordered by input.
-  const std::vector<VertexId> in_order = insert_all(points, order);
+  std::vector<VertexId> in_order(order.size());
+  insert_all({points, order, in_order}, threads_of_parts);
   std::vector<VertexId> vertices(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) vertices[order[i]] = in_order[i];
   // Step 3: number the vertices as the input.
@@ -59,40 +65,45 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
   return true;
 }
 
-std::vector<VertexId> BowyerWatson::insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order) {
-  points_.reserve(points.size());
-  incident_.reserve(points.size());
-  ranks_.reserve(points.size());
-  tets_.reserve(10 * points.size());  // six or seven in space, eight on a surface; pages not used cost nothing
-  std::vector<VertexId> vertices;
-  vertices.reserve(order.size());
-  const auto add_vertex = [&](std::uint32_t input, const Vec3& p) {
-    vertices.emplace_back(points_.size());
-    points_.push_back(p);
-    incident_.emplace_back();
-    ranks_.emplace_back(std::size_t{input});
-    return vertices.back();
-  };
-  for (const std::uint32_t input : order.first(4)) add_vertex(input, points[input]);
+void BowyerWatson::insert_all(const Insertions& all, std::optional<int> threads_of_parts) {
+  const std::size_t count = all.order.size();
+  points_.reserve(count);
+  incident_.reserve(count);
+  ranks_.reserve(count);
+  tets_.reserve(10 * count);  // six or seven in space, eight on a surface; pages not used cost nothing
+  for (std::size_t i = 0; i < 4; ++i) all.vertices[i] = add_vertex(all.order[i], all.points[all.order[i]]);
   make_first_tet();
-  TetId hint(std::size_t{0});
+  const std::size_t by_parts = threads_of_parts && count >= kFewestForParts ? count - count / kInsertedBeforeParts : 0;
+  insert_in_order(all.part(4, count - by_parts));
+  if (by_parts > 0) insert_in_slabs(all.part(count - by_parts, count), *threads_of_parts);
+  created_.clear();
+}
+
+VertexId BowyerWatson::add_vertex(std::uint32_t input, const Vec3& p) {
+  const VertexId v(points_.size());
+  points_.push_back(p);
+  incident_.emplace_back();
+  ranks_.emplace_back(std::size_t{input});
+  return v;
+}
+
+void BowyerWatson::insert_in_order(const Insertions& some) {
+  TetId hint = incident_tet(VertexId(std::size_t{0}));
   std::array<Vec3, kFetched> fetched;
-  for (std::size_t begin = 4; begin < order.size(); begin += kFetched) {
-    const auto inputs = order.subspan(begin, std::min(kFetched, order.size() - begin));
-    for (std::size_t i = 0; i < inputs.size(); ++i) fetched[i] = points[inputs[i]];
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
+  for (std::size_t begin = 0; begin < some.order.size(); begin += kFetched) {
+    const Insertions now = some.part(begin, std::min(begin + kFetched, some.order.size()));
+    for (std::size_t i = 0; i < now.order.size(); ++i) fetched[i] = some.points[now.order[i]];
+    for (std::size_t i = 0; i < now.order.size(); ++i) {
+      if (!now.vertices[i].is_none()) continue;
       // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
       const Vec3& p = fetched[i];
-      if (const auto duplicate = find_conflicts_from_located(p, VertexId(inputs[i]), locate(p, hint))) {
-        vertices.push_back(*duplicate);
-        continue;
-      }
-      star_rim(add_vertex(inputs[i], p));
+      const auto duplicate = find_conflicts_from_located(p, VertexId(now.order[i]), locate(p, hint));
+      now.vertices[i] = duplicate ? *duplicate : add_vertex(now.order[i], p);
+      if (duplicate) continue;
+      star_rim(now.vertices[i]);
       hint = created_.front();
     }
   }
-  created_.clear();
-  return vertices;
 }
 
 void BowyerWatson::make_first_tet() {
@@ -145,6 +156,7 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
     renamed[v.index()] = VertexId(count);
     points_[count++] = points[i];
   }
+  points_.resize(count);  // parts leave gaps
   // Rename them everywhere.
   for (VertexId& v : vertex_of) v = renamed[v.index()];
   for (std::size_t t = 0; t < tets_.size(); ++t) {
@@ -156,10 +168,11 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
     }
   }
   SharedArray<TetId> incident(count);
-  for (std::size_t v = 0; v < count; ++v) incident[renamed[v].index()] = incident_[v];
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (!renamed[v].is_none()) incident[renamed[v].index()] = incident_[v];
+  }
   incident_.swap(incident);
-  ranks_.clear();
-  ranks_.shrink_to_fit();
+  ranks_ = {};
 }
 
 }  // namespace deliso

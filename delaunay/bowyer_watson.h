@@ -55,7 +55,14 @@ class BowyerWatson : public Tetrahedralization {
   // Builds from scratch. Vertex i of the result is points[i] unless it duplicates an earlier point; vertex_of[i], when
   // asked for, tells the vertex of each input point. Inserts in BRIO + Hilbert order. Returns false and leaves the
   // triangulation empty when all points are coplanar (fewer than four included).
-  bool build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of = nullptr);
+  bool build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of = nullptr) {
+    return build(points, vertex_of, std::nullopt);
+  }
+  // The same triangulation, most of it made by parts in two slabs where there are many points (build_in_slabs.cpp). Its
+  // tetrahedra are in other slots, the same for any number of threads.
+  bool build_in_slabs(std::span<const Vec3> points, std::vector<VertexId>* vertex_of, int threads) {
+    return build(points, vertex_of, threads);
+  }
 
   // The tetrahedron (perhaps a ghost) that contains p, by a visibility walk from `hint` (any live tetrahedron).
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const;
@@ -101,9 +108,12 @@ class BowyerWatson : public Tetrahedralization {
   // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one.
   std::vector<VertexId> close_gaps();
 
+  // An insertion of a part needs so many slots, all in all; when there are fewer, it ends sooner.
+  static constexpr std::size_t kTetsPerInsertion = 7;
   // Rooms for parts in slabs that do not meet, for so many insertions each; none when there would be too many
   // tetrahedra. No vertex may wait to be closed up.
-  std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads = 1);
+  std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads = 1,
+                                   std::size_t tets_per_insertion = kTetsPerInsertion);
   // A part of `whole`, which must stay where it is and be left alone until it has joined its parts.
   BowyerWatson(BowyerWatson& whole, const PartRoom& room);
   // Whether there is room for an insertion, unless it is a very large one.
@@ -156,6 +166,7 @@ class BowyerWatson : public Tetrahedralization {
   template <bool kIsPart>
   void test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p, VertexId p_rank);
   void find_conflicts_of_part(const Vec3& p, TetId start);
+  void grow_region_of_part(const Vec3& p, VertexId p_rank, TetId first);
   // Of a tetrahedron across a facet from one within the slab.
   [[nodiscard]] bool is_frozen(FacetId mirror) const {
     const VertexId far = vertices(mirror.tet())[mirror.face()];
@@ -170,9 +181,27 @@ class BowyerWatson : public Tetrahedralization {
   bool triangulate_link();
   void find_fill();
   void glue_fill();
+  // In one, or by parts on so many threads.
+  bool build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of, std::optional<int> threads_of_parts);
   void make_first_tet();
-  // Inserts the points of `order`, and tells the vertex of each, in that order.
-  std::vector<VertexId> insert_all(std::span<const Vec3> points, std::span<const std::uint32_t> order);
+  // Points of the input in the order in which they are inserted, and the vertex of each once it is.
+  struct Insertions {
+    std::span<const Vec3> points;
+    std::span<const std::uint32_t> order;
+    std::span<VertexId> vertices;
+
+    [[nodiscard]] Insertions part(std::size_t first, std::size_t last) const {
+      return {points, order.subspan(first, last - first), vertices.subspan(first, last - first)};
+    }
+  };
+  void insert_all(const Insertions& all, std::optional<int> threads_of_parts);
+  VertexId add_vertex(std::uint32_t input, const Vec3& p);
+  // Those that have no vertex yet.
+  void insert_in_order(const Insertions& some);
+  void insert_in_slabs(const Insertions& some, int threads);
+  // Of a part: those in its slab, less what is blocked; `before`: how many vertices there were before all parts.
+  void insert_within(const Insertions& some, std::size_t before);
+  [[nodiscard]] TetId locate_within(const Vec3& p, TetId hint) const;
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
   void clear();
 
@@ -208,7 +237,7 @@ class BowyerWatson : public Tetrahedralization {
     std::vector<std::uint32_t> place;   // of each of its tetrahedra: in fill, or none
   };
   Hole hole_;
-  LargeArray<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
+  SharedArray<VertexId> ranks_;  // during build(): the input index of each vertex, which orders the perturbation
 };
 
 }  // namespace deliso

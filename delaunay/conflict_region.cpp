@@ -57,19 +57,24 @@ std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p,
       if (point(v) == p) return v;
     }
   }
-  grow_region<false>(p, p_rank, located);
+  if (slab_) {
+    grow_region_of_part(p, p_rank, located);
+  } else {
+    grow_region<false>(p, p_rank, located);
+  }
   return std::nullopt;
 }
 
-// In a part nobody walks: on its way a walk might look at what others are changing.
+// A caller of a part names the place to start from: a walk might have to look at what others are changing.
 void BowyerWatson::find_conflicts_of_part(const Vec3& p, TetId start) {
   const VertexId p_rank(points_.size());
-  const std::array<VertexId, 4>& v = vertices(start);
-  const bool is_within = std::all_of(
-      v.begin(), v.end(), [&](VertexId corner) { return corner == kInfiniteVertex || slab_->contains(point(corner)); });
-  is_blocked_ = !is_within || !slab_->contains(p) || !conflicts(start, p, p_rank);
-  if (is_blocked_) return;
-  grow_region<true>(p, p_rank, start);
+  is_blocked_ = !lies_within(*slab_, start) || !slab_->contains(p) || !conflicts(start, p, p_rank);
+  if (!is_blocked_) grow_region_of_part(p, p_rank, start);
+}
+
+void BowyerWatson::grow_region_of_part(const Vec3& p, VertexId p_rank, TetId first) {
+  is_blocked_ = false;
+  grow_region<true>(p, p_rank, first);
   is_blocked_ = is_blocked_ || points_.room_left() == 0 || rim_size_ > region_size_ + tets_left();
   if (is_blocked_) abandon_cavity();
 }

@@ -4,23 +4,18 @@
 
 namespace deliso {
 
-namespace {
-
-// An insertion needs so many slots, all in all; when there are fewer, a part ends sooner.
-constexpr std::size_t kTetsPerInsertion = 7;
-
-}  // namespace
-
-std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads) {
+std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads,
+                                               std::size_t tets_per_insertion) {
   // Free slots are dealt out; new ones are made for the rest.
   const std::size_t count = slabs.size();
-  const std::size_t wanted = kTetsPerInsertion * insertions + kFewestLeft;
+  const std::size_t wanted = tets_per_insertion * insertions + kFewestLeft;
   const std::size_t least_free = free_.size() / count;
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
   if (tets + count * created > kMostTets) return {};
   points_.make_room(vertices + count * insertions, threads);
   incident_.make_room(vertices + count * insertions, threads);
+  if (!ranks_.empty()) ranks_.make_room(vertices + count * insertions, threads);
   tets_.make_room(tets + count * created, threads);
   std::vector<PartRoom> rooms(count);
   const auto first_free = [&](std::size_t k) {
@@ -41,11 +36,14 @@ BowyerWatson::BowyerWatson(BowyerWatson& whole, const PartRoom& room)
       box_(whole.box_),
       filter_(whole.filter_),
       slab_(room.slab),
-      free_(room.free) {}
+      free_(room.free) {
+  if (!whole.ranks_.empty()) ranks_ = SharedArray<VertexId>(whole.ranks_, room.vertices);
+}
 
 void BowyerWatson::join(BowyerWatson& part) {
   points_.take_in(part.points_);
   incident_.take_in(part.incident_);
+  if (!ranks_.empty()) ranks_.take_in(part.ranks_);
   const Range skipped = tets_.take_in(part.tets_);
   free_.insert(free_.end(), part.free_.begin(), part.free_.end());
   for (std::size_t t = skipped.first; t < skipped.last; ++t) free_.emplace_back(t);

@@ -4,10 +4,12 @@ namespace deliso {
 
 namespace {
 
+constexpr auto kAnywhere = [](TetId) { return true; };
+
 // `is_beyond(a, b, c)`: whether the point lies strictly on the side of the plane abc from which they turn
-// counterclockwise.
-template <class IsBeyond>
-TetId walk(const Tetrahedralization& tets, TetId hint, IsBeyond is_beyond) {
+// counterclockwise. None where the walk would go on to a tetrahedron that it may not enter.
+template <class IsBeyond, class MayEnter>
+TetId walk(const Tetrahedralization& tets, TetId hint, IsBeyond is_beyond, const MayEnter& may_enter) {
   // Step off a ghost into the hull: the walk itself decides whether p lies outside.
   TetId t = tets.is_ghost(hint) ? tets.neighbour(hint, 3) : hint;
   unsigned entered = 4;  // the face through which the walk came: p lies on this side of it
@@ -32,18 +34,26 @@ TetId walk(const Tetrahedralization& tets, TetId hint, IsBeyond is_beyond) {
     const FacetId mirror = tets.mirror(exit);
     t = mirror.tet();
     entered = mirror.face();
+    if (!may_enter(t)) return {};
   }
 }
 
 }  // namespace
 
 TetId visibility_walk(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p, TetId hint) {
-  return walk(tets, hint, [&](const Vec3& a, const Vec3& b, const Vec3& c) { return filter.orient(a, b, c, p) > 0; });
+  const auto is_beyond = [&](const Vec3& a, const Vec3& b, const Vec3& c) { return filter.orient(a, b, c, p) > 0; };
+  return walk(tets, hint, is_beyond, kAnywhere);
+}
+
+TetId visibility_walk_within(const Tetrahedralization& tets, const StaticFilter& filter, const Slab& slab,
+                             const Vec3& p, TetId hint) {
+  const auto is_beyond = [&](const Vec3& a, const Vec3& b, const Vec3& c) { return filter.orient(a, b, c, p) > 0; };
+  return walk(tets, hint, is_beyond, [&](TetId t) { return tets.lies_within(slab, t); });
 }
 
 TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p,
                             const Signs& signs, TetId hint) {
-  return walk(tets, hint, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto is_beyond = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const double side = filter.orient(a, b, c, p);
     if (side != 0) [[likely]] {
       return side > 0;
@@ -54,7 +64,8 @@ TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& 
       if (along != 0) return along > 0;
     }
     return false;
-  });
+  };
+  return walk(tets, hint, is_beyond, kAnywhere);
 }
 
 }  // namespace deliso

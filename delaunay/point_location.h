@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "delaunay/base/slab.h"
 #include "delaunay/static_filter.h"
 #include "delaunay/tetrahedralization.h"
 
@@ -16,6 +17,11 @@ namespace deliso {
 // (Edelsbrunner: An acyclicity theorem for cell complexes in d dimension, 1990; Devillers, Pion, Teillaud: Walking in a
 // triangulation, 2002).
 TetId visibility_walk(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p, TetId hint);
+
+// The same without leaving the tetrahedra that lie within a slab, of which `hint` is a finite one; none where the walk
+// would have to.
+TetId visibility_walk_within(const Tetrahedralization& tets, const StaticFilter& filter, const Slab& slab,
+                             const Vec3& p, TetId hint);
 
 // Which way a point is moved along each axis: 1 or -1.
 using Signs = std::array<int, 3>;

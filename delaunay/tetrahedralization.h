@@ -15,6 +15,7 @@
 #include <span>
 
 #include "delaunay/base/shared_array.h"
+#include "delaunay/base/slab.h"
 #include "delaunay/base/vec3.h"
 #include "delaunay/ids.h"
 
@@ -37,6 +38,12 @@ class Tetrahedralization {
   [[nodiscard]] bool is_live(VertexId v) const { return !incident_[v.index()].is_none(); }
   // Some live tetrahedron that has v as a vertex.
   [[nodiscard]] TetId incident_tet(VertexId v) const { return incident_[v.index()]; }
+  // Whether all finite vertices of a tetrahedron lie strictly between the planes of a slab.
+  [[nodiscard]] bool lies_within(const Slab& slab, TetId t) const {
+    const std::array<VertexId, 4>& v = vertices(t);
+    return slab.contains(point(v[0])) && slab.contains(point(v[1])) && slab.contains(point(v[2])) &&
+           (v[3] == kInfiniteVertex || slab.contains(point(v[3])));
+  }
   // The vertices of a facet, counterclockwise seen from outside its tetrahedron.
   [[nodiscard]] std::array<VertexId, 3> facet_vertices(FacetId f) const {
     const auto& v = vertices(f.tet());

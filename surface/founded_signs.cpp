@@ -104,8 +104,8 @@ void UnfoundedPockets::look_everywhere() {
   for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets_));
 }
 
-// Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to be
-// left alone.
+// Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to
+// be left alone.
 bool UnfoundedPockets::floods_pocket(TetId seed, Look& look) const {
   if (look.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
   Pocket& flood = look.flood;

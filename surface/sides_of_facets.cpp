@@ -62,8 +62,8 @@ SurfaceMesh facets_alone(const SignedDelaunay& restricted, int threads) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   using Triangle = std::array<std::uint32_t, 3>;
   SurfaceMesh mesh;
-  mesh.triangles = collect_in_blocks<Triangle>(
-      delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<Triangle>& triangles) {
+  mesh.triangles =
+      collect_in_blocks<Triangle>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<Triangle>& triangles) {
         if (!delaunay.is_live(TetId(i))) return;
         for (unsigned face = 0; face < 4; ++face) {
           const FacetId f(TetId(i), face);

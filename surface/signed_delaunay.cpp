@@ -69,7 +69,7 @@ SignedDelaunay::SignedDelaunay(const Isosurface& isosurface, std::span<const Vec
     if (is_finite(p)) points.push_back(snapped(p));
   }
   std::vector<VertexId> vertices;
-  if (!delaunay_.build(points, &vertices)) {
+  if (!delaunay_.build_in_slabs(points, &vertices, threads)) {
     if (points.empty()) throw InputError("the isosurface has no point to start from");
     std::vector<Vec3> guarded(points.begin(), points.end());
     const Vec3 off = kGuardDistance * isosurface.box().diagonal() * plane_normal(points);
