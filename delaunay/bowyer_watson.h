@@ -109,11 +109,11 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<VertexId> close_gaps();
 
   // An insertion of a part needs so many slots, all in all; when there are fewer, it ends sooner.
-  static constexpr std::size_t kTetsPerInsertion = 7;
+  static constexpr double kTetsPerInsertion = 7;
   // Rooms for parts in slabs that do not meet, for so many insertions each; none when there would be too many
   // tetrahedra. No vertex may wait to be closed up.
   std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads = 1,
-                                   std::size_t tets_per_insertion = kTetsPerInsertion);
+                                   double tets_per_insertion = kTetsPerInsertion);
   // A part of `whole`, which must stay where it is and be left alone until it has joined its parts.
   BowyerWatson(BowyerWatson& whole, const PartRoom& room);
   // Whether there is room for an insertion, unless it is a very large one.

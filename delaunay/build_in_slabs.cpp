@@ -16,8 +16,8 @@ namespace deliso {
 
 namespace {
 
-// On a surface there are eight tetrahedra a point, and a few more.
-constexpr std::size_t kTetsOnSurface = 9;
+// There are as many tetrahedra a point as there were before, and a few more: slots that are not used stay free.
+constexpr double kMoreTets = 1.02;
 
 // On either side of a plane between two points that halves them.
 std::array<Slab, 2> halves_of(std::span<const Vec3> points, std::span<const std::uint32_t> order) {
@@ -73,8 +73,9 @@ void BowyerWatson::insert_in_slabs(const Insertions& some, int threads) {
         some.order.begin(), some.order.end(), [&](std::uint32_t input) { return slab.contains(some.points[input]); }));
   };
   const std::size_t most = std::max(count_in(slabs[0]), count_in(slabs[1])), before = vertex_count();
+  const double tets_per_point = static_cast<double>(tets_.size()) / static_cast<double>(before);
   std::vector<std::unique_ptr<BowyerWatson>> parts;
-  for (const PartRoom& room : make_rooms(slabs, most + 1, threads, kTetsOnSurface)) {
+  for (const PartRoom& room : make_rooms(slabs, most + 1, threads, kMoreTets * tets_per_point)) {
     parts.push_back(std::make_unique<BowyerWatson>(*this, room));
   }
   run_tasks(parts.size(), threads, [&](std::size_t k) { parts[k]->insert_within(some, before); });

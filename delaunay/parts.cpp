@@ -5,10 +5,11 @@
 namespace deliso {
 
 std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads,
-                                               std::size_t tets_per_insertion) {
+                                               double tets_per_insertion) {
   // Free slots are dealt out; new ones are made for the rest.
   const std::size_t count = slabs.size();
-  const std::size_t wanted = tets_per_insertion * insertions + kFewestLeft;
+  const auto expected = static_cast<std::size_t>(tets_per_insertion * static_cast<double>(insertions));
+  const std::size_t wanted = expected + kFewestLeft;
   const std::size_t least_free = free_.size() / count;
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
