@@ -15,8 +15,9 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kMostSlabs = 10;
-// A plane may move by so much of a slab's work to either side of where it would be fair, to one of so many places.
-constexpr double kFreedom = 0.125;
+// A plane may move by so much of a slab's work to either side of where it would be fair, to one of so many places. What
+// it cuts is refined in a seam first, so equal shares matter more.
+constexpr double kFreedom = 0.0625;
 constexpr std::size_t kPlaces = 65;
 // Of a seam around a coarse triangle, in lengths of it along the axis.
 constexpr double kMargin = 1;

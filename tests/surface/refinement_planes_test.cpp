@@ -102,7 +102,7 @@ TEST(RefinementPlanes, PlanesKeepOutOfCoarsePlaces) {
   // Coarse stripes where equal shares would have the planes.
   const RefinementMesh mesh(wavy_square(128));
   std::vector<float> work(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < work.size(); ++t) work[t] = std::fmod(mesh.box_of(t).low.y + 2, 8) < 4 ? 100 : 1;
+  for (std::uint32_t t = 0; t < work.size(); ++t) work[t] = std::fmod(mesh.box_of(t).low.y + 1, 4) < 2 ? 100 : 1;
   const std::vector<Slab> slabs = slabs_of_equal_work(mesh, work, 8192);
   ASSERT_EQ(slabs.size(), 4u);
   ASSERT_EQ(slabs[0].axis, 1u);
