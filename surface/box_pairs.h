@@ -19,23 +19,11 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "surface/lane_bits.h"
 
 namespace deliso {
 
 inline constexpr std::size_t kBoxesPerRow = 8;
-
-// Bit i: whether condition(i) holds. Masks instead of truth values, so that compilers take several i at once.
-template <class Condition>
-[[gnu::always_inline]] inline std::uint32_t bits_where(const Condition& condition) {
-  constexpr std::array<std::uint32_t, kBoxesPerRow> kBit = {1, 2, 4, 8, 16, 32, 64, 128};
-  std::array<std::uint32_t, kBoxesPerRow> found;
-  for (std::size_t i = 0; i < kBoxesPerRow; ++i) found[i] = condition(i) & kBit[i];
-  std::uint32_t bits = 0;
-  for (const std::uint32_t bit : found) bits |= bit;
-  return bits;
-}
-
-inline std::uint32_t mask_of(bool condition) { return condition ? ~0U : 0U; }
 
 // Three labels of each of eight boxes in a row, side by side. Boxes with a label in common are no pair. A label with
 // the top bit set counts for nothing.
@@ -51,7 +39,7 @@ class LabelRow {
   // Bit i: whether box i has a label in common with box k of another row.
   [[nodiscard]] std::uint32_t sharing(const LabelRow& other, std::size_t k) const {
     const std::uint32_t x = other.valid(0, k), y = other.valid(1, k), z = other.valid(2, k);
-    return bits_where([&](std::size_t i) {
+    return bits_where<kBoxesPerRow>([&](std::size_t i) {
       const std::uint32_t a = labels_[0][i], b = labels_[1][i], c = labels_[2][i];
       return mask_of(a == x) | mask_of(a == y) | mask_of(a == z) | mask_of(b == x) | mask_of(b == y) | mask_of(b == z) |
              mask_of(c == x) | mask_of(c == y) | mask_of(c == z);
@@ -62,7 +50,7 @@ class LabelRow {
     std::uint32_t most = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t label = valid(k, 0);
-      const std::uint32_t bits = bits_where([&](std::size_t i) {
+      const std::uint32_t bits = bits_where<kBoxesPerRow>([&](std::size_t i) {
         return mask_of(labels_[0][i] == label) | mask_of(labels_[1][i] == label) | mask_of(labels_[2][i] == label);
       });
       if (std::popcount(bits) > std::popcount(most)) most = bits;
@@ -132,7 +120,7 @@ class BoxPairs {
     [[nodiscard]] std::uint32_t meeting(const Block& other, std::size_t j) const {
       const std::array<Real, 3> other_low = {other.low[0][j], other.low[1][j], other.low[2][j]};
       const std::array<Real, 3> other_high = {other.high[0][j], other.high[1][j], other.high[2][j]};
-      return bits_where([&](std::size_t i) {
+      return bits_where<kBoxesPerRow>([&](std::size_t i) {
         const std::uint32_t x = mask_of(low[0][i] <= other_high[0]) & mask_of(other_low[0] <= high[0][i]);
         const std::uint32_t y = mask_of(low[1][i] <= other_high[1]) & mask_of(other_low[1] <= high[1][i]);
         const std::uint32_t z = mask_of(low[2][i] <= other_high[2]) & mask_of(other_low[2] <= high[2][i]);

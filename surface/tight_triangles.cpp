@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "surface/lane_bits.h"
+
 namespace deliso {
 
 namespace {
@@ -24,7 +26,7 @@ constexpr int kBlockShift = 3;
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
 
 // 2^-level, for a level that triangles are kept at.
-double scale_of(int level) { return 1 / static_cast<double>(std::uint64_t{1} << level); }
+double scale_of(int level) { return std::bit_cast<double>(std::uint64_t(1023 - level) << 52); }
 
 // std::floor, which may be a call, for numbers that an integer holds.
 std::int32_t floored(double x) {
@@ -39,25 +41,50 @@ int TightTriangles::level_of(const Box3& box) {
   return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 2;
 }
 
-TightTriangles::FloatBox TightTriangles::rounded_outward(const Box3& box) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  FloatBox rounded;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    rounded.low[axis] = static_cast<float>(box.low[axis]);
-    rounded.high[axis] = static_cast<float>(box.high[axis]);
-    if (rounded.low[axis] > box.low[axis]) rounded.low[axis] = std::nextafter(rounded.low[axis], -kInfinity);
-    if (rounded.high[axis] < box.high[axis]) rounded.high[axis] = std::nextafter(rounded.high[axis], kInfinity);
-  }
-  return rounded;
+TightTriangles::FloatBox::FloatBox(const Box3& box)
+    : low{static_cast<float>(box.low.x), static_cast<float>(box.low.y), static_cast<float>(box.low.z)},
+      high{static_cast<float>(box.high.x), static_cast<float>(box.high.y), static_cast<float>(box.high.z)} {}
+
+TightTriangles::Row::Row() {
+  for (std::size_t i = 0; i < kPerRow; ++i) clear(i);
 }
 
-bool TightTriangles::meet(const FloatBox& a, const FloatBox& b) {
-  // All at once: which of the six fails cannot be foretold.
-  unsigned all = 1;
+void TightTriangles::Row::set(std::size_t i, std::uint32_t triangle, const FloatBox& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    all &= static_cast<unsigned>(a.low[axis] <= b.high[axis]) & static_cast<unsigned>(b.low[axis] <= a.high[axis]);
+    low[axis][i] = box.low[axis];
+    high[axis][i] = box.high[axis];
   }
-  return all != 0;
+  triangles[i] = triangle;
+}
+
+void TightTriangles::Row::set(std::size_t i, const Row& from, std::size_t j) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis][i] = from.low[axis][j];
+    high[axis][i] = from.high[axis][j];
+  }
+  triangles[i] = from.triangles[j];
+}
+
+void TightTriangles::Row::clear(std::size_t i) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis][i] = std::numeric_limits<float>::infinity();
+    high[axis][i] = -std::numeric_limits<float>::infinity();
+  }
+  triangles[i] = kNone;
+}
+
+std::uint32_t TightTriangles::Row::meeting(const FloatBox& other) const {
+  return bits_where<kPerRow>([&](std::size_t i) {
+    std::uint32_t all = ~0U;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all &= mask_of(low[axis][i] <= other.high[axis]) & mask_of(other.low[axis] <= high[axis][i]);
+    }
+    return all;
+  });
+}
+
+std::size_t TightTriangles::Row::count() const {
+  return static_cast<std::size_t>(std::find(triangles.begin(), triangles.end(), kNone) - triangles.begin());
 }
 
 double TightTriangles::Range::count() const {
@@ -186,31 +213,44 @@ void TightTriangles::add(std::uint32_t triangle, const Box3& box) {
   if (held_.size() <= triangle) held_.resize(triangle + 1, 0);
   held_[triangle] = 1;
   ++kept_at_[static_cast<std::size_t>(level)];
-  cell_at(level, place_of(box.low, level)).entries.push_back({rounded_outward(box), triangle});
+  levels_ |= std::uint64_t{1} << level;
+  auto& rows = cell_at(level, place_of(box.low, level)).rows;
+  if (rows.empty() || rows.back().count() == kPerRow) rows.emplace_back();
+  rows.back().set(rows.back().count(), triangle, FloatBox(box));
 }
 
 void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
   held_[triangle] = 0;
-  --kept_at_[static_cast<std::size_t>(level)];
-  auto& entries = cells_[slot_of(cell_key(level, place_of(box.low, level)))].entries;
-  const auto entry =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.triangle == triangle; });
-  *entry = entries.back();
-  entries.pop_back();
+  if (--kept_at_[static_cast<std::size_t>(level)] == 0) levels_ &= ~(std::uint64_t{1} << level);
+  auto& rows = cells_[slot_of(cell_key(level, place_of(box.low, level)))].rows;
+  for (Row& row : rows) {
+    const auto place = std::find(row.triangles.begin(), row.triangles.end(), triangle);
+    if (place == row.triangles.end()) continue;
+    // The last one takes its place.
+    const std::size_t last = rows.back().count() - 1;
+    row.set(static_cast<std::size_t>(place - row.triangles.begin()), rows.back(), last);
+    rows.back().clear(last);
+    if (last == 0) rows.pop_back();
+    return;
+  }
 }
 
 void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& found) const {
-  const FloatBox rounded = rounded_outward(box);
-  for (int level = 0; level < kLevels; ++level) {
-    if (kept_at_[static_cast<std::size_t>(level)] == 0) continue;
+  const FloatBox rounded(box);
+  for (std::uint64_t levels = levels_; levels != 0; levels &= levels - 1) {
+    const int level = std::countr_zero(levels);
     for_each_used_cell(cells_near(box, level), level, [&](const Cell& cell) {
+      if (cell.rows.empty()) return;
       // Which of them are found cannot be foretold: all are written, and what is not found is overwritten.
       std::size_t count = found.size();
-      found.resize(count + cell.entries.size());
-      for (const Entry& entry : cell.entries) {
-        found[count] = entry.triangle;
-        count += static_cast<std::size_t>(meet(entry.box, rounded));
+      found.resize(count + kPerRow * cell.rows.size());
+      for (const Row& row : cell.rows) {
+        const std::uint32_t bits = row.meeting(rounded);
+        for (std::size_t i = 0; i < kPerRow; ++i) {
+          found[count] = row.triangles[i];
+          count += bits >> i & 1;
+        }
       }
       found.resize(count);
     });

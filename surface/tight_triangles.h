@@ -19,20 +19,33 @@ class TightTriangles {
   void add(std::uint32_t triangle, const Box3& box);
   void remove(std::uint32_t triangle, const Box3& box);
 
-  // Appends all whose boxes, rounded outward to floats, meet `box`.
+  // Appends all whose boxes meet `box` when both are rounded to floats, which keeps the order of numbers.
   void append_near(const Box3& box, std::vector<std::uint32_t>& found) const;
 
  private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::size_t kPerRow = 4;
+
   struct FloatBox {
-    std::array<float, 3> low{}, high{};
+    explicit FloatBox(const Box3& box);
+    std::array<float, 3> low, high;
   };
-  struct Entry {
-    FloatBox box;
-    std::uint32_t triangle = 0;
+  // Triangles and their boxes, side by side; where there is none its box is empty.
+  struct Row {
+    std::array<std::array<float, kPerRow>, 3> low, high;
+    std::array<std::uint32_t, kPerRow> triangles;
+
+    Row();
+    void set(std::size_t i, std::uint32_t triangle, const FloatBox& box);
+    void set(std::size_t i, const Row& from, std::size_t j);
+    void clear(std::size_t i);
+    // Bit i: whether box i meets another one.
+    [[nodiscard]] std::uint32_t meeting(const FloatBox& other) const;
+    [[nodiscard]] std::size_t count() const;
   };
   struct Cell {
     std::uint64_t key = kNoKey;
-    std::vector<Entry> entries;
+    std::vector<Row> rows;  // all full but the last one
   };
   static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
   static constexpr int kLevels = 63;
@@ -48,8 +61,6 @@ class TightTriangles {
   };
 
   static int level_of(const Box3& box);
-  static FloatBox rounded_outward(const Box3& box);
-  static bool meet(const FloatBox& a, const FloatBox& b);
   static Place place_of(const Vec3& point, int level);
   static Range cells_near(const Box3& box, int level);
   static Range blocks_of(const Range& cells);
@@ -67,6 +78,7 @@ class TightTriangles {
   std::size_t used_ = 0;
   std::array<std::vector<Place>, kLevels> blocks_;  // those that are used
   std::array<std::size_t, kLevels> kept_at_{};      // triangles at each level
+  std::uint64_t levels_ = 0;                        // bit i: whether there are any at level i
   std::vector<std::uint8_t> held_;                  // of each triangle: whether it is there
 };
 
