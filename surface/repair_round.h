@@ -59,7 +59,8 @@ class RepairRound {
   using IsOfUse = std::function<bool(const MatchedMesh&)>;
   std::optional<MatchedMesh> assemble(const IsOfUse& is_of_use = {});
   // Takes signs by each of several rules and assembles the meshes, beside each other on several threads. Those after
-  // the first one for which is_last(mesh) holds may be left out; it is called by several threads.
+  // the first one for which is_last(mesh) holds may be left out; it is called by several threads. The signs are those
+  // of any of the rules then.
   struct Attempt {
     TetSigns signs;
     std::optional<MatchedMesh> mesh;  // as assemble() gives it

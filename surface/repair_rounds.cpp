@@ -173,7 +173,7 @@ void RepairRounds::try_rules(Controls& controls) {
   for (std::size_t first = 0; first < rules.size() && !is_over; first += at_once) {
     for (RepairRound::Attempt& attempt :
          round_->attempts(rules.subspan(first, at_once), [&](const auto& m) { return kept_.would_be_done(m); })) {
-      if (take(attempt)) return;
+      if (take(attempt)) return round_->set_signs(attempt.signs);
       is_over = controls.poll();
       if (!best || mesh_->match.error < best->match.error) {
         best = mesh_;
