@@ -14,6 +14,7 @@ void Recovery::run(Controls& controls, std::size_t enough) {
          !controls.must_stop("recover", delaunay_.vertex_count(), queue_.size())) {
     const std::optional<Violation> violation = queue_.pop();
     if (!violation) break;
+    if (violation->kind == ViolationKind::kExtractManifold) umbrella_queued_[violation->element] = false;
     treat(*violation);
   }
 }
@@ -22,7 +23,6 @@ void Recovery::treat(const Violation& violation) {
   // What was queued may have been mended or destroyed meanwhile.
   std::optional<RefinementPoint> candidate;
   if (violation.kind == ViolationKind::kExtractManifold) {
-    umbrella_queued_[violation.element] = false;
     candidate = extract_manifold(VertexId(violation.element));
   } else {
     const DualEdgeId e(violation.element);
@@ -33,6 +33,8 @@ void Recovery::treat(const Violation& violation) {
 
   inherit_pole_height();
   queue_touched();
+  // A dual edge that is only cut back leaves the umbrella as it was.
+  if (violation.kind == ViolationKind::kExtractManifold) queue_umbrella(VertexId(violation.element));
 }
 
 std::int64_t Recovery::insert_points(std::span<const Vec3> points, Controls& controls) {

@@ -44,7 +44,7 @@ struct RecoverStats : StageStats {
   std::int64_t multi_intersect = 0;  // insertions by each of the three steps
   std::int64_t extract_manifold = 0;
   std::int64_t approximate_geometry = 0;
-  std::int64_t uncovered = 0;              // crossings far from the mesh, inserted between two runs
+  std::int64_t uncovered = 0;              // crossings far from the mesh
   std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
   std::int64_t in_slabs = 0;               // insertions in parts of the volume that several threads refine
   std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point

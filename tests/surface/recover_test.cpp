@@ -184,6 +184,18 @@ TEST(Recover, SlabsLeaveNoViolation) {
   EXPECT_LE(again.refused_by_size_bound, refused);
 }
 
+// An umbrella may need several points, and the first ones may leave it as it is.
+TEST(Recover, LooksAtAnUmbrellaAgainAfterEachPoint) {
+  for (const std::uint64_t seed : {2, 5, 23, 26}) {
+    const auto scene = field_scene("bubbles", 20 + static_cast<std::int32_t>(seed), seed);
+    Recovered result = run(*scene, coarse_options());
+    RecoverStats again;
+    Controls controls = free_run();
+    recover(*result.restricted, coarse_options(), controls, again);
+    EXPECT_EQ(again.insertions, 0) << scene->name;
+  }
+}
+
 // Points put in later are mended as if everything were looked at again; those refused stay out.
 TEST(Recover, WithMorePointsLeavesNoViolation) {
   for (const auto& scene : {field_scene("gyroid", 40), field_scene("bubbles", 24)}) {
