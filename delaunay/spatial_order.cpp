@@ -1,5 +1,6 @@
 #include "delaunay/spatial_order.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <utility>
@@ -124,12 +125,29 @@ class Sorter {
   }
 
  private:
-  // Sorts the points of each crowded cell again, over a box of their own.
+  // Sorts the points of each crowded cell again, over a box of their own; in others brings equal points together.
   void sort_crowds(std::span<KeyedPoint> items) {
     for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
       const std::uint64_t key = items[begin].key;
       for (end = begin; end < items.size() && items[end].key == key;) ++end;
-      if (end - begin > kCrowd && end - begin < items.size()) sort(items.subspan(begin, end - begin), false);
+      const auto cell = items.subspan(begin, end - begin);
+      if (cell.size() <= kCrowd) {
+        join_equals(cell);
+      } else if (cell.size() < items.size()) {
+        sort(cell, false);
+      }
+    }
+  }
+
+  // Moves points up to those that they equal; the order stays as it is otherwise.
+  void join_equals(std::span<KeyedPoint> cell) {
+    for (std::size_t next = 1; next + 1 < cell.size(); ++next) {
+      const Vec3& p = points_[cell[next - 1].index];
+      for (auto equal = cell.begin() + static_cast<std::ptrdiff_t>(next); equal != cell.end(); ++equal) {
+        if (points_[equal->index] != p) continue;
+        std::rotate(cell.begin() + static_cast<std::ptrdiff_t>(next), equal, equal + 1);
+        break;
+      }
     }
   }
 

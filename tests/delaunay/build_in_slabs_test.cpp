@@ -51,8 +51,10 @@ void expect_same_slots(const BowyerWatson& a, const BowyerWatson& b) {
 
 TEST(BuildInSlabs, GivesTheTriangulationThatIsBuiltInOne) {
   Rng rng(11);
-  std::vector<std::pair<std::string, Points>> kinds = {
-      {"random", test::random_points(kCount, rng)}, {"integers", integer_points(rng)}, {"tubes", tubes(rng)}};
+  std::vector<std::pair<std::string, Points>> kinds = {{"random", test::random_points(kCount, rng)},
+                                                       {"integers", integer_points(rng)},
+                                                       {"tubes", tubes(rng)},
+                                                       {"twice", test::twice_in_shared_cells(30'000, rng)}};
   for (const auto& [name, points] : kinds) {
     SCOPED_TRACE(name);
     const Box3 box = test::box_of(points);

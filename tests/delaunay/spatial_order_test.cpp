@@ -36,17 +36,24 @@ TEST(SpatialOrder, IsAPermutation) {
   }
 }
 
+void expect_equal_points_together(const Points& points) {
+  const std::vector<std::uint32_t> order = spatial_order(points);
+  std::map<std::array<double, 3>, std::size_t> last;  // position in the order
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    const Vec3& p = points[order[at]];
+    const auto [found, is_new] = last.try_emplace({p.x + 0.0, p.y + 0.0, p.z + 0.0}, at);
+    if (is_new) continue;
+    ASSERT_EQ(std::exchange(found->second, at), at - 1);
+    ASSERT_LT(order[at - 1], order[at]);
+  }
+}
+
 TEST(SpatialOrder, EqualPointsFollowEachOtherByIndex) {
   Rng rng(2);
   Points points = test::duplicates(3000, rng);
   for (std::size_t i = 0; i < points.size(); i += 2) points[i] = scaled(points[i], {1, -1, 1});  // zeros of both signs
-  const std::vector<std::uint32_t> order = spatial_order(points);
-  std::map<std::array<double, 3>, std::uint32_t> last;
-  for (const std::uint32_t i : order) {
-    const auto [found, is_new] = last.try_emplace({points[i].x + 0.0, points[i].y + 0.0, points[i].z + 0.0}, i);
-    if (is_new) continue;
-    ASSERT_LT(std::exchange(found->second, i), i);
-  }
+  expect_equal_points_together(points);
+  expect_equal_points_together(test::twice_in_shared_cells(3000, rng));
 }
 
 // A curve that fills space visits n random points in a path of about 0.92 n^(2/3); a random order needs 0.66 n.

@@ -106,6 +106,15 @@ inline Points duplicates(std::size_t count, Rng& rng) {
   return points;
 }
 
+// Random points and then the same again, with a few far outliers, for whose sake a few of each share a cell of the
+// curve along which points are inserted (delaunay/spatial_order.h).
+inline Points twice_in_shared_cells(std::size_t count, Rng& rng) {
+  Points points = random_points(count / 2, rng);
+  for (std::size_t i = 0; i < count / 2; ++i) points.push_back(points[i]);
+  for (const Vec3& way : random_points(4, rng)) points.push_back(6000 * way - Vec3{3000, 3000, 3000});
+  return points;
+}
+
 // Clusters of the size 1e-9 around a few far points.
 inline Points clusters(std::size_t count, Rng& rng) {
   const Points centers = random_points(6, rng);
