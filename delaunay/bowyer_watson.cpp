@@ -11,10 +11,11 @@ namespace {
 
 // Points of the input that are fetched together: they lie anywhere, and so their misses overlap.
 constexpr std::size_t kFetched = 256;
-// Parts are worth their start for so many points, once one in so many has been inserted: those of the last round or two
-// are left then.
+// Parts are worth their start for so many points, once one in kBeforeParts has been inserted: those of the last round
+// or two are left then. The rooms of two halves hold a few more vertices than there are points.
 constexpr std::size_t kFewestForParts = 16384;
-constexpr std::size_t kInsertedBeforeParts = 8;
+constexpr std::size_t kBeforeParts = 8;
+constexpr std::size_t kMoreForParts = 4;
 
 // Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
@@ -66,14 +67,14 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
 }
 
 void BowyerWatson::insert_all(const Insertions& all, std::optional<int> threads_of_parts) {
-  const std::size_t count = all.order.size();
-  points_.reserve(count);
-  incident_.reserve(count);
-  ranks_.reserve(count);
+  const std::size_t count = all.order.size(), room = count + kMoreForParts;
+  points_.reserve(room);
+  incident_.reserve(room);
+  ranks_.reserve(room);
   tets_.reserve(10 * count);  // six or seven in space, eight on a surface; pages not used cost nothing
   for (std::size_t i = 0; i < 4; ++i) all.vertices[i] = add_vertex(all.order[i], all.points[all.order[i]]);
   make_first_tet();
-  const std::size_t by_parts = threads_of_parts && count >= kFewestForParts ? count - count / kInsertedBeforeParts : 0;
+  const std::size_t by_parts = threads_of_parts && count >= kFewestForParts ? count - count / kBeforeParts : 0;
   insert_in_order(all.part(4, count - by_parts));
   if (by_parts > 0) insert_in_slabs(all.part(count - by_parts, count), *threads_of_parts);
   created_.clear();

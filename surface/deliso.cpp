@@ -243,7 +243,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   auto restricted = timed(result.initial, [&] {
     const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
     const FacetRule rule = parameters.stage1.one_sign_per_tetrahedron ? FacetRule::kSigns : FacetRule::kHits;
-    return std::make_unique<RestrictedDelaunay>(*isosurface, points, rule);
+    return std::make_unique<RestrictedDelaunay>(*isosurface, points, rule, options.threads);
   });
 
   const std::vector<Vec3> landmarks = timed(result.recover, [&] {

@@ -92,8 +92,8 @@ void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed, int
   };
   std::vector<Corners> corners(has_changed.size());
   for (auto corner = static_cast<std::uint32_t>(3 * facets_.size()); corner-- > 0;) {
-    Corners& at = corners[facets_[corner / 3].vertices[corner % 3].index()];
-    at = {corner, at.count + 1};
+    const std::size_t v = facets_[corner / 3].vertices[corner % 3].index();
+    if (has_changed[v]) corners[v] = {corner, corners[v].count + 1};
   }
   const auto is_one_fan = [&](const Corners& at) {
     std::uint32_t met = 0;

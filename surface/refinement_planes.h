@@ -14,8 +14,9 @@
 
 namespace deliso {
 
-// At most 10 slabs next to each other of `slab_triangles` or more, about, and an even number of them; a small mesh is
-// one. `work` estimates the insertions that each triangle needs. The same for any number of threads.
+// At most 10 slabs next to each other of about `slab_triangles`, and an even number of them, for which a small mesh is
+// cut finer; a very small one is one slab. `work` estimates the insertions that each triangle needs. The same for any
+// number of threads.
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
                                       std::size_t slab_triangles, int threads = 1);
 

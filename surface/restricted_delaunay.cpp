@@ -22,8 +22,9 @@ struct RestrictedFacet {
 
 }  // namespace
 
-RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule)
-    : SignedDelaunay(isosurface, points), rule_(rule) {
+RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule,
+                                       int threads)
+    : SignedDelaunay(isosurface, points, threads), rule_(rule) {
   const Stopwatch watch;
   search_everything();
   touched_vertices_.clear();  // by kHits searches have touched some

@@ -43,7 +43,8 @@ double surface_hit(const DualEdge& edge);
 class RestrictedDelaunay : public SignedDelaunay {
  public:
   // See SignedDelaunay.
-  RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule = FacetRule::kSigns);
+  RestrictedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, FacetRule rule = FacetRule::kSigns,
+                     int threads = 1);
 
   enum class Outcome { kInserted, kDuplicate, kTooClose, kBlocked };
   // Inserts the point unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with

@@ -156,13 +156,17 @@ TEST(UnfoundedPockets, AreTheSameForAnyNumberOfThreads) {
     turn_some(restricted, 3000, rng);
     UnfoundedPockets one(restricted, scene->grid, 1);
     one.update();
-    std::size_t across = 0;
-    for (const std::vector<TetId>& pocket : one.pockets()) {
-      const auto [low, high] = std::minmax_element(pocket.begin(), pocket.end());
-      across += low->index() / kBlockSize != high->index() / kBlockSize ? 1 : 0;
-    }
-    EXPECT_GT(across, 10u) << "seed " << seed;
     for (const int threads : {2, 3, 5}) {
+      const Shares shares(restricted.delaunay().tet_slots(), threads);
+      ASSERT_EQ(shares.count(), static_cast<std::size_t>(threads));
+      std::size_t across = 0;
+      for (const std::vector<TetId>& pocket : one.pockets()) {
+        const auto [low, high] = std::minmax_element(pocket.begin(), pocket.end());
+        for (std::size_t k = 1; k < shares.count(); ++k) {
+          across += low->index() < shares.begin(k) && shares.begin(k) <= high->index() ? 1 : 0;
+        }
+      }
+      EXPECT_GT(across, 3u) << "seed " << seed << ", " << threads << " threads";
       UnfoundedPockets several(restricted, scene->grid, threads);
       several.update();
       EXPECT_EQ(several.pockets(), one.pockets()) << "seed " << seed << ", " << threads << " threads";
