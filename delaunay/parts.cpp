@@ -1,5 +1,6 @@
 // Parts of a triangulation, by which several threads insert at the same time.
 #include "delaunay/base/check.h"
+#include "delaunay/base/parallel.h"
 #include "delaunay/bowyer_watson.h"
 
 namespace deliso {
@@ -14,10 +15,16 @@ std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std:
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
   if (tets + count * created > kMostTets) return {};
-  points_.make_room(vertices + count * insertions, threads);
-  incident_.make_room(vertices + count * insertions, threads);
-  if (!ranks_.empty()) ranks_.make_room(vertices + count * insertions, threads);
-  tets_.make_room(tets + count * created, threads);
+  const int threads_each = (threads + 1) / 2;
+  run_tasks(2, threads, [&](std::size_t task) {
+    if (task == 0) {
+      tets_.make_room(tets + count * created, threads_each);
+    } else {
+      points_.make_room(vertices + count * insertions, threads_each);
+      incident_.make_room(vertices + count * insertions, threads_each);
+      if (!ranks_.empty()) ranks_.make_room(vertices + count * insertions, threads_each);
+    }
+  });
   std::vector<PartRoom> rooms(count);
   const auto first_free = [&](std::size_t k) {
     return free_.begin() + static_cast<std::ptrdiff_t>(k * free_.size() / count);

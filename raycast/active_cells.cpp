@@ -19,7 +19,7 @@ constexpr std::size_t kSlabLayers = 32;
 struct SampleSigns {
   std::size_t words_per_row = 0;
   std::size_t rows_per_slice = 0;
-  std::vector<Word> words;
+  UnwrittenArray<Word> words;
 
   SampleSigns(const ScalarGrid& grid, double isovalue, int threads) {
     const auto n = static_cast<std::size_t>(grid.dims()[0]);
@@ -33,6 +33,7 @@ struct SampleSigns {
       run_tasks((rows + rows_per_slab - 1) / rows_per_slab, threads, [&](std::size_t slab) {
         const std::size_t last = std::min(rows, (slab + 1) * rows_per_slab);
         for (std::size_t row = slab * rows_per_slab; row < last; ++row) {
+          words[(row + 1) * words_per_row - 1] = 0;
           sides.pack(samples.data() + row * n, n, &words[row * words_per_row]);
         }
       });
@@ -91,12 +92,16 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue, int threads) {
       places_[a][c] = ((c & 3) << (2 * a)) + (((c >> 2) & 1) << (6 + a)) + (c >> 3) * line_stride;
     line_stride *= (static_cast<std::size_t>(n[a]) >> 3) + 1;
   }
-  words_.assign(line_stride / 64, 0);
+  words_.resize(line_stride / kWordBits);
+  const std::size_t words_per_eight_layers = words_.size() / ((static_cast<std::size_t>(n[2]) >> 3) + 1);
   const SampleSigns signs(grid, isovalue, threads);
   const std::size_t layers = places_[2].size();
   run_tasks((layers + kSlabLayers - 1) / kSlabLayers, threads, [&](std::size_t slab) {
     std::vector<Word> active(signs.words_per_row);
     const auto last = static_cast<std::int32_t>(std::min(layers, (slab + 1) * kSlabLayers));
+    const std::size_t first_eight = slab * kSlabLayers / 8, last_eight = (static_cast<std::size_t>(last) + 7) / 8;
+    std::fill_n(words_.data() + first_eight * words_per_eight_layers,
+                (last_eight - first_eight) * words_per_eight_layers, Word{0});
     for (auto z = static_cast<std::int32_t>(slab * kSlabLayers); z < last; ++z) {
       for (std::int32_t y = 0; y <= n[1]; ++y) {
         const std::int32_t j0 = std::max(y - 1, 0), j1 = std::min(y, n[1] - 1);

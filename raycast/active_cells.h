@@ -44,7 +44,7 @@ class ActiveCells {
   [[nodiscard]] bool any_active_of_many(const Cell& low, const Cell& high) const;
 
   std::array<std::vector<std::size_t>, 3> places_;
-  LargeArray<std::uint64_t> words_;
+  UnwrittenArray<std::uint64_t> words_;
 };
 
 }  // namespace deliso

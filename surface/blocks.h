@@ -90,11 +90,13 @@ void run_in_turn(std::size_t count, int threads, First&& first, Second&& second,
 
 // What append(element, items) appends for the elements below `count`, in their order.
 template <class Item, class Append>
-std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& append) {
-  std::vector<std::vector<Item>> found((count + kBlockSize - 1) / kBlockSize);
-  for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) append(i, found[first / kBlockSize]);
-  });
+std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& append,
+                                    std::size_t block_size = kBlockSize) {
+  std::vector<std::vector<Item>> found((count + block_size - 1) / block_size);
+  const auto collect = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) append(i, found[first / block_size]);
+  };
+  for_each_block(count, threads, collect, block_size);
   std::size_t total = 0;
   for (const std::vector<Item>& some : found) total += some.size();
   std::vector<Item> items;

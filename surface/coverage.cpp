@@ -75,7 +75,7 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
 }
 
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads) {
-  const LargeArray<EdgeCrossing>& all = topology.crossings;
+  const auto& all = topology.crossings;
   std::array<std::size_t, 3> bricks{};  // along each axis
   for (std::size_t axis = 0; axis < 3; ++axis) bricks[axis] = static_cast<std::size_t>(grid.dims()[axis] / kBrick) + 1;
   std::vector<std::uint32_t> brick_of(all.size());

@@ -209,7 +209,7 @@ void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, 
 
 // Stage 1 and repair alone look up crossings.
 void drop_crossings(IsosurfaceTopology& topology) {
-  LargeArray<EdgeCrossing>().swap(topology.crossings);
+  UnwrittenArray<EdgeCrossing>().swap(topology.crossings);
   topology.index = {};
   release_free_memory();
 }

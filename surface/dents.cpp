@@ -6,6 +6,7 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/triangle_contact.h"
+#include "surface/blocks.h"
 #include "surface/box_tree.h"
 #include "surface/gradients_at.h"
 #include "surface/least_triangulation.h"
@@ -23,6 +24,8 @@ constexpr double kLeastDistance = 0.5;
 // The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
 constexpr double kFarthestCover = 0.2;
 
+// So many vertices are a thread's at a time.
+constexpr std::size_t kVerticesAtOnce = 2048;
 // So many triangles share a box when they are looked for all over the mesh: most lie near those before them.
 constexpr std::size_t kTrianglesAtOnce = 32;
 
@@ -32,7 +35,7 @@ class Dents {
  public:
   Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
 
-  DentRemoval remove_all();
+  DentRemoval remove_all(int threads);
 
  private:
   // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
@@ -42,7 +45,7 @@ class Dents {
     Box3 box;
     std::vector<std::uint32_t> surroundings;
   };
-  void find_apexes();
+  void find_apexes(int threads);
   void find_surroundings();
   std::vector<Box3> boxes_of_dents();
   void look_around(Apex& apex, const Box3& box);
@@ -81,8 +84,8 @@ class Dents {
   SearchCounters search_;
 };
 
-DentRemoval Dents::remove_all() {
-  find_apexes();
+DentRemoval Dents::remove_all(int threads) {
+  find_apexes(threads);
   if (apexes_.empty()) return {};
   find_surroundings();
   // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
@@ -116,7 +119,7 @@ Triangles Dents::triangles_of(const VertexFan& fan) const {
 }
 
 // Inner vertices with a long edge whose triangles face against the surface on the whole.
-void Dents::find_apexes() {
+void Dents::find_apexes(int threads) {
   std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
   std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -128,8 +131,13 @@ void Dents::find_apexes() {
       normals[v] += n;
     }
   }
-  for (std::uint32_t v = 0; v < normals.size(); ++v) {
-    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) apexes_.push_back({v, {}, {}});
+  const auto append_if_against = [&](std::size_t i, std::vector<std::uint32_t>& found) {
+    const auto v = static_cast<std::uint32_t>(i);
+    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) found.push_back(v);
+  };
+  for (const std::uint32_t v :
+       collect_in_blocks<std::uint32_t>(normals.size(), threads, append_if_against, kVerticesAtOnce)) {
+    apexes_.push_back({v, {}, {}});
   }
 }
 
@@ -255,8 +263,8 @@ bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
 
 }  // namespace
 
-DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface) {
-  return Dents(mesh, isosurface).remove_all();
+DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
+  return Dents(mesh, isosurface).remove_all(threads);
 }
 
 }  // namespace deliso

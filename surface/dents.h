@@ -25,7 +25,7 @@ struct DentRemoval {
 // where the vertex is. What is left open is closed by the triangulation of the link that has the least area, if less of
 // it than before is far from the surface that faces the same way, and if it meets no other triangle and has no edge
 // that the mesh has elsewhere; or else the vertex stays. A disk replaces a disk, so the mesh stays homeomorphic to what
-// it was. The mesh may have pole heights or none.
-DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface);
+// it was. The mesh may have pole heights or none. The same for any number of threads.
+DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface, int threads = 1);
 
 }  // namespace deliso

@@ -20,7 +20,7 @@ namespace {
 constexpr double kShortest = 1.0 / 64;
 
 // Cells that one thread takes at a time.
-constexpr std::size_t kCellsAtOnce = 512;
+constexpr std::size_t kCellsAtOnce = 64;
 
 class Collector {
  public:

@@ -154,7 +154,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   const Task task{isosurface, options, controls, stats};
   RefinementPart whole;
   RefinementMesh& refined = whole.mesh;
-  refined = RefinementMesh(mesh);
+  refined = RefinementMesh(mesh, options.threads);
   mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
   set_clearances(refined);
   std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);

@@ -59,7 +59,7 @@ struct RefinementMesh {
   LargeArray<Triangle> triangles;
 
   RefinementMesh() = default;
-  explicit RefinementMesh(const SurfaceMesh& mesh);
+  explicit RefinementMesh(const SurfaceMesh& mesh, int threads = 1);
 
   [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
     return vertices[triangles[triangle].corners[i % 3]].point;
@@ -92,7 +92,7 @@ struct RefinementMesh {
   }
 
   // Clears what a refinement that is over has noted: attempts and generations.
-  void forget_attempts();
+  void forget_attempts(int threads = 1);
   // Writes points and triangles to `mesh`, and pole heights and neighbours, if they are to be kept; this mesh is empty
   // afterwards.
   void move_to(SurfaceMesh& mesh, int threads = 1, bool keep_neighbours = true);

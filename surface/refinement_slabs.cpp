@@ -144,7 +144,7 @@ void RefinementSlabs::refine_each(const RefinePart& refine) {
     hand_in(k, std::move(part));
   });
   for (const std::uint32_t v : suspects_) whole_.vertices[v].is_suspect = true;
-  whole_.forget_attempts();
+  whole_.forget_attempts(threads_);
 }
 
 // Whatever other parts have been put back by then: nothing that belongs to a part is touched by another one, and what

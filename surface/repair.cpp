@@ -105,7 +105,7 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
   }
   stats_.dents_removed = 0;
   if (controls.poll()) return;
-  auto [removed, left] = remove_dents(result_.mesh, isosurface_);
+  auto [removed, left] = remove_dents(result_.mesh, isosurface_, threads_);
   stats_.dents_removed = removed;
   dents_ = std::move(left);
 }

@@ -1,6 +1,7 @@
 // Parts of RestrictedDelaunay, for several threads.
 #include <algorithm>
 
+#include "delaunay/base/parallel.h"
 #include "surface/restricted_delaunay.h"
 
 namespace deliso {
@@ -48,11 +49,17 @@ void RestrictedDelaunay::forget_facets_gone() {
 }
 
 void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges, int threads) {
-  sign_.make_room(last.tets.last, threads);
-  tets_.make_room(last.tets.last, threads);
-  touches_.make_room(last.vertices.last, threads);
-  umbrellas_.make_room(last.vertices.last, threads);
-  dual_edges_.make_room(edges, threads);
+  const int threads_each = (threads + 1) / 2;
+  run_tasks(2, threads, [&](std::size_t task) {
+    if (task == 0) {
+      dual_edges_.make_room(edges, threads_each);
+      touches_.make_room(last.vertices.last, threads_each);
+      umbrellas_.make_room(last.vertices.last, threads_each);
+    } else {
+      tets_.make_room(last.tets.last, threads_each);
+      sign_.make_room(last.tets.last, threads_each);
+    }
+  });
 }
 
 RestrictedDelaunay::RestrictedDelaunay(RestrictedDelaunay& whole, const PartRoom& room, const EdgeRoom& edges)

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/parallel.h"
 #include "volume/cell_crossings.h"
 #include "volume/exact_topology_cell.h"
 
@@ -16,9 +18,7 @@ namespace {
 // Disjoint sets of crossings; the representative of a set is its smallest member.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<std::uint32_t>(i);
-  }
+  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
   std::uint32_t find(std::uint32_t x) {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
     return x;
@@ -49,11 +49,12 @@ class DisjointSets {
 class TopologyBuilder {
  public:
   TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index, int threads)
-      : grid_(grid),
-        isovalue_(isovalue),
-        threads_(threads),
-        sets_(index.crossing_count()),
-        twice_euler_of_crossing_(index.crossing_count(), 2) {
+      : grid_(grid), isovalue_(isovalue), threads_(threads), sets_(0) {
+    const std::size_t count = index.crossing_count();
+    run_tasks(2, threads, [&](std::size_t task) {
+      if (task == 0) sets_ = DisjointSets(count);
+      if (task == 1) twice_euler_of_crossing_.assign(count, 2);
+    });
     result_.index = std::move(index);
   }
 

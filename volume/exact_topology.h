@@ -37,7 +37,7 @@ struct SurfaceSaddle {
 
 struct IsosurfaceTopology {
   std::vector<ComponentTopology> components;  // numbered by their first crossing in (sample, axis) order
-  LargeArray<EdgeCrossing> crossings;         // in (sample, axis) order; every component has at least one
+  UnwrittenArray<EdgeCrossing> crossings;     // in (sample, axis) order; every component has at least one
   CrossingIndex index;                        // index.find(i, j, k, axis) is a place in `crossings`
   std::vector<SurfaceSaddle> saddles;         // by cell, x fastest
   // Cells in or on which the surface has a singular point although no sample equals the isovalue: the isovalue is that

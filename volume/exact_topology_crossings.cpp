@@ -122,9 +122,9 @@ std::uint32_t CrossingIndex::number(const CellIndex& cell, int edge) const {
   return number(cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2), e.axis);
 }
 
-LargeArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                        int threads) {
-  LargeArray<EdgeCrossing> crossings(index.crossing_count());
+UnwrittenArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                            int threads) {
+  UnwrittenArray<EdgeCrossing> crossings(index.crossing_count());
   const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
   const auto list_word = [&](const auto& samples, std::int32_t w, std::int32_t j, std::int32_t k) {
     const std::array<std::uint64_t, 3> crossed = index.crossed(w, j, k);

@@ -137,13 +137,13 @@ class CrossingIndex {
   Dims dims_{};
   std::int32_t words_per_row_ = 0;
   std::uint32_t crossing_count_ = 0;
-  LargeArray<std::uint64_t> above_;          // word (w, j, k) -> bits of its samples above the isovalue
-  LargeArray<std::uint32_t> first_in_word_;  // word (w, j, k) -> number of the first crossing from its samples
+  UnwrittenArray<std::uint64_t> above_;          // word (w, j, k) -> bits of its samples above the isovalue
+  UnwrittenArray<std::uint32_t> first_in_word_;  // word (w, j, k) -> number of the first crossing from its samples
 };
 
 // The crossings in the order of their numbers; their components are left 0. The same for any number of threads.
-LargeArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
-                                        int threads = 1);
+UnwrittenArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                            int threads = 1);
 
 // The crossing's place in index space.
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #ifdef __linux__
@@ -67,5 +69,25 @@ using HugePageAllocator = std::allocator<T>;
 // A vector for one large flat array.
 template <class T>
 using LargeArray = std::vector<T, HugePageAllocator<T>>;
+
+// The same, but elements made without a value hold anything until they are written: so they can be written for the
+// first time, which is when pages come, by several threads.
+template <class T>
+class UnwrittenAllocator : public HugePageAllocator<T> {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  UnwrittenAllocator() = default;
+  template <class U>
+  UnwrittenAllocator(const UnwrittenAllocator<U>& /*other*/) {}  // NOLINT: implicit conversion, as allocators need
+  template <class U>
+  void construct(U* /*place*/) {}
+  template <class U, class... Args>
+  void construct(U* place, Args&&... args) {
+    std::construct_at(place, std::forward<Args>(args)...);
+  }
+};
+template <class T>
+using UnwrittenArray = std::vector<T, UnwrittenAllocator<T>>;
 
 }  // namespace deliso

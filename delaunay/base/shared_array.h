@@ -74,16 +74,15 @@ class SharedArray {
   void reserve(std::size_t count, int threads = 1) {
     if (count <= room_) return;
     DELISO_CHECK(!is_view_, "a view stays within its range");
-    T* const larger = HugePageAllocator<T>().allocate(count);
+    SharedArray larger;
+    larger.data_ = HugePageAllocator<T>().allocate(count);
+    larger.room_ = count;
     run_tasks((size_ + kMovedAtOnce - 1) / kMovedAtOnce, threads, [&](std::size_t i) {
       const std::size_t first = i * kMovedAtOnce, last = std::min(size_, first + kMovedAtOnce);
-      std::uninitialized_move(data_ + first, data_ + last, larger + first);
+      std::uninitialized_move(data_ + first, data_ + last, larger.data_ + first);
     });
-    const std::size_t size = size_;
-    drop();
-    data_ = larger;
-    size_ = size;
-    room_ = count;
+    larger.size_ = size_;
+    swap(larger);
   }
   // The same, but when it grows it grows by half or more, so that it does not matter how often this is called.
   void make_room(std::size_t count, int threads = 1) {
