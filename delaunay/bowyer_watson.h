@@ -3,8 +3,8 @@
 // An insertion has two steps, so that a caller that keeps data on the tetrahedra can look before they go:
 //   find_conflicts(p, t)   the conflict region of p, found from a tetrahedron in conflict or, failing that, by a walk;
 //   fill_cavity()          replaces the region by the star of p.
-// A removal has one: remove(v). After insertions and removals in any order the triangulation is that of the points that
-// are left, as if it had been built from them in the order of their vertices.
+// A removal has one: remove(v), which may take others along. After insertions and removals in any order the
+// triangulation is that of the points that are left, as if it had been built from them in the order of their vertices.
 //
 // Parts. Several threads may insert at the same time, each by a part: a triangulation that shares the arrays of the
 // whole, but takes away only tetrahedra that lie within its slab, with all their finite vertices strictly between its
@@ -99,13 +99,17 @@ class BowyerWatson : public Tetrahedralization {
   // Forgets the region instead.
   void abandon_cavity();
 
-  // Takes v away, and fills the hole that its star leaves (vertex_removal.cpp). The new tetrahedra are created(), the
-  // old ones were destroyed(). The vertex keeps its place in the numbering, without a tetrahedron, until close_gaps().
-  // Returns false and changes nothing when all points left are coplanar.
-  bool remove(VertexId v);
+  // Takes v away, and fills the hole that its star leaves (vertex_removal.cpp). Of `others` (by vertex; it may end
+  // before the last one) those that are to go and hang together with v by edges may go with it, which takes less time
+  // than one by one; what has gone is to go no more. The new tetrahedra are created(), the old ones were destroyed().
+  // Vertices keep their places in the numbering, without a tetrahedron, until close_gaps(). Returns false and changes
+  // nothing when all points left are coplanar.
+  enum class Going : std::uint8_t { kNo, kYes, kNow };  // kNow is for remove() itself
+  bool remove(VertexId v, std::span<Going> others = {});
   // Slots; some may hold tetrahedra that are created().
   [[nodiscard]] std::span<const TetId> destroyed() const { return hole_.star; }
-  // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one.
+  // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one. Nothing is
+  // destroyed() any more.
   std::vector<VertexId> close_gaps();
 
   // An insertion of a part needs so many slots, all in all; when there are fewer, it ends sooner.
@@ -177,7 +181,10 @@ class BowyerWatson : public Tetrahedralization {
   void star_rim(VertexId apex);
   template <class EdgeTable>
   void star_rim(VertexId apex, EdgeTable& edges);
-  void find_star(VertexId v);
+  void take_along(VertexId v);
+  [[nodiscard]] bool goes_now(VertexId v) const;
+  void find_star();
+  void add_star(VertexId v);
   bool triangulate_link();
   void find_fill();
   void glue_fill();
@@ -222,16 +229,22 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<Corners> region_corners_;  // of region_[i]
   std::vector<std::uint32_t> rim_from_;  // rim_[i] seen from inside, as 4 * position in region_ + face
   SquareEdgeTable edges_;
-  // What remove() works with. The facets of the rim are those of the star opposite its vertex.
+  // What remove() works with.
   struct Hole {
-    std::vector<TetId> star;
+    std::span<Going> others;
+    std::vector<VertexId> gone;       // that go together, the one asked for first
+    std::vector<TetId> star;          // the tetrahedra at them
+    std::vector<TetId> at_vertex;     // those at one of them
+    std::vector<std::uint32_t> seen;  // of each tetrahedron: the latest walk around a vertex that has come to it
+    std::uint32_t walk = 0;
     std::vector<FacetId> rim;                     // as the star knows them
     std::vector<FacetId> beyond;                  // as the tetrahedra around the star know them
-    std::vector<VertexId> vertices;               // of the link, and perhaps of the tetrahedra around it; ascending
+    std::vector<VertexId> vertices;               // of the star, perhaps of the tetrahedra around it; ascending
     std::vector<Vec3> points;                     // of these vertices
     std::unique_ptr<BowyerWatson> triangulation;  // of the points
     // The facets of the rim by the names of their vertices in that triangulation.
     std::vector<std::pair<std::array<VertexId, 3>, std::uint32_t>> names;
+    std::vector<std::uint32_t> first;   // of each of these vertices: the first name that begins with it
     std::vector<std::uint32_t> rim_at;  // of each facet of the triangulation: its place in rim, or none
     std::vector<TetId> fill;            // the tetrahedra of it that lie in the hole
     std::vector<std::uint32_t> place;   // of each of its tetrahedra: in fill, or none

@@ -1,14 +1,18 @@
-// Taking a vertex away (after Devillers: On deletion in Delaunay triangulations, 2002; Devillers, Teillaud:
+// Taking vertices away (after Devillers: On deletion in Delaunay triangulations, 2002; Devillers, Teillaud:
 // Perturbations and vertex removal in a 3D Delaunay triangulation, 2003).
 //
-// Every tetrahedron that comes into the hole has its vertices on the link of the vertex that goes, and it is not in
-// conflict with any vertex left. So it belongs to the triangulation of the link's vertices alone, too, perturbed in the
-// same order: triangulate them, and take over what that triangulation has inside the hole. Ghosts are like the others.
+// Vertices that are joined by edges go together: the hole is the union of their stars, and its link has hardly more
+// vertices than that of one of them. Every tetrahedron that comes into the hole has its vertices on the link, and it is
+// not in conflict with any vertex left. So it belongs to the triangulation of the link's vertices alone, too, perturbed
+// in the same order: triangulate them, and take over what that triangulation has inside the hole. Ghosts are like the
+// others.
 //
 // The same holds of any set of vertices left that the link is a part of. When the link's own are coplanar, the far
 // vertices of the tetrahedra around the star are added. If all are coplanar then, around the star are ghosts alone, and
 // the star is everything but its link.
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "delaunay/base/check.h"
 #include "delaunay/bowyer_watson.h"
@@ -18,6 +22,7 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFu;
+constexpr std::size_t kMostAtOnce = 256;  // vertices that go together
 
 using FacetName = std::array<VertexId, 3>;
 
@@ -29,44 +34,81 @@ FacetName named(FacetName v) {
 
 }  // namespace
 
-bool BowyerWatson::remove(VertexId v) {
+bool BowyerWatson::remove(VertexId v, std::span<Going> others) {
   DELISO_CHECK(region_size_ == 0, "no cavity is open");
   DELISO_CHECK(v.index() < points_.size() && is_live(v), "only a live vertex can go");
-  find_star(v);
-  if (!triangulate_link()) return false;
-  find_fill();
-  glue_fill();
-  incident_[v.index()] = TetId::none();
-  return true;
+  hole_.others = others;
+  hole_.gone.clear();
+  take_along(v);
+  find_star();
+  const bool may_go = triangulate_link();
+  if (may_go) {
+    find_fill();
+    glue_fill();
+  }
+  for (const VertexId gone : hole_.gone) {
+    if (may_go) incident_[gone.index()] = TetId::none();
+    if (gone.index() < others.size()) others[gone.index()] = may_go ? Going::kNo : Going::kYes;
+  }
+  hole_.others = {};
+  return may_go;
 }
 
-// The tetrahedra at v, the facets around them, and the vertices of these.
-void BowyerWatson::find_star(VertexId v) {
-  hole_.star.assign(1, incident_tet(v));
+void BowyerWatson::take_along(VertexId v) {
+  hole_.gone.push_back(v);
+  if (v.index() < hole_.others.size()) hole_.others[v.index()] = Going::kNow;
+}
+
+bool BowyerWatson::goes_now(VertexId v) const {
+  return v == hole_.gone.front() || (v.index() < hole_.others.size() && hole_.others[v.index()] == Going::kNow);
+}
+
+// The vertices that go together, the tetrahedra at them, and the facets around these.
+void BowyerWatson::find_star() {
+  hole_.star.clear();
+  hole_.vertices.clear();
+  for (std::size_t i = 0; i < hole_.gone.size(); ++i) add_star(hole_.gone[i]);
+
   hole_.rim.clear();
   hole_.beyond.clear();
-  hole_.vertices.clear();
-  set_mark(hole_.star.front(), kInside);
-  for (std::size_t i = 0; i < hole_.star.size(); ++i) {
-    const TetId t = hole_.star[i];
+  for (const TetId t : hole_.star) {
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId mirror(tets_[t.index()].mirrors[face].value & kMirrorMask);
-      if (vertices(t)[face] == v) {
-        hole_.rim.push_back(FacetId(t, face));
-        hole_.beyond.push_back(mirror);
-      } else if (mark(mirror.tet()) == kUnknown) {
-        set_mark(mirror.tet(), kInside);
-        hole_.star.push_back(mirror.tet());
-      }
+      if (mark(mirror.tet()) != kUnknown) continue;
+      hole_.rim.push_back(FacetId(t, face));
+      hole_.beyond.push_back(mirror);
     }
   }
   for (const TetId t : hole_.star) set_mark(t, kUnknown);
-  for (const FacetId f : hole_.rim) {
-    for (const VertexId q : facet_vertices(f)) hole_.vertices.push_back(q);
+}
+
+// The tetrahedra at one vertex that goes, as far as they are not there already, and their vertices.
+void BowyerWatson::add_star(VertexId v) {
+  hole_.seen.resize(tet_slots(), 0);
+  const std::uint32_t walk = ++hole_.walk;
+  std::vector<TetId>& at_vertex = hole_.at_vertex;
+  at_vertex.assign(1, incident_tet(v));
+  hole_.seen[at_vertex.front().index()] = walk;
+  for (std::size_t i = 0; i < at_vertex.size(); ++i) {
+    const TetId t = at_vertex[i];
+    for (unsigned face = 0; face < 4; ++face) {
+      if (vertices(t)[face] == v) continue;
+      const TetId across = FacetId(tets_[t.index()].mirrors[face].value & kMirrorMask).tet();
+      if (std::exchange(hole_.seen[across.index()], walk) != walk) at_vertex.push_back(across);
+    }
+    if (mark(t) != kUnknown) continue;
+    set_mark(t, kInside);
+    hole_.star.push_back(t);
+    for (const VertexId q : vertices(t)) {
+      hole_.vertices.push_back(q);
+      const bool may_go = q.index() < hole_.others.size() && hole_.others[q.index()] == Going::kYes;
+      if (may_go && hole_.gone.size() < kMostAtOnce) take_along(q);
+    }
   }
 }
 
-// Triangulates the vertices of the link in the order of the perturbation; false when all vertices left are coplanar.
+// Triangulates the vertices of the star that are left in the order of the perturbation; false when all vertices left
+// are coplanar.
 bool BowyerWatson::triangulate_link() {
   if (!hole_.triangulation) hole_.triangulation = std::make_unique<BowyerWatson>(box_);
   for (const bool widened : {false, true}) {
@@ -75,7 +117,7 @@ bool BowyerWatson::triangulate_link() {
     }
     std::sort(hole_.vertices.begin(), hole_.vertices.end());
     hole_.vertices.erase(std::unique(hole_.vertices.begin(), hole_.vertices.end()), hole_.vertices.end());
-    if (hole_.vertices.back() == kInfiniteVertex) hole_.vertices.pop_back();
+    std::erase_if(hole_.vertices, [&](VertexId q) { return q == kInfiniteVertex || goes_now(q); });
     hole_.points.clear();
     for (const VertexId q : hole_.vertices) hole_.points.push_back(point(q));
     if (hole_.triangulation->build(hole_.points)) return true;
@@ -99,6 +141,10 @@ void BowyerWatson::find_fill() {
     rim.emplace_back(named({name_there(v[0]), name_there(v[1]), name_there(v[2])}), i);
   }
   std::sort(rim.begin(), rim.end());
+  std::vector<std::uint32_t>& first = hole_.first;
+  first.assign(hole_.vertices.size() + 1, 0);
+  for (const auto& [name, i] : rim) ++first[name[0].index() + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
 
   // Step 2: find them there.
   hole_.rim_at.assign(4 * link.tet_slots(), kNowhere);
@@ -114,16 +160,20 @@ void BowyerWatson::find_fill() {
     const FacetId f(static_cast<std::uint32_t>(i));
     if (!link.is_live(f.tet())) continue;
     const FacetName name = named(link.facet_vertices(f));
-    const auto at = std::lower_bound(rim.begin(), rim.end(), name,
-                                     [](const auto& entry, const FacetName& wanted) { return entry.first < wanted; });
-    if (at == rim.end() || at->first != name) continue;
+    const auto last = rim.begin() + first[name[0].index() + 1];
+    const auto at = std::find_if(rim.begin() + first[name[0].index()], last,
+                                 [&](const auto& entry) { return entry.first == name; });
+    if (at == last) continue;
     hole_.rim_at[i] = at->second;
     fill_with(f.tet());
     ++found;
   }
   DELISO_CHECK(found == rim.size(), "the triangulation of the link holds the rim of the hole");
 
-  // Step 3: what lies behind facets that are not on the rim.
+  // Step 3: what lies behind facets that are not on the rim. There is none when all tetrahedra go.
+  for (std::size_t i = 0; rim.empty() && i < link.tet_slots(); ++i) {
+    if (link.is_live(TetId(i))) fill_with(TetId(i));
+  }
   for (std::size_t i = 0; i < hole_.fill.size(); ++i) {
     for (unsigned face = 0; face < 4; ++face) {
       const FacetId f(hole_.fill[i], face);
@@ -156,6 +206,7 @@ void BowyerWatson::glue_fill() {
 }
 
 std::vector<VertexId> BowyerWatson::close_gaps() {
+  hole_ = {};  // large where many vertices went together
   std::vector<VertexId> renamed(points_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {

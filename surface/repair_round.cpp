@@ -59,7 +59,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
 bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                            ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
-  for (TetSigns& signs : signs_by_rule_) signs.clear();
+  forget_rules();
   at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
   for (const TetId t : exchanged.renewed) at_circumcenters_[t.index()] = restricted_->is_above(t) ? 1 : 0;
   std::size_t kept = 0;

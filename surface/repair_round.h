@@ -46,6 +46,10 @@ class RepairRound {
   // foundation.
   void take_signs(SignRule rule);
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
+  // No rule will be taken before points are exchanged: what they gave goes.
+  void forget_rules() {
+    for (TetSigns& signs : signs_by_rule_) TetSigns().swap(signs);
+  }
   // Turns some signs over; then those without foundation.
   void overturn(std::span<const TetId> tets);
   // What that would change (local_characteristic.h).

@@ -6,8 +6,7 @@ namespace deliso {
 
 namespace {
 
-// Samples are exchanged in place when that takes fewer insertions, a removal counted as so many, than a share of all.
-constexpr std::size_t kRemovalCost = 8;
+// Samples are exchanged in place when they are fewer than this share of all.
 constexpr std::size_t kExchangeShare = 4;
 
 std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
@@ -58,7 +57,7 @@ Resampling RepairSamples::resampling(const RaisedCells& raised, const SampleLatt
 }
 
 bool RepairSamples::changes_few(const Resampling& resampling) const {
-  return kRemovalCost * resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
+  return resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
 }
 
 // A lattice sample that equals a vertex is not kept: should the vertex go, it is found again.

@@ -102,8 +102,11 @@ bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const
   std::vector<TetId>& renewed = exchanged.renewed;
   const auto note = [&](std::span<const TetId> tets) { renewed.insert(renewed.end(), tets.begin(), tets.end()); };
   // Step 1: take away; a point that comes may be where one has gone.
+  std::vector<BowyerWatson::Going> goes(delaunay_.vertex_count(), BowyerWatson::Going::kNo);
+  for (const VertexId v : leaving) goes[v.index()] = BowyerWatson::Going::kYes;
   for (const VertexId v : leaving) {
-    if (!delaunay_.remove(v)) return false;
+    if (goes[v.index()] == BowyerWatson::Going::kNo) continue;  // has gone with another one
+    if (!delaunay_.remove(v, goes)) return false;
     note(delaunay_.destroyed());
     note(delaunay_.created());
   }

@@ -100,6 +100,56 @@ TEST(VertexRemoval, LeavesTheTriangulationOfTheOthersInLargerSets) {
   }
 }
 
+using Going = BowyerWatson::Going;
+
+// Marks some vertices, so many of a hundred, and takes them away with those they hang together with.
+void remove_together(const std::string& name, const Points& points, Rng& rng, std::size_t percent) {
+  const Box3 box = test::box_of(points);
+  BowyerWatson tets(box);
+  ASSERT_TRUE(tets.build(points)) << name;
+  std::vector<Going> goes(tets.vertex_count(), Going::kNo);
+  for (Going& going : goes) going = rng.below(100) < percent ? Going::kYes : Going::kNo;
+  const std::vector<Going> wanted = goes;
+  std::size_t calls = 0, gone = 0;
+  for (std::size_t i = 0; i < goes.size(); ++i) {
+    if (goes[i] != Going::kYes) continue;
+    const std::vector<Going> before = goes;
+    if (!tets.remove(VertexId(i), goes)) {
+      ASSERT_EQ(goes, before) << name;
+      ASSERT_EQ(test::tetrahedra_as_sets(tets), built_anew(tets, box)) << name << ": nothing changes";
+      goes[i] = Going::kNo;
+      continue;
+    }
+    ASSERT_EQ(goes[i], Going::kNo) << name;
+    ++calls;
+    for (std::size_t v = 0; v < goes.size(); ++v) {
+      ASSERT_TRUE(goes[v] == before[v] || (before[v] == Going::kYes && goes[v] == Going::kNo)) << name;
+      gone += goes[v] != before[v] ? 1 : 0;
+    }
+    if (calls % 8 != 1) continue;
+    ASSERT_EQ(violation_of(tets), "none") << name;
+    ASSERT_EQ(test::tetrahedra_as_sets(tets), built_anew(tets, box)) << name;
+  }
+  ASSERT_EQ(violation_of(tets), "none") << name;
+  ASSERT_EQ(test::tetrahedra_as_sets(tets), built_anew(tets, box)) << name;
+  for (std::size_t v = 0; v < goes.size(); ++v) {
+    ASSERT_TRUE(wanted[v] == Going::kYes || tets.is_live(VertexId(v))) << name << ": no other goes";
+  }
+  EXPECT_TRUE(percent < 50 || gone <= 20 || calls < gone) << name << ": most hang together";
+}
+
+TEST(VertexRemoval, OfManyAtOnceLeavesTheTriangulationOfTheOthers) {
+  for (const std::size_t percent : {5U, 30U, 60U, 95U, 100U}) {
+    Rng rng(percent);
+    for (const std::size_t count : {12U, 70U, 700U}) {
+      for (const auto& [name, points] : test::all_kinds(count, rng)) {
+        remove_together(name + ", " + std::to_string(percent) + " of 100", points, rng, percent);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
 // A plane of points and a few on either side: links that are coplanar though what is left is not.
 TEST(VertexRemoval, TakesApexesOffAPlane) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
