@@ -239,7 +239,7 @@ class BowyerWatson : public Tetrahedralization {
     std::uint32_t walk = 0;
     std::vector<FacetId> rim;                     // as the star knows them
     std::vector<FacetId> beyond;                  // as the tetrahedra around the star know them
-    std::vector<VertexId> vertices;               // of the star, perhaps of the tetrahedra around it; ascending
+    std::vector<VertexId> vertices;               // of the link, and perhaps of the tetrahedra around it; ascending
     std::vector<Vec3> points;                     // of these vertices
     std::unique_ptr<BowyerWatson> triangulation;  // of the points
     // The facets of the rim by the names of their vertices in that triangulation.

@@ -15,7 +15,7 @@ std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std:
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
   if (tets + count * created > kMostTets) return {};
-  const int threads_each = (threads + 1) / 2;
+  const int threads_each = (threads + 1) / 2;  // of two arrays beside each other: most of it is waiting for fresh pages
   run_tasks(2, threads, [&](std::size_t task) {
     if (task == 0) {
       tets_.make_room(tets + count * created, threads_each);

@@ -1,11 +1,12 @@
 // Taking vertices away (after Devillers: On deletion in Delaunay triangulations, 2002; Devillers, Teillaud:
 // Perturbations and vertex removal in a 3D Delaunay triangulation, 2003).
 //
-// Vertices that are joined by edges go together: the hole is the union of their stars, and its link has hardly more
-// vertices than that of one of them. Every tetrahedron that comes into the hole has its vertices on the link, and it is
-// not in conflict with any vertex left. So it belongs to the triangulation of the link's vertices alone, too, perturbed
-// in the same order: triangulate them, and take over what that triangulation has inside the hole. Ghosts are like the
-// others.
+// Vertices that are joined by edges go together: the hole is the union of their stars, and its link, here all vertices
+// of these tetrahedra that are left, is hardly larger than that of one star. Every tetrahedron that comes into the hole
+// has its vertices on the link, and it is not in conflict with any vertex left. So it belongs to the triangulation of
+// the link's vertices alone, too, perturbed in the same order: triangulate them, and take over what that triangulation
+// has inside the hole. Ghosts are like the others. Where every tetrahedron goes, the hole has no rim, and all of that
+// triangulation is taken over.
 //
 // The same holds of any set of vertices left that the link is a part of. When the link's own are coplanar, the far
 // vertices of the tetrahedra around the star are added. If all are coplanar then, around the star are ghosts alone, and
@@ -107,8 +108,7 @@ void BowyerWatson::add_star(VertexId v) {
   }
 }
 
-// Triangulates the vertices of the star that are left in the order of the perturbation; false when all vertices left
-// are coplanar.
+// Triangulates the vertices of the link in the order of the perturbation; false when all vertices left are coplanar.
 bool BowyerWatson::triangulate_link() {
   if (!hole_.triangulation) hole_.triangulation = std::make_unique<BowyerWatson>(box_);
   for (const bool widened : {false, true}) {
@@ -170,7 +170,7 @@ void BowyerWatson::find_fill() {
   }
   DELISO_CHECK(found == rim.size(), "the triangulation of the link holds the rim of the hole");
 
-  // Step 3: what lies behind facets that are not on the rim. There is none when all tetrahedra go.
+  // Step 3: what lies behind facets that are not on the rim; everything where there is no rim.
   for (std::size_t i = 0; rim.empty() && i < link.tet_slots(); ++i) {
     if (link.is_live(TetId(i))) fill_with(TetId(i));
   }

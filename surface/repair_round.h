@@ -46,9 +46,10 @@ class RepairRound {
   // foundation.
   void take_signs(SignRule rule);
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
-  // No rule will be taken before points are exchanged: what they gave goes.
-  void forget_rules() {
-    for (TetSigns& signs : signs_by_rule_) TetSigns().swap(signs);
+  // Before meshes are put together, after which there is hardly ever another round: what can be found again goes.
+  void rest() {
+    forget_rules();
+    pairing_.reset();
   }
   // Turns some signs over; then those without foundation.
   void overturn(std::span<const TetId> tets);
@@ -93,6 +94,9 @@ class RepairRound {
  private:
   static constexpr std::size_t kRulesAfterExchange = 3;
 
+  void forget_rules() {
+    for (TetSigns& signs : signs_by_rule_) TetSigns().swap(signs);
+  }
   void find_components(std::size_t first);
   void keep_signs(const ExchangedPoints& exchanged);
   std::optional<PairedTriangles> take_triangles(const TetSigns& signs);

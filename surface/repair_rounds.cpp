@@ -76,7 +76,6 @@ bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   try_rules(controls);
   release_free_memory();
   try_signs(controls);
-  round_->forget_rules();
   ++stats_.rounds;
   return true;
 }

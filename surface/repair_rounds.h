@@ -40,9 +40,12 @@ class RepairRounds {
   [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
                                                         const SurfaceMesh& mesh) const;
 
-  // What the rounds have kept, with pole heights.
+  // What the rounds have kept, with pole heights, to be put together.
   const KeptMeshes& kept() {
-    if (round_) kept_.give_poles(*round_);
+    if (round_) {
+      kept_.give_poles(*round_);
+      round_->rest();
+    }
     return kept_;
   }
   // Whether another round may follow a mesh that seemed to be right.

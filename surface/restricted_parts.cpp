@@ -48,6 +48,7 @@ void RestrictedDelaunay::forget_facets_gone() {
   }
 }
 
+// In two arrays beside each other: most of it is waiting for fresh pages.
 void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges, int threads) {
   const int threads_each = (threads + 1) / 2;
   run_tasks(2, threads, [&](std::size_t task) {

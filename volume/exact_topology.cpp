@@ -51,6 +51,7 @@ class TopologyBuilder {
   TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index, int threads)
       : grid_(grid), isovalue_(isovalue), threads_(threads), sets_(0) {
     const std::size_t count = index.crossing_count();
+    // Beside each other: most of it is waiting for fresh pages.
     run_tasks(2, threads, [&](std::size_t task) {
       if (task == 0) sets_ = DisjointSets(count);
       if (task == 1) twice_euler_of_crossing_.assign(count, 2);
