@@ -156,6 +156,60 @@ TEST(Parts, AreBlockedByWhatTheyMayNotTakeAway) {
   EXPECT_GT(found, 200u);
 }
 
+// Beyond the hull its conflict region may lie within the slab all the same.
+TEST(Parts, AreBlockedByAPointBeyondTheirSlab) {
+  Rng rng(6);
+  const Points points = test::random_points(300, rng);
+  Box3 box = test::box_of(points);
+  const double plane = box.high.x + 0.25;
+  box.extend({plane + 1, box.high.y, box.high.z});
+  BowyerWatson whole(box);
+  ASSERT_TRUE(whole.build(points));
+  auto parts = parts_of(whole, slabs_between({plane}, 0), 10);
+  ASSERT_EQ(parts.size(), 2u);
+  std::size_t tried = 0;
+  for (const double x : {plane, plane + 0.5}) {
+    const Vec3 p{x, 0.5 * box.low.y + 0.5 * box.high.y, 0.5 * box.low.z + 0.5 * box.high.z};
+    for (std::size_t i = 0; i < whole.tet_slots(); ++i) {
+      const TetId t(i);
+      if (!whole.is_live(t) || !whole.in_conflict(t, p)) continue;
+      parts[0]->find_conflicts(p, t);
+      EXPECT_TRUE(parts[0]->is_blocked());
+      if (!parts[0]->is_blocked()) parts[0]->abandon_cavity();
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 2u);
+}
+
+// Also without asking has_room(), which leaves a few hundred slots for large stars.
+TEST(Parts, AreBlockedWhereAStarHasNoRoom) {
+  Rng rng(8);
+  const Points points = test::random_points(800, rng);
+  BowyerWatson whole(test::box_of(points));
+  ASSERT_TRUE(whole.build(std::span(points).first(300)));
+  const auto rooms = whole.make_rooms(std::vector<Slab>(1), 500, 1, 0.0);
+  ASSERT_EQ(rooms.size(), 1u);
+  BowyerWatson part(whole, rooms[0]);
+  std::size_t inserted = 0, blocked = 0;
+  for (const Vec3& p : std::span(points).subspan(300)) {
+    part.find_conflicts(p, part.locate(p, part.incident_tet(VertexId(0))));
+    if (part.is_blocked()) {
+      EXPECT_TRUE(part.conflict_region().empty());
+      ++blocked;
+    } else {
+      ASSERT_NO_THROW(part.fill_cavity());
+      ++inserted;
+    }
+  }
+  EXPECT_GT(inserted, 20u);
+  EXPECT_GT(blocked, 300u);
+  whole.join(part);
+  whole.finish_join();
+  EXPECT_EQ(whole.vertex_count(), 300 + inserted);
+  EXPECT_EQ(violation_of(whole), "none");
+}
+
 TEST(Parts, EndWhereTheirRoomDoes) {
   Rng rng(7);
   const Points points = test::random_points(1200, rng);
@@ -168,6 +222,12 @@ TEST(Parts, EndWhereTheirRoomDoes) {
   EXPECT_FALSE(parts[0]->has_room());
   EXPECT_FALSE(parts[1]->has_room());
   EXPECT_EQ(counts.inserted, 40u);
+  for (const Vec3& p : std::span(left).first(30)) {
+    const TetId start = parts[0]->locate(p, parts[0]->incident_tet(VertexId(0)));
+    if (start.index() >= parts[0]->tet_slots()) continue;  // of the other part
+    parts[0]->find_conflicts(p, start);
+    EXPECT_TRUE(parts[0]->is_blocked());
+  }
   join(whole, parts);
   EXPECT_EQ(whole.vertex_count(), 440u);
   EXPECT_EQ(violation_of(whole), "none");

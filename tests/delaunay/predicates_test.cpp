@@ -207,6 +207,32 @@ TEST(PerturbedInsphere, EqualsTheExactDeterminantWithRaisedLifts) {
   EXPECT_GE(ties, 500);
 }
 
+// Points next to the line y = 3 x, closer to it than the rounding of a determinant. (After Kettner et al.: Classroom
+// examples of robustness problems in geometric computations, 2008.)
+TEST(NormalSign, IsExactNextToALine) {
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      const double x = 0.5 + i * 0x1p-53, y = 1.5 + j * 0x1p-52;
+      const int expected = 2 * j > 3 * i ? 1 : 2 * j < 3 * i ? -1 : 0;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const auto at = [&](double u, double v) {
+          Vec3 p;
+          p[(axis + 1) % 3] = u;
+          p[(axis + 2) % 3] = v;
+          return p;
+        };
+        const Vec3 a = at(-12, -36), b = at(24, 72), c = at(x, y);
+        ASSERT_EQ(normal_sign(a, b, c, axis), expected) << i << " " << j;
+        ASSERT_EQ(normal_sign(b, c, a, axis), expected) << i << " " << j;
+        ASSERT_EQ(normal_sign(c, a, b, axis), expected) << i << " " << j;
+        ASSERT_EQ(normal_sign(c, b, a, axis), -expected) << i << " " << j;
+        ASSERT_EQ(collinear(a, c, b), expected == 0) << i << " " << j;
+        ASSERT_EQ(collinear(c, a, b), expected == 0) << i << " " << j;
+      }
+    }
+  }
+}
+
 TEST(Collinear, AgreesWithExactCrossProducts) {
   Rng rng(61);
   int lines = 0;

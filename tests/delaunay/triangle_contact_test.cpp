@@ -30,6 +30,50 @@ TriangleContact contact(const Pair& mesh) {
   return there;
 }
 
+// In a plane, a corner closer to the other triangle's long edge, on the line y = 3 x, than the rounding of a
+// determinant.
+TEST(TriangleContact, IsExactNextToAnEdgeInAPlane) {
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      const double x = 0.5 + i * 0x1p-53, y = 1.5 + j * 0x1p-52;
+      const TriangleContact expected = 2 * j > 3 * i    ? TriangleContact::kNone
+                                       : 2 * j == 3 * i ? TriangleContact::kTouching
+                                                        : TriangleContact::kCrossing;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Pair mesh{{}, {{0, 1, 2}, {3, 4, 5}}};
+        for (const auto& [u, v] : {std::array<double, 2>{-12, -36}, {24, 72}, {24, -36}, {x, y}, {1, 60}, {-5, 60}}) {
+          Vec3& p = mesh.points.emplace_back();
+          p[(axis + 1) % 3] = u;
+          p[(axis + 2) % 3] = v;
+        }
+        ASSERT_EQ(contact(mesh), expected) << i << " " << j << " " << axis;
+      }
+    }
+  }
+}
+
+// Triangles with a corner in common whose edges there run along one ray, on either side of a plane through it: they
+// always meet. The second one's middle is that of the first one mirrored in the plane across (1, 2, 3).
+TEST(TriangleContact, EdgesAlongACommonRayAlwaysMeet) {
+  Rng rng(12);
+  const auto integer = [&rng] { return std::floor(rng.uniform(-1000, 1000)); };
+  const Vec3 across{1, 2, 3};
+  int trials = 0;
+  while (trials < 20000) {
+    const double q = integer(), r = integer();
+    const Vec3 ray{-2 * q - 3 * r, q, r};
+    Vec3 middle{0, integer(), integer()};
+    middle.x = 7 * integer() - 2 * middle.y - 3 * middle.z;
+    const double turn = dot(middle, across) / 7;
+    const Vec3 mirrored = middle - turn * across;
+    if (ray == Vec3{} || turn <= 0) continue;
+    ++trials;
+    // All integers: exact.
+    const Pair mesh{{{0, 0, 0}, middle - 3 * ray, 3 * ray, 5 * ray, mirrored - 5 * ray}, {{0, 1, 2}, {0, 3, 4}}};
+    ASSERT_NE(contact(mesh), TriangleContact::kNone) << trials;
+  }
+}
+
 // Random triangles on a tiny grid, where every degeneracy is frequent, sharing 0, 1 or 2 vertices.
 TEST(TriangleContact, AgreesWithExactSeparatingPlanesOnIntegerGrids) {
   std::array<std::array<std::int64_t, 3>, 3> seen{};  // by shared vertices and answer

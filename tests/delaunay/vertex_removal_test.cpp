@@ -229,6 +229,7 @@ TEST(VertexRemoval, ClosingGapsKeepsTheOrder) {
   for (std::size_t i = 0; i < points.size(); i += 3) ASSERT_TRUE(tets.remove(VertexId(i)));
   EXPECT_EQ(tets.vertex_count(), points.size());
   const std::vector<VertexId> renamed = tets.close_gaps();
+  EXPECT_TRUE(tets.destroyed().empty());
   ASSERT_EQ(renamed.size(), points.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

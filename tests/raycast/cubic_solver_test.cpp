@@ -122,6 +122,17 @@ TEST(BracketedSolver, FindsPairsOfRootsThatAreCloseTogether) {
   }
 }
 
+// The leading term counts as zero, and the parabola without it stays above zero: the only root is lost.
+TEST(SchwarzeSignChanges, FindsARootThatTheClosedFormLoses) {
+  const double c0 = 1 + 5e-6, c1 = -2, c2 = 1, c3 = -1e-5;  // (1 - t)^2 + 5e-6 - 1e-5 t^3
+  ASSERT_EQ(schwarze_roots({c0, c1, c2, c3}).count, 0);
+  const BernsteinCubic b = {c0, c0 + c1 / 3, c0 + 2 * c1 / 3 + c2 / 3, c0 + c1 + c2 + c3};
+  const SignChanges found = schwarze_sign_changes(b);
+  ASSERT_EQ(found.count, 1);
+  EXPECT_NEAR(static_cast<double>(value_at(b, found.at[0])), 0, 1e-14);
+  EXPECT_NEAR(found.at[0], bracketed_sign_changes(b).at[0], 1e-12);
+}
+
 TEST(SchwarzeRoots, GivesAllRealRootsOfOddMultiplicity) {
   const SignChanges three = schwarze_roots({-6, 11, -6, 1});  // 1, 2, 3
   ASSERT_EQ(three.count, 3);

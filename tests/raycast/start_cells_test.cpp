@@ -107,6 +107,61 @@ TEST(StartCells, NothingIsFoundWhereTheLineRisesStandsOrLeavesTheCell) {
   EXPECT_FALSE(falling_hit_around({nan, 1, 1, 1, 1, 1, 1, -1}, {0.5, 0.5, 0.5}, {1, 0, 0}).has_value());
 }
 
+// Along the main diagonal of a cell whose corners depend on their number of ones alone, the interpolant is the cubic
+// with these Bernstein coefficients: so its roots are known.
+CellCorners corners_with_roots_on_diagonal(double r0, double r1, double r2, double scale) {
+  const std::array<double, 3> r = {r0, r1, r2};
+  const auto blossom = [&](std::size_t ones) {
+    double sum = 0;
+    for (const auto& o : {std::array{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}) {
+      double product = 1;
+      for (std::size_t i = 0; i < 3; ++i) product *= (i < ones ? 1 : 0) - r[static_cast<std::size_t>(o[i])];
+      sum += product;
+    }
+    return scale * sum / 6;
+  };
+  CellCorners corners;
+  for (std::size_t c = 0; c < 8; ++c) corners[c] = blossom((c & 1) + (c >> 1 & 1) + (c >> 2));
+  return corners;
+}
+
+TEST(StartCells, HitsOfBentCubicsAreTheNearestFallingRoots) {
+  Rng rng(7);
+  int found = 0, tempting = 0;
+  for (int trial = 0; trial < 100000; ++trial) {
+    std::array<double, 3> roots;
+    for (double& root : roots) root = rng.uniform();
+    std::sort(roots.begin(), roots.end());
+    if (roots[1] - roots[0] < 1e-2 || roots[2] - roots[1] < 1e-2) continue;
+    const double scale = rng.below(2) == 0 ? 1 : -1, start = rng.uniform(0.2, 0.8);
+    const CellCorners corners = corners_with_roots_on_diagonal(roots[0], roots[1], roots[2], scale);
+    double nearest = 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool falls = (i == 1) == (scale > 0);
+      if (falls && std::abs(roots[i] - start) < std::abs(nearest)) nearest = roots[i] - start;
+    }
+    ++tempting;
+    const auto t = falling_hit_around(corners, {start, start, start}, {1, 1, 1});
+    if (!t) continue;
+    ++found;
+    ASSERT_NEAR(*t, nearest, 1e-10) << trial;
+  }
+  EXPECT_GT(found, tempting / 20);
+}
+
+TEST(StartCells, HitsBeyondTheReachAreNone) {
+  StartCells cells;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    put_in_lane({{-1, 1, -1, 1, -1, 1, -1, 1}, {0.7, 0.5, 0.5}, {-1, 0, 0}}, lane, cells);  // 2 u - 1: a hit at 0.2
+    cells.reach[lane] = lane == 0 ? 0.19 : lane == 1 ? 0.21 : lane == 2 ? -1 : 10;
+  }
+  falling_hits_around(cells);
+  EXPECT_TRUE(std::isnan(cells.hit[0]));
+  EXPECT_NEAR(cells.hit[1], 0.2, 1e-15);
+  EXPECT_TRUE(std::isnan(cells.hit[2]));
+  EXPECT_NEAR(cells.hit[3], 0.2, 1e-15);
+}
+
 TEST(StartCells, LanesDoNotKnowOfEachOther) {
   Rng rng(5);
   for (int trial = 0; trial < 2000; ++trial) {

@@ -43,6 +43,16 @@ std::string only_difference(const Certificate& certificate) {
                                              : std::to_string(certificate.differences.size()) + " differences";
 }
 
+// By its counts alone it would be a disk.
+TEST(Certificate, ATriangleThatNamesAVertexTwiceIsNoDisk) {
+  TriangleMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}};
+  mesh.triangles = {{0, 0, 1}};
+  const Certificate certificate = certify(mesh, Components{{1, 1}});
+  EXPECT_FALSE(certificate.manifold);
+  EXPECT_EQ(certificate.verdict, Verdict::kDifferent);
+}
+
 TEST(Certificate, ProvesEqualMultisets) {
   TriangleMesh mesh = sphere_mesh(2);
   mesh = disjoint_union(mesh, torus_mesh(8, 5));

@@ -92,6 +92,24 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   }
 }
 
+// A triangle is left out early by its first corner only when it is too small to reach a point from there.
+TEST(Coverage, ATriangleReachesAPointFarFromItsFirstCorner) {
+  const Vec3 p{10, 10, 10};
+  const auto any = [](std::uint32_t) { return true; };
+  for (double far = 0.5; far < 16; far += 0.25) {
+    for (const double side : {-1.0, 1.0}) {
+      SurfaceMesh mesh;
+      mesh.points = {p + side * Vec3{far, 0, 0}, p + side * Vec3{0.3, 0, 0}, p + side * Vec3{0.3, 0.5, 0}};
+      mesh.triangles = {{0, 1, 2}};
+      mesh.neighbours = {{kNoSide, kNoSide, kNoSide}};
+      // Another point, for the point to lie anywhere in its block.
+      for (double other = 0; other < 8; other += 0.3) {
+        EXPECT_EQ(covering_triangles({p, p - Vec3{other, 0, 0}}, mesh, any)[0], 0u) << far << " " << side;
+      }
+    }
+  }
+}
+
 // Stage 1 as it stands at its start: most crossings are not covered.
 TEST(Coverage, FindsTheSameForAnyNumberOfThreads) {
   const auto scene = field_scene("gyroid", 64);

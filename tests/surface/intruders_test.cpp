@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "surface/link_sides.h"
+#include "surface/mesh_pieces.h"
 #include "surface/polygonized_components.h"
 #include "tests/support/surface_fields.h"
 
@@ -85,6 +86,16 @@ TEST(Intruders, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
     EXPECT_EQ(left, 0);
     EXPECT_EQ(mesh.triangles(), before);
   }
+}
+
+TEST(Intruders, AVertexOnNoComponentIsNone) {
+  Swallowing mesh;
+  const std::vector<Triangle> before = mesh.triangles();
+  mesh.surface.component[mesh.surface.mesh.triangles[mesh.host()][0]] = kNoComponent;
+  const auto [removed, left] = mesh.remove();
+  EXPECT_EQ(removed, 0);
+  EXPECT_EQ(left, 0);
+  EXPECT_EQ(mesh.triangles(), before);
 }
 
 TEST(Intruders, AVertexStaysWhenNothingElseIsNearOnItsComponent) {

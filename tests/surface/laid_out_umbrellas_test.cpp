@@ -109,6 +109,18 @@ TEST(ProjectedTriangle, TellsSensesAndStraddledCorners) {
   EXPECT_GT(certain, 3000U);
 }
 
+// Next to the line y = 3 x, closer than the rounding of a determinant: what is said is right.
+TEST(ProjectedTriangle, SaysNothingWrongNextToALine) {
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      const double x = 0.5 + i * 0x1p-53, y = 1.5 + j * 0x1p-52;
+      const ProjectedTriangle triangle({-12, -36, 0}, {24, 72, 0}, {x, y, 0});
+      const std::uint32_t along_z = triangle.senses() >> 2 & 9U;
+      EXPECT_TRUE(along_z == 0 || along_z == (2 * j > 3 * i ? 1U : 2 * j < 3 * i ? 8U : 64U)) << i << " " << j;
+    }
+  }
+}
+
 // Steps along the axes, and corners in line with the vertex.
 TEST(LaidOutUmbrellas, AreThoseOfARegularGrid) {
   for (std::size_t up = 0; up < 3; ++up) {

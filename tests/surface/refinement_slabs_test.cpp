@@ -188,6 +188,20 @@ TEST(RefinementSlabs, FrozenTrianglesThatPartsWakeAreCoarseInTheWhole) {
   EXPECT_EQ(woken, 1u);
 }
 
+// A later refinement counts its attempts anew: none of the parts' numbers may be taken for one of its own.
+TEST(RefinementSlabs, WhatPartsNotedOfTheirAttemptsIsForgotten) {
+  const RefinementMesh mesh(wavy_square(40));
+  RefinementMesh whole = mesh;
+  RefinementSlabs(whole, {{1, 10.5, 20.5}}, std::vector<float>(mesh.triangles.size()), 1)
+      .refine_each([&](std::size_t, RefinementPart& part) {
+        for (RefinementMesh::Triangle& t : part.mesh.triangles) t.attempt = 7;
+        for (RefinementMesh::Vertex& v : part.mesh.vertices) v.attempt = 7;
+        for (std::uint32_t t = part.frozen; t < part.mesh.triangles.size(); ++t) part.mesh.triangles[t].renew();
+      });
+  for (const RefinementMesh::Triangle& t : whole.triangles) ASSERT_TRUE(t.attempt == 0 && !t.is_renewed());
+  for (const RefinementMesh::Vertex& v : whole.vertices) ASSERT_EQ(v.attempt, 0u);
+}
+
 TEST(RunTasks, RunsEachTaskOnceAndThrowsTheFirstError) {
   for (const int threads : {0, 1, 2, 7}) {
     std::vector<int> runs(100, 0);

@@ -49,6 +49,13 @@ TEST(Specks, AreMissedWhereACrossingIsFarForTheirSize) {
   top->z = 2;
   EXPECT_EQ(specks.missed_by(matched(flat, topology)), std::vector<std::uint32_t>{0});
 
+  // A stray of its own there does not make up for it.
+  TriangleMesh with_stray = flat;
+  const auto first = static_cast<std::uint32_t>(flat.points.size());
+  for (const Vec3& p : {Vec3{2, 2, 2.09}, Vec3{2.01, 2, 2.09}, Vec3{2, 2.01, 2.09}}) with_stray.points.push_back(p);
+  with_stray.triangles.push_back({first, first + 1, first + 2});
+  EXPECT_EQ(specks.missed_by(matched(with_stray, topology)), std::vector<std::uint32_t>{0});
+
   // As far as that the larger one may be off.
   TriangleMesh larger = mesh;
   for (Vec3& p : larger.points) p.z += p.x > 4 && p.z > 2.1 ? -0.1 : 0;
@@ -58,6 +65,23 @@ TEST(Specks, AreMissedWhereACrossingIsFarForTheirSize) {
   TriangleMesh none = mesh;
   std::erase_if(none.triangles, [&](const auto& t) { return none.points[t[0]].x > 4; });
   EXPECT_EQ(specks.missed_by(matched(none, topology)), std::vector<std::uint32_t>{1});
+}
+
+// A quarter of a long one would be more than a crossing may be off anywhere.
+TEST(Specks, MayBeOffByNoMoreThanAnyOtherPartOfTheSurface) {
+  std::vector<double> samples(5 * 10 * 5, 0);
+  for (std::size_t y = 2; y < 8; ++y) samples[2 + 5 * (y + 10 * 2)] = 3;
+  const ScalarGrid grid({5, 10, 5}, samples);
+  const IsosurfaceTopology topology = exact_topology(grid, 1);
+  ASSERT_EQ(topology.components.size(), 1u);
+  ASSERT_EQ(topology.crossings.size(), 26u);
+  const MarchingCubesMesh cubes = marching_cubes(grid, 1);
+  const Specks specks(grid, topology, {1, 1, 1});
+  for (const double cut : {0.0, 0.6, 1.0, 1.3}) {
+    TriangleMesh mesh{cubes.points, cubes.triangles};
+    for (Vec3& p : mesh.points) p.y = std::min(p.y, 7 + 2.0 / 3 - cut);
+    EXPECT_EQ(specks.missed_by(matched(mesh, topology)).size(), cut > 0.8 ? 1u : 0u) << cut;
+  }
 }
 
 }  // namespace

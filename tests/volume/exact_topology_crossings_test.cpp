@@ -68,6 +68,17 @@ TEST(ExactTopology, CrossingsStayInsideTheirEdge) {
   }
 }
 
+// Differences that overflow, and places that round to an end.
+TEST(EdgeParameter, IsAFractionAlsoOfHugeAndOfUnevenSegments) {
+  const double huge = 1.7e308;
+  EXPECT_DOUBLE_EQ(edge_parameter(-huge, huge, 0), 0.5);
+  EXPECT_DOUBLE_EQ(edge_parameter(huge, -huge, huge / 2), 0.25);
+  EXPECT_DOUBLE_EQ(edge_parameter(-huge, huge, huge / 2), 0.75);
+  EXPECT_DOUBLE_EQ(edge_parameter(-1, 3, 0), 0.25);
+  for (const double t : {edge_parameter(-1e-300, huge, 0), edge_parameter(-huge, 1e-300, 0)})
+    EXPECT_TRUE(0 < t && t < 1);
+}
+
 TEST(FaceArcs, ADisksBoundaryIsMadeOfThem) {
   Rng rng(27);
   for (int i = 0; i < 200; ++i) {
