@@ -42,7 +42,10 @@ void BowyerWatson::take_slots(std::span<const TetId> old, std::size_t count) {
   }
   while (created_.size() < count) {
     if (free_.empty()) {
-      DELISO_CHECK(tets_.size() < kMostTets, "there is room for another tetrahedron");
+      if (tets_.size() >= kMostTets) {
+        throw InputError("a triangulation of this surface has more than " + std::to_string(kMostTets) +
+                         " tetrahedra, expected no more");
+      }
       created_.push_back(TetId(tets_.size()));
       tets_.emplace_back();
     } else {

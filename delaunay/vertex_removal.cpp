@@ -38,6 +38,7 @@ FacetName named(FacetName v) {
 bool BowyerWatson::remove(VertexId v, std::span<Going> others) {
   DELISO_CHECK(region_size_ == 0, "no cavity is open");
   DELISO_CHECK(v.index() < points_.size() && is_live(v), "only a live vertex can go");
+  const Going before = v.index() < others.size() ? others[v.index()] : Going::kNo;
   hole_.others = others;
   hole_.gone.clear();
   take_along(v);
@@ -51,6 +52,7 @@ bool BowyerWatson::remove(VertexId v, std::span<Going> others) {
     if (may_go) incident_[gone.index()] = TetId::none();
     if (gone.index() < others.size()) others[gone.index()] = may_go ? Going::kNo : Going::kYes;
   }
+  if (!may_go && v.index() < others.size()) others[v.index()] = before;
   hole_.others = {};
   return may_go;
 }

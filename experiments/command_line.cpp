@@ -65,6 +65,10 @@ RawOptions raw_options(const VolumeOptions& options) {
   return raw;
 }
 
+std::string refuse_empty_value(const std::string& value) {
+  return value.empty() ? "expected a value, found an empty one" : "";
+}
+
 }  // namespace
 
 double parse_number(const std::string& text, const std::string& option) {
@@ -97,13 +101,18 @@ std::string refuse_empty_name(const std::string& name) {
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
   command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")->type_name("")->required();
   command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)")
-      ->type_name("NX,NY,NZ");
+      ->type_name("NX,NY,NZ")
+      ->check(refuse_empty_value);
   command
       .add_option("--type", options.type, "Of a .raw file: " + supported_sample_types() + " (default: from its name)")
-      ->type_name("T");
-  command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big")->type_name("ORDER");
+      ->type_name("T")
+      ->check(refuse_empty_value);
+  command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big")
+      ->type_name("ORDER")
+      ->check(refuse_empty_value);
   command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)")
-      ->type_name("SX,SY,SZ");
+      ->type_name("SX,SY,SZ")
+      ->check(refuse_empty_value);
 }
 
 ScalarGrid load_volume(const VolumeOptions& options) {

@@ -55,6 +55,14 @@ std::string nearest_key(std::string_view path) {
                    std::string(key_of(path)) + "\": " + short_json(value) + "}}, found the key '" + path + "'");
 }
 
+// Whether a number is the same as a double, as far as integers go.
+bool has_exact_double(const Json& value) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kMost);
+  if (value.is_number_integer()) return -kMost <= value.get<std::int64_t>() && value.get<std::int64_t>() <= kMost;
+  return std::abs(value.get<double>()) <= static_cast<double>(kMost);
+}
+
 // The value if it has the field's type and lies in its range. The view of a choice is one of the table's.
 std::optional<ParameterValue> convert(const ParameterField& field, const Json& value) {
   if (value.is_null() && field.nullable) return ParameterValue();
@@ -69,7 +77,7 @@ std::optional<ParameterValue> convert(const ParameterField& field, const Json& v
       break;
     case ParameterType::kInteger: {
       // 8.0 and 8e0 are integers too. Beyond 2^53 a double does not tell integers apart.
-      if (!value.is_number() || std::abs(value.get<double>()) > 0x1p53) break;
+      if (!value.is_number() || !has_exact_double(value)) break;
       const auto number = value.get<double>();
       if (number != std::floor(number) || number < field.range.low || number > field.range.high) break;
       return static_cast<std::int64_t>(number);

@@ -13,6 +13,7 @@
 #include "volume/analytic_fields.h"
 #include "volume/field_slices.h"
 #include "volume/io/volume_file.h"
+#include "volume/isovalue_range.h"
 
 namespace deliso {
 namespace {
@@ -35,6 +36,13 @@ void print_list() {
   table.print(std::cout, true);
   std::cout << '\n';
   for (const AnalyticField& field : analytic_fields()) std::cout << field.name << ": " << field.description << '\n';
+}
+
+// Coarse volumes may miss what the field has.
+std::string suggested_isovalue(const AnalyticField& field, std::int32_t size, std::uint64_t seed) {
+  constexpr std::int32_t kCoarse = 16;
+  const bool has_points = size > kCoarse || has_isosurface(generate_field(field.name, size, seed), field.isovalue);
+  return number_text(field.isovalue) + (has_points ? "" : " (no point of it at this size)");
 }
 
 ExitCode run_generate(const GenerateCommandOptions& options) {
@@ -68,7 +76,7 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
       .row({"volume", options.output})
       .row({"dims", side + " " + side + " " + side})
       .row({"type", field.type_name})
-      .row({"suggested isovalue", number_text(field.isovalue)})
+      .row({"suggested isovalue", suggested_isovalue(field, size, seed)})
       .print(std::cout);
   return ExitCode::kDone;
 }

@@ -130,7 +130,10 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
     return mesh_isosurface(grid, isovalue, watched);
   }();
-  if (meshing.parameters.certify) judge_rounding(result.mesh, options.output, result.certificate);
+  if (meshing.parameters.certify) {
+    const Vec3& s = grid.spacing();
+    judge_rounding(result.mesh, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+  }
 
   write_outputs(options, run, result);
   print_summary(result, meshing.threads);

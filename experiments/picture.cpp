@@ -1,13 +1,12 @@
 #include "experiments/picture.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <numbers>
-#include <thread>
 #include <vector>
 
+#include "delaunay/base/parallel.h"
 #include "experiments/lighting.h"
 
 namespace deliso {
@@ -27,17 +26,6 @@ std::array<float, 3> floats(const Vec3& v) {
 }
 Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-// Calls work(i) for 0 <= i < count, each once, on several threads.
-void for_each_row(std::int32_t count, std::int32_t threads, const std::function<void(std::int32_t)>& work) {
-  std::atomic<std::int32_t> next = 0;
-  const auto take_rows = [&] {
-    for (std::int32_t row = next++; row < count; row = next++) work(row);
-  };
-  std::vector<std::jthread> others;
-  for (std::int32_t i = 1; i < std::min(threads, count); ++i) others.emplace_back(take_rows);
-  take_rows();
-}
-
 // The rays of a picture: samples^2 per pixel, on a regular lattice.
 class SamplePlane {
  public:
@@ -49,7 +37,8 @@ class SamplePlane {
         width_(camera.width() * options.samples),
         height_(camera.height() * options.samples),
         samples_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
-    for_each_row(height_, options.threads, [this](std::int32_t row) {
+    run_tasks(static_cast<std::size_t>(height_), options.threads, [this](std::size_t i) {
+      const auto row = static_cast<std::int32_t>(i);
       for (std::int32_t column = 0; column < width_; ++column) cell(column, row) = traced(column, row);
     });
   }
@@ -167,7 +156,8 @@ void draw(const Shape& shape, const Box3& kept, const Camera& camera, const Pict
   const Surroundings surroundings(camera, options.samples);
   // How it looks: a pixel is the mean of its samples, where nothing is seen over the colour that it has (white).
   const std::int32_t n = options.samples;
-  for_each_row(camera.height(), options.threads, [&](std::int32_t y) {
+  run_tasks(static_cast<std::size_t>(camera.height()), options.threads, [&](std::size_t row_of_pixels) {
+    const auto y = static_cast<std::int32_t>(row_of_pixels);
     for (std::int32_t x = 0; x < camera.width(); ++x) {
       Colour sum;
       std::int32_t seen = 0;

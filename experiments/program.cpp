@@ -57,6 +57,33 @@ void check_first_argument(const CLI::App& app, int argc, const char* const* argv
                    "' (deliso --help lists all)");
 }
 
+const CLI::App* find_command(const CLI::App& app, std::string_view name) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+// CLI11 would first tell which required options are missing, where one is only misspelt.
+void check_option_names(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* command = argc < 2 ? nullptr : find_command(app, argv[1]);
+  if (command == nullptr) return;
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (int i = 2; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    const std::string_view name = argument.substr(0, argument.find('='));
+    if (name == "--") return;
+    if (!name.starts_with("--") || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const auto longer = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.starts_with(name); });
+    throw InputError("unknown option '" + std::string(name) + "' of " + argv[1] + ", the nearest is '" +
+                     (longer != names.end() ? *longer : nearest_name(name, names)) + "' (deliso " + argv[1] +
+                     " --help lists all)");
+  }
+}
+
 ExitCode run(int argc, const char* const* argv) {
   CLI::App app("Certified Delaunay meshes of isosurfaces of scalar volumes", "deliso");
   app.set_version_flag("--version", version_text);
@@ -74,6 +101,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_render_command(app, exit_code);
   add_schema_command(app, exit_code);
   check_first_argument(app, argc, argv);
+  check_option_names(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help or --version

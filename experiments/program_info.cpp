@@ -26,7 +26,12 @@ std::string cpu_name() {
 
 ProgramInfo program_info() { return {DELISO_VERSION, kCommit, DELISO_COMPILER, DELISO_FLAGS, cpu_name()}; }
 
+// Not what getrusage tells: that includes the peak of the process that started this one.
 std::int64_t peak_memory_bytes() {
+  std::ifstream stream("/proc/self/status");
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("VmHWM:")) return std::stoll(line.substr(6)) * 1024;  // "VmHWM:     1234 kB"
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB

@@ -90,6 +90,12 @@ Json stages_json(const MeshingResult& result) {
               {"refine", refine_json(result.refine)},    {"certify", certify_json(result)}};
 }
 
+// As the paper and the report call them.
+std::string stage_text(std::string_view stage) {
+  if (stage == "recover") return "stage 1 (recover)";
+  return stage == "refine" ? "stage 2 (refine)" : "the stage '" + std::string(stage) + "'";
+}
+
 }  // namespace
 
 Json program_json() {
@@ -123,9 +129,10 @@ Json topology_json(const std::vector<TopologyCount>& counts) {
 }
 
 Json certificate_json(const Certificate& certificate) {
+  const bool is_checked = certificate.verdict != Verdict::kNotChecked;
   return Json{{"verdict", verdict_name(certificate.verdict)},
-              {"manifold", certificate.manifold},
-              {"oriented", certificate.oriented},
+              {"manifold", is_checked ? Json(certificate.manifold) : Json()},
+              {"oriented", is_checked ? Json(certificate.oriented) : Json()},
               {"mesh", topology_json(certificate.mesh)},
               {"isosurface", topology_json(certificate.isosurface)},
               {"differences", certificate.differences}};
@@ -182,7 +189,7 @@ std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& re
   } else if (budget.seconds) {
     cause = "budget.seconds = " + Json(*budget.seconds).dump();
   }
-  std::vector<std::string> goals = {"refinement was stopped by " + cause +
+  std::vector<std::string> goals = {stage_text(result.stopped_in) + " was stopped by " + cause +
                                     " while triangles that violate a criterion were still waiting"};
   if (run.options.parameters.certify && result.certificate.verdict != Verdict::kHomeomorphic) {
     goals.push_back("the mesh is not proven homeomorphic to the isosurface");
@@ -202,6 +209,7 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
               {"threads", run.options.threads},
               {"r_min_voxels", result.r_min_voxels},
               {"stopped_early", result.stopped_early},
+              {"stopped_in", result.stopped_early ? Json(result.stopped_in) : Json()},
               {"unmet", unmet_goals(run, result)},
               {"vertices", result.mesh.points.size()},
               {"triangles", result.mesh.triangles.size()},

@@ -191,6 +191,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   }
   write_png(image, options.output);
   print_panels(options.output, image, panels, stopwatch.seconds());
+  remark_isovalue(read, isovalue, used);
   return ExitCode::kDone;
 }
 

@@ -8,8 +8,11 @@
 
 namespace deliso {
 
-// STL keeps coordinates as floats. When rounding them makes vertices coincide or triangles cross, which did not before,
-// the certificate's verdict becomes kDifferent, with a sentence that says so. Nothing happens for other formats.
-void judge_rounding(const TriangleMesh& mesh, const std::filesystem::path& path, Certificate& certificate);
+// STL keeps coordinates as floats. When rounding them makes vertices coincide, or triangles cross, which did not before,
+// or takes a vertex farther off the isosurface than verification allows (`voxel`: the smallest spacing), the
+// certificate's verdict becomes kDifferent, with a sentence that says so. Nothing happens for other formats, nor where a
+// coordinate is beyond the range of floats: such a file is not written.
+void judge_rounding(const TriangleMesh& mesh, double voxel, const std::filesystem::path& path,
+                    Certificate& certificate);
 
 }  // namespace deliso

@@ -89,8 +89,9 @@ std::vector<IsovalueSuggestion> suggested_isovalues(const SampleHistogram& histo
       suggestions.push_back({isovalue, reason});
     }
   };
+  const auto filled = std::count_if(histogram.counts.begin(), histogram.counts.end(), [](auto n) { return n > 0; });
   add(best_edges(histogram, 2), "separates two classes (Otsu)");
-  add(best_edges(histogram, 3), "separates three classes (Otsu)");
+  if (filled > 2) add(best_edges(histogram, 3), "separates three classes (Otsu)");
   return suggestions;
 }
 

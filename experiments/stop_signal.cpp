@@ -44,7 +44,11 @@ const std::atomic<bool>& catch_stop_signals() {
   return stop_requested;
 }
 
-void stop_at_signals() { handle_stop_signals(stop_now, static_cast<int>(SA_RESTART)); }
+void stop_at_signals() {
+  handle_stop_signals(stop_now, static_cast<int>(SA_RESTART));
+  // A file that may grow no further is a failed write like any other, which gets a message and leaves nothing behind.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 const char* Stopped::what() const noexcept { return kStoppedText; }
 

@@ -91,12 +91,16 @@ std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isos
 }
 
 std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
-                                    SearchCounters& counters) {
+                                    SearchCounters& counters, Controls* controls) {
+  constexpr std::size_t kFewestPoints = 1000;  // that a run begins with in any case
   std::vector<Vec3> points;
   std::vector<Hit> hits;
   const Vec3 size = isosurface.box().size();
   const auto random_point = [&] { return scaled(size, {rng.uniform(), rng.uniform(), rng.uniform()}); };
   for (int misses = 0; static_cast<std::int32_t>(points.size()) < count && misses < 1000;) {
+    const std::size_t left = static_cast<std::size_t>(count) - points.size();
+    if (controls != nullptr && points.size() >= kFewestPoints && controls->must_stop("initial", points.size(), left))
+      break;
     // A line through two random points, cut where it leaves the box.
     const Vec3 a = random_point();
     const Line line{a, random_point() - a};

@@ -27,10 +27,18 @@ class Controls {
   Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
       : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
 
+  // A stage begins.
+  void enter(std::string_view stage) {
+    stage_ = stage;
+    report(stage, 0, 0);
+  }
+  // The stage in which the run had to stop; empty when it had not.
+  [[nodiscard]] std::string_view stopped_in() const { return stopped_ ? stopped_in_ : std::string_view(); }
+
   // To be called before each insertion that is tried. True when the run must end now; it stays true.
   bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {
     if (stopped_) return true;
-    if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stopped_ = true;
+    if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stop();
     if ((calls_++ & 255u) != 0) return false;
     if (poll()) return true;
     report(stage, vertices, queued);
@@ -38,9 +46,10 @@ class Controls {
   }
   // The same between larger pieces of work, which insert nothing: looks at the clock and the stop flag.
   bool poll() {
-    stopped_ = stopped_ || (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
-               (budget_.seconds && watch_.seconds() > *budget_.seconds);
-    return stopped_;
+    if (stopped_) return true;
+    const bool is_over = (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
+                         (budget_.seconds && watch_.seconds() > *budget_.seconds);
+    return is_over && stop();
   }
   void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
     if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});
@@ -69,11 +78,17 @@ class Controls {
   }
 
  private:
+  bool stop() {
+    stopped_in_ = stage_;
+    return stopped_ = true;
+  }
+
   BudgetParameters budget_;
   const std::atomic<bool>* stop_;
   std::function<void(const Progress&)> progress_;
   Stopwatch watch_;
   std::uint32_t calls_ = 0;
+  std::string_view stage_, stopped_in_;
   bool stopped_ = false;
 };
 

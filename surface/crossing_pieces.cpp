@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "surface/component_places.h"
 #include "surface/mesh_pieces.h"
 #include "surface/self_intersection.h"
 
@@ -34,7 +35,37 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
   return dropped;
 }
 
+// Drops the pieces that count for one of these components.
+void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const SurfaceFacts& facts,
+                    const Isosurface& isosurface) {
+  std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (is_seen[seed]) continue;
+    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
+    const auto component =
+        most_frequent(components_at(mesh, vertices_of(mesh, piece), facts.grid(), isosurface, facts.topology()));
+    if (component && !components[*component]) continue;
+    for (const std::uint32_t t : piece) is_gone[t] = true;
+  }
+  drop_triangles(mesh, is_gone);
+}
+
 }  // namespace
+
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+                                 std::vector<bool>& is_polygonized, int threads) {
+  const PlaceFaults faults =
+      place_faults(mesh, facts.grid(), isosurface.isovalue(), isosurface.step(), facts.topology(), threads);
+  if (faults.is_empty()) return false;
+  std::vector<bool> replaced(is_polygonized.size(), false);
+  for (const auto* components : {&faults.without, &faults.repeated, &faults.unlike, &faults.overrunning}) {
+    for (const std::uint32_t c : *components) replaced[c] = is_polygonized[c] = true;
+  }
+  drop_pieces_of(replaced, mesh, facts, isosurface);
+  const PolygonizedSurface& cubes = facts.polygonized();
+  append_pieces(cubes.mesh, cubes.component, replaced, mesh);
+  return true;
+}
 
 void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
                                 std::vector<bool>& is_polygonized, int threads, Controls& controls) {

@@ -1,4 +1,5 @@
-// The end of repair: pieces of its mesh that cross are replaced by what marching cubes makes of their components.
+// The end of repair: pieces of its mesh that cross, or lie where others belong, are replaced by what marching cubes
+// makes of their components.
 #pragma once
 
 #include <vector>
@@ -17,5 +18,10 @@ namespace deliso {
 // heights. A run that has to stop keeps what there is.
 void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
                                 std::vector<bool>& is_polygonized, int threads, Controls& controls);
+
+// The same for pieces that lie on other components, too, as much as those's own pieces do (component_places.h), that
+// share a component, or that are of another topology. True when there were any.
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+                                 std::vector<bool>& is_polygonized, int threads);
 
 }  // namespace deliso

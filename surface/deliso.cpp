@@ -8,13 +8,12 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/memory.h"
-#include "delaunay/base/rng.h"
 #include "delaunay/base/shortest_text.h"
 #include "delaunay/base/stopwatch.h"
-#include "surface/boundary_curves.h"
 #include "surface/build_triangle_mesh.h"
-#include "surface/component_seeds.h"
 #include "surface/coverage.h"
+#include "surface/final_certificate.h"
+#include "surface/initial_triangulation.h"
 #include "surface/poles.h"
 #include "surface/repair.h"
 #include "surface/restricted_delaunay.h"
@@ -108,24 +107,6 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
   return options;
 }
 
-// InitTriangulation: seeds, random points and boundary curves.
-std::vector<Vec3> initial_points(const ScalarGrid& grid, const Isosurface& isosurface, const MeshingOptions& options,
-                                 const IsosurfaceTopology& topology, SearchCounters& counters) {
-  const InitialParameters& initial = options.parameters.initial;
-  Rng rng(options.seed);
-  std::vector<Vec3> points = random_ray_points(isosurface, initial.random_points, rng, counters);
-  const std::vector<Vec3> curves = boundary_curve_points(grid, isosurface);
-  points.insert(points.end(), curves.begin(), curves.end());
-  if (initial.seeding == Seeding::kComponents) {
-    const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology, options.threads);
-    points.insert(points.end(), seeds.begin(), seeds.end());
-  }
-  if (!points.empty()) return points;
-  if (initial.seeding == Seeding::kComponents) throw InputError("the isosurface has no point to start from");
-  throw InputError("no point of the isosurface to start from: initial.random_points is " +
-                   std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
-}
-
 // Recover; and, when the exact topology is known, with samples of fingers of the surface that hide within a Voronoi
 // cell. Returns landmarks for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
 // not close to.
@@ -190,14 +171,6 @@ SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::un
   });
 }
 
-// Facets that bound nothing are no isosurface, whatever their counts.
-void refute_facets(Certificate& certificate) {
-  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
-  certificate.differences.insert(
-      certificate.differences.begin(),
-      "The restricted facets bound no set of tetrahedra: they are given as they are, without stage 2.");
-}
-
 // The whole refinement with the tetrahedra kept: the paper's 3D column.
 void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, const Lengths& lengths,
                   Controls& controls, MeshingResult& result) {
@@ -207,6 +180,16 @@ void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, 
         [&] { recover(restricted, full3d_options(parameters, lengths), controls, result.recover, &pole_heights); });
 }
 
+// Where the pieces of the mesh lie that stage 2 starts from: it takes none elsewhere, and the crossings that tell of it
+// are too many to be kept until it has ended.
+PlaceFaults faults_of(const SurfaceMesh& mesh, const ScalarGrid& grid, const Isosurface& isosurface,
+                      const IsosurfaceTopology& topology, const MeshingOptions& options, MeshingResult& result) {
+  if (!options.parameters.certify || !result.build.bounds_a_solid) return {};
+  return timed(result.certify_stage, [&] {
+    return place_faults(mesh, grid, isosurface.isovalue(), isosurface.step(), topology, options.threads);
+  });
+}
+
 // Stage 1 and repair alone look up crossings.
 void drop_crossings(IsosurfaceTopology& topology) {
   UnwrittenArray<EdgeCrossing>().swap(topology.crossings);
@@ -214,49 +197,54 @@ void drop_crossings(IsosurfaceTopology& topology) {
   release_free_memory();
 }
 
+bool needs_topology(const Parameters& parameters) {
+  return parameters.certify || parameters.initial.seeding == Seeding::kComponents;
+}
+
 // DelIso(O, isovalue) of the paper: InitTriangulation, Recover, Refine.
 void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions& options, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
   check_parameters(parameters);
-  const Vec3 spacing = spacing_to_use(parameters, grid.spacing());
   Controls controls(parameters.budget, options.stop, options.progress);
 
   // The exact topology first: it says what a regular isovalue is.
-  controls.report("index", 0, 0);
-  const bool needs_topology = parameters.certify || parameters.initial.seeding == Seeding::kComponents;
+  controls.enter("index");
   RegularTopology regular = timed(result.topology, [&] {
-    return needs_topology ? regular_topology(grid, isovalue, options.threads)
-                          : RegularTopology{regular_isovalue(grid, isovalue), {}};
+    return needs_topology(parameters) ? regular_topology(grid, isovalue, options.threads)
+                                      : RegularTopology{regular_isovalue(grid, isovalue), {}};
   });
   const IsosurfaceTopology& topology = regular.topology;
   result.isovalue_used = regular.isovalue;
   const auto isosurface = timed(result.index, [&] {
-    return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search, spacing, options.threads);
+    return std::make_unique<Isosurface>(grid, result.isovalue_used, parameters.search,
+                                        spacing_to_use(parameters, grid.spacing()), options.threads);
   });
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
-
   // What repair will want to know is found beside stage 1.
   auto facts = std::make_unique<SurfaceFacts>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
 
-  controls.report("initial", 0, 0);
+  controls.enter("initial");
   auto restricted = timed(result.initial, [&] {
-    const std::vector<Vec3> points = initial_points(grid, *isosurface, options, topology, result.initial_search);
-    const FacetRule rule = parameters.stage1.one_sign_per_tetrahedron ? FacetRule::kSigns : FacetRule::kHits;
-    return std::make_unique<RestrictedDelaunay>(*isosurface, points, rule, options.threads);
+    return initial_triangulation(grid, *isosurface, topology, parameters, options.seed, options.threads, controls,
+                                 result.initial_search);
   });
 
+  controls.enter("recover");
   const std::vector<Vec3> landmarks = timed(result.recover, [&] {
-    return recover_all(*restricted, grid, needs_topology ? &topology : nullptr, options, lengths, controls,
+    return recover_all(*restricted, grid, needs_topology(parameters) ? &topology : nullptr, options, lengths, controls,
                        result.recover);
   });
   if (parameters.algorithm == Algorithm::kFull3d) refine_in_3d(*restricted, parameters, lengths, controls, result);
   take_counters(*restricted, result.recover);
 
   // The tetrahedra and the facts go as soon as the surface mesh stands; of the topology the components stay.
+  controls.enter("repair");
   SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
+  const PlaceFaults faults = faults_of(surface, grid, *isosurface, topology, options, result);
   drop_crossings(regular.topology);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
+  controls.enter("refine");
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
       refine(surface, *isosurface, stage2_options(parameters, lengths, landmarks, options.threads), controls,
@@ -264,12 +252,15 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
     });
   }
   result.stopped_early = controls.stopped();
+  result.stopped_in = controls.stopped_in();
 
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
     result.mesh = to_world(std::move(surface), grid, isosurface->step());
-    if (parameters.certify) result.certificate = certify(result.mesh, topology, options.threads);
-    if (!result.build.bounds_a_solid) refute_facets(result.certificate);
+    if (!parameters.certify) return;
+    result.certificate = final_certificate(result.mesh, topology, faults, result.build.bounds_a_solid, options.threads);
+    if (!repairs(parameters) || controls.stopped()) return;  // or else triangles do not cross in mesh space
+    refute_crossing(result.mesh, grid, isosurface->step(), options.threads, result.certificate);
   });
 }
 

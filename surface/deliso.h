@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "surface/certificate.h"
 #include "surface/controls.h"
@@ -38,6 +39,7 @@ struct MeshingResult {
   double isovalue_used = 0;
   double r_min_voxels = 0;  // r_min of stage 2 in smallest spacings
   bool stopped_early = false;
+  std::string_view stopped_in;                                // the stage in which it stopped (controls.h); else empty
   StageStats index, topology, initial, poles, certify_stage;  // topology: the exact one, found from the grid
   SearchCounters initial_search;                              // of the random rays
   RecoverStats recover;

@@ -2,9 +2,10 @@
 //
 // Between two samples on the same side a grid edge keeps to that side, for the interpolant is linear there. From a
 // saddle of a cell face the interpolant is monotone along the segments to the corners of the face, so those to the
-// corners on the saddle's own side keep to it. These segments tell what is joined to what within a cell: a
-// tetrahedron that one of them crosses must have its sign, or the mesh cuts apart what belongs together. All vertices
-// lie on the isosurface, so a tetrahedron that segments of both sides cross is too large for the surface around it.
+// corners that lie farther on the saddle's own side keep to it. These segments tell what is joined to what within a
+// cell: a tetrahedron that one of them crosses must have its sign, or the mesh cuts apart what belongs together. All
+// vertices lie on the isosurface, so a tetrahedron that segments of both sides cross is too large for the surface
+// around it.
 #pragma once
 
 #include <cstdint>

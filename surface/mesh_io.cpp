@@ -62,7 +62,7 @@ void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, boo
     case Format::kObj:
       return write_whole(obj_bytes(mesh), path);
     case Format::kStl:
-      return write_whole(stl_bytes(mesh, ascii), path);
+      return write_whole(stl_bytes(mesh, ascii, path.string()), path);
   }
 }
 

@@ -12,8 +12,8 @@ namespace deliso {
 std::string ply_bytes(const TriangleMesh& mesh, bool ascii);
 std::string off_bytes(const TriangleMesh& mesh);
 std::string obj_bytes(const TriangleMesh& mesh);
-// Coordinates rounded to floats. Throws InputError when one is beyond the range of floats.
-std::string stl_bytes(const TriangleMesh& mesh, bool ascii);
+// Coordinates rounded to floats. Throws InputError, with the name of the file, when one is beyond the range of floats.
+std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name = "STL file");
 
 TriangleMesh parse_ply(std::string_view bytes, const std::string& file);
 TriangleMesh parse_off(std::string_view bytes, const std::string& file);

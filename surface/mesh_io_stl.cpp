@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
 #include "surface/mesh_io_bytes.h"
 #include "surface/mesh_io_formats.h"
 #include "surface/mesh_io_text.h"
@@ -136,16 +137,16 @@ TriangleMesh parse_ascii(std::string_view bytes, const std::string& file) {
 
 }  // namespace
 
-std::string stl_bytes(const TriangleMesh& mesh, bool ascii) {
+std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::abs(mesh.points[v][axis]) <= static_cast<double>(std::numeric_limits<float>::max())) continue;
-      throw InputError("STL holds floats, and a coordinate of vertex " + std::to_string(v) +
-                       " is beyond their range: " + std::to_string(mesh.points[v][axis]));
+      throw InputError(name + ": STL holds floats, and a coordinate of vertex " + std::to_string(v) +
+                       " is beyond their range: " + shortest_text(mesh.points[v][axis]));
     }
   }
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError("STL holds fewer than 2^32 triangles, found " + std::to_string(mesh.triangles.size()));
+    throw InputError(name + ": STL holds fewer than 2^32 triangles, found " + std::to_string(mesh.triangles.size()));
   }
   if (ascii) return ascii_bytes(mesh);
 

@@ -66,7 +66,7 @@ std::optional<RefinementPoint> Recovery::farthest_in_voronoi_cell(VertexId q) {
   constexpr double kGolden = 1.618033988749895;
   const Vec3 from = delaunay_.point(q);
   const Vec3 gradient = isosurface_.gradient(from);
-  const std::array<Vec3, 7> axes = {gradient / std::max(norm(gradient), 1e-300),
+  const std::array<Vec3, 7> axes = {gradient / std::max(norm_of_any_size(gradient), 1e-300),
                                     Vec3{0, 1, kGolden},
                                     Vec3{0, 1, -kGolden},
                                     Vec3{1, kGolden, 0},
@@ -148,7 +148,7 @@ double Recovery::mean_pole_height(const DualEdge& edge) const {
 std::optional<Vec3> Recovery::onto_surface(const Vec3& p) const {
   const Vec3 inside = isosurface_.box().clamp(p);
   const Vec3 gradient = isosurface_.gradient(inside);
-  const double steepness = norm(gradient);
+  const double steepness = norm_of_any_size(gradient);
   if (std::abs(isosurface_.value(inside)) <= kOnSurface * steepness) return inside;
   if (!(steepness > 0)) return std::nullopt;
   const Line down{inside, -gradient / steepness};

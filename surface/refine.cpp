@@ -129,7 +129,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vec
   for (std::size_t k = 0; k + 1 < slabs.size(); ++k) planes.push_back(slabs[k].high);
   refine_apart(mesh, seams_between(slabs, mesh, task.options.threads), planes, work, task);
   if (task.controls.stopped()) return;
-  // Estimates are for room alone by now: that of a slot which was taken anew stands, for others there is some to spare.
+  // Estimates serve for room and for the order of the slabs: that of a slot which was taken anew stands.
   work.resize(mesh.triangles.size());
   refine_apart(mesh, most_work_first(slabs, mesh, work), {}, work, task);
   release_free_memory();

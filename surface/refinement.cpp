@@ -219,6 +219,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
   mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
   const std::size_t count = rim.size();
   slots_.assign(old.begin(), old.end());
+  check_triangle_count(mesh_.triangles.size() + count);
   while (slots_.size() < count) {
     slots_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
     mesh_.triangles.emplace_back();

@@ -43,7 +43,7 @@ Vec3 Refinement::upwards(const Candidate& candidate) const {
   if (!candidate.is_landmark) return isosurface_.gradient(candidate.point);
   Vec3 mean;
   for_each_gradient_at(isosurface_, candidate.point,
-                       [&](const Vec3& gradient) { mean += gradient / std::max(norm(gradient), 1e-300); });
+                       [&](const Vec3& gradient) { mean += gradient / std::max(norm_of_any_size(gradient), 1e-300); });
   const Vec3 down = disk_.normal_sum();
   return dot(mean, down) < 0 ? -down : mean;
 }

@@ -213,6 +213,7 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin)
   // What is new comes behind all that is there.
   const std::size_t old_vertices = origin.vertices.size(), old_triangles = origin.triangles.size();
   const std::size_t first_vertex = whole_.vertices.size(), first_triangle = whole_.triangles.size();
+  check_triangle_count(first_triangle + mesh.triangles.size() - old_triangles);
   const auto behind = [](const auto& array, std::size_t place) {
     return array.begin() + static_cast<std::ptrdiff_t>(place);
   };

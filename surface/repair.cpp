@@ -83,6 +83,11 @@ SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
   mend_left_out(max_rounds, controls);
   rounds_.end();
   SurfaceMesh& mesh = result_.mesh;
+  // Mixed pieces may have come to lie on all of another component, or on most of it.
+  const bool may_be_misplaced = stats_.components_mixed > 0 && !controls.poll();
+  if (may_be_misplaced && polygonize_misplaced_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_)) {
+    is_apart_ = false;
+  }
   if (!is_apart_) polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(mesh.points.size());

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "delaunay/base/check.h"
 #include "delaunay/base/vec3.h"
 #include "surface/triangle_mesh.h"
 #include "volume/scalar_grid.h"
@@ -16,6 +19,13 @@ namespace deliso {
 // The side of a triangle across from one of its corners, encoded as 4 * triangle + corner. kNoSide: a boundary edge.
 using TriangleSide = std::uint32_t;
 inline constexpr TriangleSide kNoSide = 0xFFFFFFFFu;
+// So many triangles have sides that can be told apart.
+inline constexpr std::size_t kMostTriangles = (std::size_t{1} << 30) - 1;
+inline void check_triangle_count(std::size_t count) {
+  if (count <= kMostTriangles) return;
+  throw InputError("the mesh needs more than " + std::to_string(kMostTriangles) +
+                   " triangles, expected no more: coarser thresholds or budget.max_vertices bound them");
+}
 
 // A manifold, oriented triangle mesh in mesh space (raycast/isosurface.h): side i of a triangle runs from corner i + 1
 // to corner i + 2, and neighbours[t][i] is that same edge as the triangle across knows it.

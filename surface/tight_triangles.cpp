@@ -22,7 +22,7 @@ constexpr double kFewCells = 64;
 constexpr double kManyBlocks = 512;
 constexpr int kBlockShift = 3;
 
-// Of a number from 1 up, also an infinite one.
+// Of a normal number above zero, also an infinite one.
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
 
 // 2^-level, for a level that triangles are kept at.

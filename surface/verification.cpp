@@ -1,4 +1,5 @@
 #include "surface/verification.h"
+#include "surface/component_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,7 @@ std::vector<NextToCentroid> look_next_to_centroids(const TriangleMesh& voxels, I
 // of residuals: what is thinner may be turned inside out by it.
 double flux_through(const std::array<Vec3, 3>& corners, const std::array<double, 3>& off, const NextToCentroid& next) {
   constexpr double kFarOff = 0.25;  // heights to the isosurface with which it counts half
-  const double steepness = norm(next.descent);
+  const double steepness = norm_of_any_size(next.descent);
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   if (!(norm(normal) > 0 && steepness > 0 && std::isfinite(steepness))) return 0;
   double longest = 0, doubt = 0;
@@ -145,9 +146,9 @@ NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCent
     const auto& [ia, ib, ic] = voxels.triangles[t];
     const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
     const Vec3 normal = cross(b - a, c - a);
-    const double lengths = norm(normal) * norm(next[t].descent);
-    if (!(lengths > 0)) continue;
-    const double cosine = dot(normal, next[t].descent) / lengths;
+    const double area = norm(normal), steepness = norm_of_any_size(next[t].descent);
+    if (!(area > 0 && steepness > 0 && std::isfinite(steepness))) continue;
+    const double cosine = dot(normal / area, next[t].descent / steepness);
     check.min_cosine = std::min(check.min_cosine, cosine);
     check.against += cosine < 0 ? 1 : 0;
     sum += cosine;
@@ -217,6 +218,20 @@ std::vector<std::string> list_failures(const Verification& v) {
   return failures;
 }
 
+PlaceFaults faults_of_places(const TriangleMesh& mesh, const ScalarGrid& grid, const RegularTopology& truth) {
+  const MeshTopology topology = mesh_topology(mesh);
+  if (!topology.is_manifold()) return {};
+  const Vec3& s = grid.spacing();
+  std::vector<Vec3> points;
+  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z}));
+  std::vector<ComponentTopology> pieces;
+  for (const MeshComponent& piece : topology.components) {
+    pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
+  }
+  const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
+  return place_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
+}
+
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
   if (const std::size_t bad = first_bad_triangle(mesh); bad < mesh.triangles.size()) {
     throw InputError("triangle " + std::to_string(bad) + " of the mesh names a vertex that is not there; it has " +
@@ -263,6 +278,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);
+  add_place_faults(faults_of_places(mesh, grid, regular), v.topology);
 
   // Geometry.
   check_distances(voxels, probe, off, v);

@@ -77,7 +77,10 @@ CrossingIndex::CrossingIndex(const ScalarGrid& grid, double isovalue, int thread
     before[slab + 1] = count_in_layers(first, last);
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
-  DELISO_CHECK(before.back() < kNone, "crossings are numbered with 32 bits");
+  if (before.back() >= kNone) {
+    throw InputError("the isosurface crosses " + std::to_string(before.back()) + " grid edges, expected fewer than " +
+                     std::to_string(kNone));
+  }
   crossing_count_ = static_cast<std::uint32_t>(before.back());
   for_each_slab(dims_[2], threads, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
     const auto shift = static_cast<std::uint32_t>(before[slab]);

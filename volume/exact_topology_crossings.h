@@ -39,14 +39,14 @@ CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims);
 // order; so results do not depend on it.
 inline constexpr std::int32_t kSlabLayers = 8;
 inline std::size_t slab_count(std::int32_t layers) {
-  return static_cast<std::size_t>(std::max(0, layers + kSlabLayers - 1) / kSlabLayers);
+  return layers > 0 ? static_cast<std::size_t>((layers - 1) / kSlabLayers + 1) : 0;
 }
 // Calls body(slab, first, last) for all slabs of the layers below `layers`: slab's own are first to last - 1.
 template <class Body>
 void for_each_slab(std::int32_t layers, int threads, Body&& body) {
   run_tasks(slab_count(layers), threads, [&](std::size_t slab) {
     const std::int32_t first = static_cast<std::int32_t>(slab) * kSlabLayers;
-    body(slab, first, std::min(layers, first + kSlabLayers));
+    body(slab, first, first + std::min(layers - first, kSlabLayers));
   });
 }
 

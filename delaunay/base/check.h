@@ -1,6 +1,7 @@
 // The two kinds of failure that travel as exceptions. (An expected outcome is a value, never an exception.)
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -10,7 +11,14 @@ namespace deliso {
 // and what was expected. The program answers with exit code 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message) : std::runtime_error(without_ends(message)) {}
+
+ private:
+  // A name in a message may hold the character that ends what().
+  static std::string without_ends(std::string message) {
+    std::replace(message.begin(), message.end(), '\0', ' ');
+    return message;
+  }
 };
 
 // An invariant of ours is broken. The program answers with exit code 70.

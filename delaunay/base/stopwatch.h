@@ -1,4 +1,4 @@
-// Wall-clock time on the steady clock, and the peak memory of this process.
+// Wall-clock time on the steady clock.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,8 @@ namespace deliso {
 
 class Stopwatch {
  public:
-  // Seconds since construction or the last restart.
+  // Seconds since construction.
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  void restart() { start_ = Clock::now(); }
 
  private:
   using Clock = std::chrono::steady_clock;

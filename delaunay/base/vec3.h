@@ -1,6 +1,7 @@
 // A vector or point of three doubles. Everything here is rounded arithmetic: it measures, it never decides.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -31,6 +32,14 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 constexpr double squared_norm(const Vec3& a) { return dot(a, a); }
 inline double norm(const Vec3& a) { return std::sqrt(squared_norm(a)); }
+// The same where the square may be beyond the range of doubles, as that of a gradient.
+inline double norm_of_any_size(const Vec3& a) {
+  constexpr double kSmallest = 1e-280, kLargest = 1e280;
+  const double squared = squared_norm(a);
+  if (kSmallest < squared && squared < kLargest) return std::sqrt(squared);
+  const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  return largest > 0 && std::isfinite(largest) ? largest * norm(a / largest) : largest;
+}
 constexpr double squared_distance(const Vec3& a, const Vec3& b) { return squared_norm(a - b); }
 inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
 // Component by component.

@@ -152,6 +152,14 @@ TEST(Config, ValuesOutOfRangeNameTheRange) {
   EXPECT_TRUE(contains(refusal(R"({"budget": {"max_vertices": 3}})"), "an integer >= 4"));
 }
 
+// Read as a double the first one too many is the last one that is allowed.
+TEST(Config, IntegersThatDoublesDoNotTellApartAreRefused) {
+  EXPECT_EQ(refusal(R"({"budget": {"max_vertices": 9007199254740992}})"), "");
+  for (const std::string number : {"9007199254740993", "18446744073709551615", "-9007199254740993"}) {
+    EXPECT_NE(refusal(R"({"budget": {"max_vertices": )" + number + "}}"), "") << number;
+  }
+}
+
 TEST(Config, OnlyStrictJsonIsTaken) {
   EXPECT_TRUE(contains(refusal(R"({"certify": true} // yes)"), "not valid JSON"));
   EXPECT_TRUE(contains(refusal(R"({"stage1": {"epsilon": NaN}})"), "line 1, column"));

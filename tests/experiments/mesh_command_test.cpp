@@ -221,13 +221,33 @@ TEST_F(MeshCommand, SignalsStopWithAValidPartialMesh) {
     const ProgramResult result = mesh("0.1", {"--set", "stage2.epsilon2=0.01", "--set", "stage2.epsilon1=0.005"},
                                       SignalAfter{signal, std::chrono::milliseconds(1500)});
     EXPECT_EQ(result.exit_code, 3) << result.err << " after " << result.seconds << " s";
-    EXPECT_EQ(report()["unmet"][0],
-              "refinement was stopped by a signal while triangles that violate a criterion were "
-              "still waiting");
+    const Json json = report();
+    EXPECT_EQ(json["unmet"][0].get<std::string>().find("stage 2 (refine) was stopped by a signal"), 0u);
+    EXPECT_EQ(json["stopped_in"], "refine");
     const TriangleMesh partial = read_mesh(folder_ / "m.ply");
     EXPECT_TRUE(certify(partial, std::vector<ComponentTopology>()).manifold);
     std::filesystem::remove(folder_ / "m.ply");
   }
+}
+
+// However many points a run is to start with.
+TEST_F(MeshCommand, RandomPointsEndWithTheRun) {
+  generate("sphere", 12);
+  const std::vector<std::string> many = {"--set", "initial.random_points=2147483647"};
+  const ProgramResult stopped = mesh("0.3", many, SignalAfter{SIGINT, std::chrono::milliseconds(500)});
+  EXPECT_EQ(stopped.exit_code, 3) << stopped.err << " after " << stopped.seconds << " s";
+  EXPECT_EQ(report()["stopped_in"], "initial");
+  EXPECT_TRUE(certify(read_mesh(folder_ / "m.ply"), std::vector<ComponentTopology>()).manifold);
+  const ProgramResult spent = mesh("0.3", {"--set", "initial.random_points=2147483647", "--set", "budget.seconds=0.3"});
+  EXPECT_EQ(spent.exit_code, 3) << spent.err;
+}
+
+// More points than are triangulated at once.
+TEST_F(MeshCommand, ManyRandomPointsAreAllStartedFrom) {
+  generate("sphere", 24);
+  ASSERT_EQ(mesh("0.3", {"--set", "initial.random_points=21000"}).exit_code, 0);
+  EXPECT_GT(report()["vertices"].get<std::int64_t>(), 20500);
+  EXPECT_EQ(run_deliso({"verify", folder_ / "m.ply", folder_ / "v.nrrd", "--isovalue", "0.3"}).exit_code, 0);
 }
 
 TEST_F(MeshCommand, OwnMeshesVerify) {

@@ -122,6 +122,36 @@ TEST_F(Output, MeshesThatRoundingSpoilsAreNotCalledProven) {
   }
 }
 
+// A float is off by half a hundredth of a voxel there, which keeps the triangles apart but is more than verify allows.
+TEST_F(Output, StlOfVerticesThatRoundingMovesFarIsNotCalledProven) {
+  write_file(volume_, ball("axis mins: 100000 100000 100000\n"));
+  const std::string out = folder_ / "far.stl";
+  const ProgramResult result = run_deliso(mesh({"-o", out}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("vertices move by up to 0.00"), std::string::npos) << result.err;
+  EXPECT_EQ(run_deliso({"verify", out, volume_, "--isovalue", "0"}).exit_code, 1);
+}
+
+TEST_F(Output, StlBeyondTheRangeOfFloatsIsRefusedByName) {
+  write_file(volume_, ball("spacings: 1e39 1e39 1e39\n"));
+  for (const std::string certify : {"true", "false"}) {
+    const std::string out = folder_ / "huge.stl";
+    const ProgramResult result = run_deliso(mesh({"-o", out, "--set", "certify=" + certify}));
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find("huge.stl: STL holds floats"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
+// A process inherits the peak of the one that starts it.
+TEST_F(Output, PeakMemoryIsThatOfTheProgramAlone) {
+  constexpr std::size_t kBytes = std::size_t{800} << 20;
+  const std::string ballast(kBytes, 'x');
+  const std::string report = folder_ / "r.json";
+  ASSERT_EQ(run_deliso(mesh({"-o", folder_ / "m.ply", "--report", report})).exit_code, 0);
+  EXPECT_LT(Json::parse(read_file(report))["peak_memory_bytes"].get<std::size_t>(), kBytes / 2) << ballast.size();
+}
+
 TEST_F(Output, StlOfMeshesNearTheOriginIsProven) {
   const std::string out = folder_ / "near.stl";
   EXPECT_EQ(run_deliso(mesh({"-o", out})).exit_code, 0);

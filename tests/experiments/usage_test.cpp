@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "delaunay/base/shortest_text.h"
 #include "experiments/json.h"
 #include "experiments/sample_histogram.h"
 #include "tests/support/program_runner.h"
@@ -124,6 +125,26 @@ TEST(Usage, InfoOfFewValuesHasFewRows) {
 }
 
 // A reader that waits at a pipe gets the whole report and nothing before it.
+TEST(Usage, GenerateSuggestsNoIsovalueThatHasNoPoint) {
+  const TemporaryFolder folder;
+  for (const AnalyticField& field : analytic_fields()) {
+    for (const std::string size : {"2", "3", "5"}) {
+      const ProgramResult made = run_deliso({"generate", field.name, "--size", size, "-o", folder / "v.nrrd"});
+      const bool has_points =
+          run_deliso({"topology", folder / "v.nrrd", "--isovalue", shortest_text(field.isovalue)}).exit_code == 0;
+      EXPECT_EQ(made.out.find("no point") == std::string::npos, has_points) << field.name << " " << size;
+    }
+  }
+}
+
+TEST(Usage, MisspeltOptionsAreNamedBeforeMissingOnes) {
+  const ProgramResult result = run_deliso({"mesh", "v.nrrd", "--iso", "0.3", "-o", "x.ply"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("'--iso'"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nearest is '--isovalue'"), std::string::npos) << result.err;
+  EXPECT_EQ(run_deliso({"info", "v.raw", "--dims", ""}).exit_code, 2);
+}
+
 TEST(Usage, ReportsGoIntoAPipeThatIsRead) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_deliso({"generate", "sphere", "--size", "8", "-o", folder / "v.nrrd"}).exit_code, 0);

@@ -82,6 +82,44 @@ TEST(Verification, ProvesASurfaceCutByTheBox) {
   EXPECT_EQ(v.topology.verdict, Verdict::kDifferent);
 }
 
+// Without a triangle at an edge of the box: still a disk, and both ends of its new boundary edge lie on the box, but
+// not on one face.
+TEST(Verification, AnEdgeFromFaceToFaceOfTheBoxIsNotOnTheBox) {
+  const auto height = [](double x, double y) { return 4.3 + std::sin(0.5 * x) * std::cos(0.4 * y); };
+  const ScalarGrid grid = sampled({9, 8, 10}, [&](const Vec3& p) { return height(p.x, p.y) - p.z; });
+  const TriangleMesh mesh = testing::patch_mesh(8, 7, [&](std::uint32_t i, std::uint32_t j) { return height(i, j); });
+  int cut = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    int on_box = 0, on_edge = 0;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      const Vec3& p = mesh.points[v];
+      const bool in_x = p.x == 0 || p.x == 8, in_y = p.y == 0 || p.y == 7;
+      on_box += in_x || in_y ? 1 : 0;
+      on_edge += in_x && in_y ? 1 : 0;
+    }
+    if (on_box != 3 || on_edge != 1) continue;
+    ++cut;
+    TriangleMesh without = mesh;
+    without.triangles.erase(without.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    const Verification v = verify_mesh(without, grid, 0);
+    EXPECT_FALSE(v.proven);
+    EXPECT_EQ(v.topology.verdict, Verdict::kHomeomorphic);
+    EXPECT_EQ(v.boundary.off_box_edges, 1);
+    EXPECT_FALSE(v.boundary.pass);
+  }
+  EXPECT_EQ(cut, 2);
+}
+
+// Every vertex is on the surface, but the middles of triangles are farther than a voxel off.
+TEST(Verification, AMeshTooCoarseIsNotProven) {
+  const ScalarGrid grid = sampled({17, 17, 17}, ball_field(kCenter, 7));
+  const Verification v = verify_mesh(on_isosurface(testing::sphere_mesh(1, 7, kCenter), grid, 0), grid, 0);
+  EXPECT_GT(v.distance.isosurface_to_mesh.max_voxels, 1.1);
+  EXPECT_LT(v.distance.isosurface_to_mesh.max_voxels, 1.6);
+  EXPECT_FALSE(v.proven || v.distance.pass);
+  EXPECT_EQ(v.failures.size(), 1u);
+}
+
 TEST(Verification, SaysWhatIsWrong) {
   const ScalarGrid grid = ball_grid();
   const TriangleMesh mesh = ball_mesh(grid);
@@ -124,6 +162,23 @@ TEST(Verification, SaysWhatIsWrong) {
   EXPECT_EQ(v.manifold.repeated_vertices, 1);
   EXPECT_EQ(v.manifold.zero_area_triangles, 1);
   EXPECT_EQ(v.manifold.unreferenced_vertices, 1);
+}
+
+// Whatever the unit of the samples, within the range that is accepted (volume/isovalue_range.h).
+TEST(Verification, KnowsAReversedMeshWhateverTheScaleOfTheSamples) {
+  const TriangleMesh mesh = ball_mesh(ball_grid());
+  TriangleMesh reversed = mesh;
+  for (auto& t : reversed.triangles) std::swap(t[0], t[1]);
+  for (const int exponent : {-900, -540, -300, 300, 540, 900}) {
+    const ScalarGrid grid =
+        sampled({17, 17, 17}, [&](const Vec3& p) { return std::ldexp(ball_field(kCenter, kRadius)(p), exponent); });
+    const Verification v = verify_mesh(mesh, grid, 0);
+    EXPECT_TRUE(v.proven && v.normals.pass) << exponent;
+    const Verification w = verify_mesh(reversed, grid, 0);
+    EXPECT_EQ(w.orientation.reversed_components, 1) << exponent;
+    EXPECT_FALSE(w.proven) << exponent;
+    EXPECT_FALSE(w.normals.pass) << exponent;
+  }
 }
 
 TEST(Verification, MissesNoComponent) {
@@ -187,6 +242,19 @@ TEST(DelaunayBalls, AreEmptyOnAnOctahedronUntilAVertexIsPutInside) {
   // Degenerate triangles have no ball.
   mesh.triangles = {{0, 0, 1}};
   EXPECT_EQ(check_delaunay_balls(mesh, grid, 0).without_hit, 1);
+}
+
+// One ball's sphere twice, the other's not at all: the counts are right.
+TEST(Verification, CountsDoNotProveWhatIsNotInItsPlace) {
+  const Vec3 left{7.1, 8.2, 7.9}, right{20.2, 8.1, 8.3};
+  const auto balls = [&](const Vec3& p) { return kRadius - 1 - std::min(norm(p - left), norm(p - right)); };
+  const ScalarGrid grid = sampled({28, 17, 17}, balls);
+  const TriangleMesh one = on_isosurface(testing::sphere_mesh(2, kRadius - 1, left), grid, 0);
+  const TriangleMesh other = on_isosurface(testing::sphere_mesh(2, kRadius - 1, right), grid, 0);
+  EXPECT_EQ(verify_mesh(disjoint_union(one, other), grid, 0).topology.verdict, Verdict::kHomeomorphic);
+  const Verification twice = verify_mesh(disjoint_union(one, one), grid, 0);
+  EXPECT_EQ(twice.topology.verdict, Verdict::kDifferent);
+  EXPECT_EQ(twice.topology.differences.size(), 2u);  // none on one component, several on the other
 }
 
 }  // namespace
