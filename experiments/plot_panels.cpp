@@ -27,14 +27,16 @@ bool is_shown(const PanelGrid& grid, const PlotPoint& p) {
 class PanelDrawer {
  public:
   explicit PanelDrawer(const PanelGrid& grid)
-      : grid_(grid), legend_(legend_of(grid)), drawing_(width(), legend_top() + legend_height(legend_, width()) + 10) {}
+      : grid_(grid),
+        legend_(legend_of(grid)),
+        drawing_(width(), legend_top() + legend_height(legend_, legend_width()) + 10) {}
 
   std::string draw() {
     drawing_.text({kLeft, 24}, grid_.title, {kTitleSize, "start", true});
     for (std::size_t row = 0; row < grid_.y_labels.size(); ++row) {
       for (std::size_t column = 0; column < grid_.columns.size(); ++column) draw_panel(row, column);
     }
-    draw_legend(legend_, {kLeft, legend_top()}, width() - kLeft - kRight, drawing_);
+    draw_legend(legend_, {kLeft, legend_top()}, legend_width(), drawing_);
     return drawing_.document();
   }
 
@@ -57,6 +59,7 @@ class PanelDrawer {
     const double title = 1.1 * text_width(grid_.title, kTitleSize);  // bold
     return kLeft + std::max(columns * kPanelWidth + (columns - 1) * kGap, title) + kRight;
   }
+  [[nodiscard]] double legend_width() const { return width() - kLeft - kRight; }
   [[nodiscard]] double legend_top() const {
     const auto rows = static_cast<double>(grid_.y_labels.size());
     return kTop + rows * kPanelHeight + (rows - 1) * kGap + kBottom;

@@ -103,5 +103,24 @@ TEST(Plot, ADrawingIsWideEnoughForItsTitle) {
   EXPECT_GT(width(), text_width(grid.title, 15));
 }
 
+// However many rows the legend takes: no text may end up below the drawing's edge.
+TEST(Plot, ADrawingIsHighEnoughForItsLegend) {
+  const auto expect_room = [](const std::string& svg) {
+    const double height = number(elements(svg, "svg")[0], "height");
+    for (const std::string& text : elements(svg, "text")) EXPECT_LT(number(text, "y"), height) << text;
+  };
+  PanelGrid grid{
+      "", {"a"}, {"y"}, "x", AxisScale::kLinear, AxisScale::kLinear, true, true, {}, {{{0, {{1, 1, 1, 1}}}}}};
+  BarPlot bars{"", {}, {{"a", {}}}, false};
+  for (std::size_t length = 1; length <= 40; ++length) {
+    SCOPED_TRACE(length);
+    grid.legend.assign(12, std::string(length, 'l'));
+    bars.legend = grid.legend;
+    bars.bars[0].parts.assign(12, 1);
+    expect_room(draw_panels(grid));
+    expect_room(draw_bars(bars));
+  }
+}
+
 }  // namespace
 }  // namespace deliso::testing
