@@ -105,17 +105,22 @@ class PlotMaker {
     bars.title = plot.title;
     bars.legend = plot.y;
     bars.share = plot.share;
+    bool any_figures = false;
     for (const TableRow& row : table_.rows) {
       if (row.state != RowState::kDone) continue;
       Bar bar{row.dataset, {}};
       if (!row.variant.empty() && experiment_.variants.size() > 1) bar.name += ", " + row.variant;
+      bool has_figures = false;
       for (const std::string& y : plot.y) {
         const Figure& part = figure(row, y);
+        has_figures = has_figures || !part.numbers.empty();
         bar.parts.push_back(part.numbers.empty() ? 0 : std::max(0.0, part.median()));
       }
+      if (!has_figures) bar.parts.clear();  // marching cubes has no stages, say: no bar, and not one of length 0
+      any_figures = any_figures || has_figures;
       bars.bars.push_back(std::move(bar));
     }
-    if (bars.bars.empty()) return std::nullopt;
+    if (!any_figures) return std::nullopt;
     return draw_bars(bars);
   }
 

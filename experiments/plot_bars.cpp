@@ -55,8 +55,8 @@ std::string draw_bars(const BarPlot& plot) {
       const double to = left + kBarsWidth * axis.place(done * unit);
       drawing.rectangle({from, y}, to - from, kBarHeight, legend_color(part));
     }
-    drawing.text({left + kBarsWidth * axis.place(done * unit) + 6, y + kBarHeight - 5}, figure_text(total),
-                 {kNameSize});
+    const std::string figure = bar.parts.empty() ? std::string(kNoFigure) : figure_text(total);
+    drawing.text({left + kBarsWidth * axis.place(done * unit) + 6, y + kBarHeight - 5}, figure, {kNameSize});
   }
   draw_legend(legend, {left, bottom + 30}, kBarsWidth, drawing);
   return drawing.document();

@@ -8,7 +8,7 @@ namespace deliso {
 
 struct Bar {
   std::string name;
-  std::vector<double> parts;  // one for each entry of the legend; >= 0
+  std::vector<double> parts;  // one for each entry of the legend; >= 0; empty: there are no figures, as a dash tells
 };
 
 struct BarPlot {

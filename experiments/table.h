@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/experiment.h"
@@ -57,6 +58,9 @@ Json table_json(const Experiment& experiment, const Table& table);
 
 // "done", "failed", "absent", "not run".
 std::string state_name(RowState state);
+
+// Stands where there is no figure.
+inline constexpr std::string_view kNoFigure = "–";
 
 // Integers and numbers from 1000 on without a fraction, others with four significant digits, small ones as "1.54e-3".
 std::string figure_text(double value);

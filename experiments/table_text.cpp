@@ -12,22 +12,22 @@ namespace {
 
 constexpr const char* kTableSchema = "deliso-table-1";
 constexpr double kSmall = 0.01;  // numbers below are written with an exponent
-constexpr const char* kNothing = "–";
+constexpr const char* kTo = "–";  // "10–30"
 
 // "median (smallest–largest)", or the median alone where all agree.
 std::string spread_text(const Figure& figure) {
-  if (figure.numbers.empty()) return figure.text.empty() ? kNothing : figure.text;
+  if (figure.numbers.empty()) return figure.text.empty() ? std::string(kNoFigure) : figure.text;
   const std::string low = figure_text(figure.numbers.front());
   const std::string high = figure_text(figure.numbers.back());
   const std::string median = figure_text(figure.median());
-  return low == high ? median : median + " (" + low + kNothing + high + ")";
+  return low == high ? median : median + " (" + low + kTo + high + ")";
 }
 
 // All digits: the number reads back as it was.
 std::string exact_text(double value) { return Json(value).dump(); }
 
 std::string reference_text(const Json& value) {
-  if (value.is_null()) return kNothing;
+  if (value.is_null()) return std::string(kNoFigure);
   if (value.is_string()) return value.get<std::string>();
   const auto number = value.get<double>();
   // As it was published: all its digits.
@@ -81,7 +81,7 @@ std::string markdown_body(const Experiment& experiment, const Table& table) {
       const Metric& metric = experiment.metrics[i];
       if (!metric.reference.empty()) cells.push_back(reference_text(cell.reference));
       cells.push_back(row.state == RowState::kDone ? spread_text(cell.ours) : state_name(row.state));
-      if (metric.ratio) cells.push_back(cell.ratio ? figure_text(*cell.ratio) : kNothing);
+      if (metric.ratio) cells.push_back(cell.ratio ? figure_text(*cell.ratio) : std::string(kNoFigure));
     }
     text += markdown_row(cells);
   }
@@ -105,9 +105,8 @@ std::string variant_line(const Experiment& experiment, const Variant& variant) {
 
 std::string repeats_line(const Experiment& experiment) {
   if (experiment.repeats == 1) return "One run each, seed " + std::to_string(experiment.seed) + ".";
-  return "Median (smallest" + std::string(kNothing) + "largest) of " + std::to_string(experiment.repeats) +
-         " runs, seeds " + std::to_string(experiment.seed) + " to " +
-         std::to_string(seed_of(experiment, experiment.repeats)) + ".";
+  return "Median (smallest" + std::string(kTo) + "largest) of " + std::to_string(experiment.repeats) + " runs, seeds " +
+         std::to_string(experiment.seed) + " to " + std::to_string(seed_of(experiment, experiment.repeats)) + ".";
 }
 
 // Quoted where it must be (RFC 4180).

@@ -113,6 +113,20 @@ TEST(Plot, HistogramsAddRepeatsAndShowShares) {
   EXPECT_NEAR(ground - fine[5].y, 0.6 * whole, 0.02);
 }
 
+// As in the table: a dash, not a bar of length 0.
+TEST(Plot, ABarWithoutFiguresIsADash) {
+  std::vector<Json> records = example_records();
+  for (const char* key : {"total_seconds", "triangles"}) records[4].erase(key);
+  const std::string svg = plot_named("bars.svg", records);
+  EXPECT_MESSAGE(svg, ">a&lt;b, alone</text>");
+  EXPECT_MESSAGE(svg, ">–</text>");
+  EXPECT_EQ(svg.find(">0</text>"), svg.rfind(">0</text>"));   // the axis's
+  EXPECT_EQ(elements(svg, "rect").size(), 1u + 2 * 2u + 2u);  // ground, parts of fine and coarse, legend
+  // A bar of which a part is missing keeps the other.
+  records[4]["triangles"] = 7;
+  EXPECT_MESSAGE(plot_named("bars.svg", records), ">7</text>");
+}
+
 TEST(Plot, PlotsWithoutFiguresAreLeftOut) {
   const Experiment experiment = example();
   EXPECT_TRUE(draw_plots(experiment, make_table(experiment, {}), {}).empty());
