@@ -9,6 +9,7 @@
 #include "experiments/experiment_datasets.h"
 #include "experiments/files.h"
 #include "experiments/record_file.h"
+#include "experiments/run_lock.h"
 #include "experiments/run_record.h"
 
 namespace deliso {
@@ -24,11 +25,15 @@ bool holds_records(const fs::path& folder) {
   return false;
 }
 
-// Makes the out folder and puts the experiment into it, unless it is there already.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError("--out: cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+// Puts the experiment into the out folder, unless it is there already.
 void prepare_folder(const Experiment& experiment, const RunnerOptions& options) {
   std::error_code error;
-  fs::create_directories(options.out_folder, error);
-  if (error) throw InputError("--out: cannot make the folder " + options.out_folder.string() + ": " + error.message());
   const bool has_records = holds_records(options.out_folder);
   const fs::path file = options.out_folder / "experiment.json";
   const std::string text = json_text(experiment_to_json(experiment));
@@ -109,7 +114,9 @@ std::vector<PlannedRun> pending_runs(const Experiment& experiment, const RunnerO
 }
 
 RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& options, RunProgress& progress) {
-  // Find out what is left to do.
+  // Find out what is left to do, which nobody else may be doing.
+  make_folder(options.out_folder);
+  const RunLock lock(options.out_folder, options.shard, planned_runs(experiment).size());
   prepare_folder(experiment, options);
   const std::vector<PlannedRun> runs = pending_runs(experiment, options);
   RunnerSummary summary;
