@@ -1,5 +1,7 @@
 #include "experiments/runner.h"
 
+#include <exception>
+#include <new>
 #include <optional>
 #include <set>
 
@@ -58,17 +60,24 @@ void prepare_folder(const Experiment& experiment, const RunnerOptions& options) 
   write_text(text, file);
 }
 
-// The volume of the run before is kept: runs of one data set follow each other.
+// The volume of the run before is kept, or what was wrong with it: runs of one data set follow each other.
 class VolumeCache {
  public:
   explicit VolumeCache(fs::path data_folder) : data_folder_(std::move(data_folder)) {}
 
+  // Throws what load_dataset throws, each time.
   const ScalarGrid& load(const Dataset& dataset) {
-    if (!grid_ || name_ != dataset.name) {
-      grid_.reset();  // first: two large volumes need not fit at once
-      grid_.emplace(load_dataset(dataset, data_folder_));
+    if (name_ != dataset.name) {
       name_ = dataset.name;
+      fault_ = nullptr;
+      grid_.reset();  // first: two large volumes need not fit at once
+      try {
+        grid_.emplace(load_dataset(dataset, data_folder_));
+      } catch (...) {
+        fault_ = std::current_exception();
+      }
     }
+    if (fault_) std::rethrow_exception(fault_);
     return *grid_;
   }
 
@@ -76,16 +85,28 @@ class VolumeCache {
   fs::path data_folder_;
   std::string name_;
   std::optional<ScalarGrid> grid_;
+  std::exception_ptr fault_;
 };
 
-// A record for the run: done or failed; nothing when it was stopped.
-std::optional<Json> attempt(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {
+Json failed_record(const Experiment& experiment, const PlannedRun& run, const std::string& error) {
+  Json record = run_header(experiment, run, kStatusFailed);
+  record["error"] = error;
+  return record;
+}
+
+// A record for the run: done or failed, the latter also where its volume is not what it should be; nothing when it was
+// stopped.
+std::optional<Json> attempt(const Experiment& experiment, const PlannedRun& run, const RunnerOptions& options,
+                            VolumeCache& volumes, RunProgress& progress) {
+  const Dataset& dataset = experiment.datasets[run.dataset];
   try {
+    const RunInput input{dataset_path(dataset, options.data_folder), volumes.load(dataset), options.threads,
+                         options.stop, [&progress](const Progress& state) { progress.show(state); }};
     return run_and_record(experiment, run, input);
+  } catch (const std::bad_alloc&) {
+    return failed_record(experiment, run, "not enough memory for this volume and these parameters");
   } catch (const std::exception& error) {
-    Json record = run_header(experiment, run, kStatusFailed);
-    record["error"] = error.what();
-    return record;
+    return failed_record(experiment, run, error.what());
   }
 }
 
@@ -144,9 +165,7 @@ RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& 
     // Do the run and write its record.
     progress.begin(run_name(experiment, run));
     const Stopwatch stopwatch;
-    const RunInput input{dataset_path(dataset, options.data_folder), volumes.load(dataset), options.threads,
-                         options.stop, [&progress](const Progress& state) { progress.show(state); }};
-    const std::optional<Json> record = attempt(experiment, run, input);
+    const std::optional<Json> record = attempt(experiment, run, options, volumes, progress);
     if (!record) {
       summary.stopped = true;
       break;

@@ -30,9 +30,10 @@ struct RunnerSummary {
   bool stopped = false;
 };
 
-// Throws InputError when the out folder holds another experiment, holds records although `resume` is off, cannot be
-// written, or when a file is not the data set it should be. A run that fails is recorded as failed and the next begins;
-// `resume` tries it again, and the runs of data sets that were absent.
+// Throws InputError when the out folder holds another experiment, holds records although `resume` is off, or cannot be
+// written, or when another process is making these runs in it. A run that fails, be it that its file is not the data
+// set it should be, is recorded as failed and the next begins; `resume` tries it again, and the runs of data sets that
+// were absent.
 RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& options, RunProgress& progress);
 
 // The runs of the shard that `resume` would still make: those without a finished record in the out folder.

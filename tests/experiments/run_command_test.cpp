@@ -182,16 +182,59 @@ TEST_F(RunCommand, ADataFolderThatIsNoneIsRefused) {
   EXPECT_EQ(folder_.names(), before);
 }
 
-TEST_F(RunCommand, AWrongFileIsRefusedWithBothHashes) {
+TEST_F(RunCommand, AWrongFileFailsItsRunsWithBothHashes) {
   const std::string expected(64, 'a');
   write_file_experiment(expected);
   const ScalarGrid ball = generate_field("sphere", 8);
   write_volume(ball, folder_ / "data/ball.nrrd");
   const ProgramResult result = run("out", {"--data", folder_ / "data"}, "file.json");
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_MESSAGE(result.err, expected);
-  EXPECT_MESSAGE(result.err, sample_sha256(ball));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 6) << result.err;
+  for (const std::string& text : {result.err, result.out}) {
+    EXPECT_MESSAGE(text, expected);
+    EXPECT_MESSAGE(text, sample_sha256(ball));
+  }
+}
+
+// Whatever is wrong with a volume: its runs have failed, those of the others are made, as with built-in fields.
+TEST_F(RunCommand, AVolumeThatCannotBeLoadedFailsItsRunsAlone) {
+  const ScalarGrid ball = generate_field("sphere", 8);
+  write_file_experiment(sample_sha256(ball));
+  Json document = read_json(folder_ / "file.json");
+  document["datasets"].push_back(Json{{"name", "empty"}, {"field", "sphere"}, {"size", 8}, {"isovalue", 1e9}});
+  const auto expect_failed = [&](const std::string& out, const std::string& reason) {
+    SCOPED_TRACE(out);
+    write_file(folder_ / "file.json", json_text(document));
+    const ProgramResult result = run(out, {"--data", folder_ / "data"}, "file.json");
+    EXPECT_EQ(result.exit_code, 1);
+    for (const std::string name : {"FILE", "empty"}) {
+      EXPECT_MESSAGE(result.err, "deliso: failed: " + name + ", fine, repeat 1: ");
+      EXPECT_MESSAGE(result.out, "| " + name + " | fine | failed |");
+    }
+    EXPECT_MESSAGE(result.err, reason);
+    EXPECT_MESSAGE(result.out, "FILE, coarse, repeat 3 failed: ");
+    EXPECT_EQ(result.out.find("| ring | fine | failed"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("ring: "), std::string::npos) << result.out;
+    EXPECT_EQ(result.out, read_file(folder_ / (out + "/table.md")));
+  };
+  write_file(folder_ / "data/ball.nrrd", "NRRD0004\n");
+  expect_failed("unreadable", "ball.nrrd");
+  write_volume(ball, folder_ / "data/ball.nrrd");
+  document["datasets"][0]["isovalue"] = 7;
+  expect_failed("no_surface", "has no point");
+  document["datasets"][0]["isovalue"] = 0.3;
+  document["datasets"][0]["sha256"] = std::string(64, 'a');
+  expect_failed("wrong_hash", sample_sha256(ball));
+  // The right file comes: the rest of the experiment is made.
+  document["datasets"][0]["sha256"] = sample_sha256(ball);
+  document["datasets"].erase(2);
+  write_file(folder_ / "file.json", json_text(document));
+  write_file(folder_ / "data/ball.nrrd", "");
+  EXPECT_EQ(run("out", {"--data", folder_ / "data"}, "file.json").exit_code, 1);
+  write_volume(ball, folder_ / "data/ball.nrrd");
+  const ProgramResult resumed = run("out", {"--data", folder_ / "data", "--resume"}, "file.json");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(resumed.out.find("failed"), std::string::npos) << resumed.out;
 }
 
 TEST_F(RunCommand, AFailedRunIsRecordedAndTheOthersAreDone) {
