@@ -66,7 +66,11 @@ void forget_reference(Experiment& experiment) {
 
 Experiment builtin_form(Experiment experiment) {
   if (experiment.builtin_datasets.empty()) {
-    throw InputError("--builtin: the experiment " + experiment.name + " names no builtin_datasets");
+    const auto file = std::find_if(experiment.datasets.begin(), experiment.datasets.end(),
+                                   [](const Dataset& dataset) { return dataset.field.empty(); });
+    if (file == experiment.datasets.end()) return experiment;
+    throw InputError("--builtin: the experiment " + experiment.name + " needs the file " + file->file +
+                     " and names no builtin_datasets");
   }
   experiment.datasets = std::move(experiment.builtin_datasets);
   experiment.builtin_datasets.clear();

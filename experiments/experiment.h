@@ -131,7 +131,8 @@ inline std::uint64_t seed_of(const Experiment& experiment, std::int32_t repeat) 
   return experiment.seed + static_cast<std::uint64_t>(repeat) - 1;
 }
 
-// The same experiment on its built-in fields. Throws InputError when it names none.
+// The same experiment on its built-in fields; as it is, where it has no others. Throws InputError when it has files and
+// names no fields instead.
 Experiment builtin_form(Experiment experiment);
 
 // The same experiment small enough for a test: all its variants once, on one tiny built-in field.

@@ -250,6 +250,20 @@ TEST_F(RunCommand, AFailedRunIsRecordedAndTheOthersAreDone) {
   EXPECT_MESSAGE(result.out, "initial.random_points");
 }
 
+TEST_F(RunCommand, BuiltinChangesNothingWhereAllFieldsAreBuiltIn) {
+  const ProgramResult result = run("builtin", {"--builtin"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  run("plain");
+  EXPECT_EQ(read_file(folder_ / "builtin/experiment.json"), read_file(folder_ / "plain/experiment.json"));
+  EXPECT_EQ(table({"builtin"}), table({"plain"}));
+  EXPECT_EQ(run("builtin", {"--builtin", "--resume"}).exit_code, 0);
+  // Files have nothing that stands in for them.
+  write_file_experiment(std::string(64, 'a'));
+  const ProgramResult refused = run("file", {"--builtin"}, "file.json");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_MESSAGE(refused.err, "--builtin: the experiment file needs the file ball.nrrd and names no builtin_datasets");
+}
+
 TEST_F(RunCommand, ADryRunListsTheRunsAndWritesNothing) {
   const ProgramResult result = run("out", {"--dry-run", "--shard", "2/3"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
