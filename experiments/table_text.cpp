@@ -11,7 +11,7 @@ namespace deliso {
 namespace {
 
 constexpr const char* kTableSchema = "deliso-table-1";
-constexpr double kSmall = 0.01;  // numbers below are written with an exponent
+constexpr double kSmall = 0.01;   // numbers below are written with an exponent
 constexpr const char* kTo = "–";  // "10–30"
 
 // "median (smallest–largest)", or the median alone where all agree.
@@ -88,19 +88,31 @@ std::string markdown_body(const Experiment& experiment, const Table& table) {
   return text;
 }
 
-// "- `kd-tree`: default with search.traversal = kd_tree"
+// " with `search.traversal` = kd_tree, `certify` = false", or nothing where nothing differs.
+std::string changes_text(const Parameters& from, const Parameters& to) {
+  std::string text;
+  const Json changes = parameter_changes(from, to);
+  for (const auto& [path, value] : changes.items()) {
+    text.append(text.empty() ? " with `" : ", `").append(path).append("` = ");
+    text += value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  return text;
+}
+
+// "- kd-tree: the parameters 'default' with `search.traversal` = kd_tree"
 std::string variant_line(const Experiment& experiment, const Variant& variant) {
   std::string text = "- " + variant.name + ": ";
   if (variant.mesher == Mesher::kMarchingCubes) return text + "marching cubes\n";
   text += "the parameters '" + experiment.base.name + "'";
-  std::string separator = " with ";
-  const Json changes = parameter_changes(experiment.base.parameters, variant.parameters);
-  for (const auto& [path, value] : changes.items()) {
-    text.append(separator).append("`").append(path).append("` = ");
-    text += value.is_string() ? value.get<std::string>() : value.dump();
-    separator = ", ";
-  }
-  return text + "\n";
+  return text + changes_text(experiment.base.parameters, variant.parameters) + "\n";
+}
+
+// What every variant was made from, told from the program's own defaults, and what each changes of it.
+std::string variants_text(const Experiment& experiment) {
+  std::string text = "\nThe parameters '" + experiment.base.name + "' are the program's defaults" +
+                     changes_text(Parameters(), experiment.base.parameters) + ".\n\nVariants:\n\n";
+  for (const Variant& variant : experiment.variants) text += variant_line(experiment, variant);
+  return text;
 }
 
 std::string repeats_line(const Experiment& experiment) {
@@ -163,10 +175,7 @@ std::string table_markdown(const Experiment& experiment, const Table& table) {
   text += markdown_header(experiment) + markdown_body(experiment, table) + "\n";
   text += repeats_line(experiment) + "\n";
   if (!experiment.reference.source.empty()) text += "\nPaper: " + experiment.reference.source + "\n";
-  if (experiment.task == Task::kMesh) {
-    text += "\nVariants:\n\n";
-    for (const Variant& variant : experiment.variants) text += variant_line(experiment, variant);
-  }
+  if (experiment.task == Task::kMesh) text += variants_text(experiment);
   if (!table.remarks.empty()) text += "\nRemarks:\n\n";
   for (const std::string& remark : table.remarks) text += "- " + remark + "\n";
   if (!table.programs.empty()) text += "\nMade by:\n\n";

@@ -78,6 +78,24 @@ TEST(TableCommand, MarkdownShowsPaperOursAndRatio) {
   EXPECT_MESSAGE(text, "Paper: a paper");
 }
 
+// Also what the base sets, which all variants share.
+TEST(TableCommand, MarkdownNamesEveryParameterThatIsNotTheDefault) {
+  Json document = small_document();
+  const auto markdown = [&document] {
+    const Experiment experiment = parse_experiment(document, "small.json");
+    return table_markdown(experiment, make_table(experiment, {}));
+  };
+  EXPECT_MESSAGE(markdown(),
+                 "\nThe parameters 'default' are the program's defaults with `initial.random_points` = 10.\n");
+  EXPECT_MESSAGE(markdown(), "\n- fine: the parameters 'default'\n");
+  EXPECT_MESSAGE(markdown(), "\n- coarse: the parameters 'default' with `stage2.epsilon1` = 0.3\n");
+  document["base"]["set"] = Json{{"repair.max_rounds", 0}, {"queue_order", "fifo"}};
+  EXPECT_MESSAGE(markdown(), " with `initial.random_points` = 10, `queue_order` = fifo, `repair.max_rounds` = 0.\n");
+  document["base"] = Json{{"name", "plain"}, {"parameters", Json::object()}};
+  document["variants"][0].erase("extends");
+  EXPECT_MESSAGE(markdown(), "\nThe parameters 'plain' are the program's defaults.\n");
+}
+
 TEST(TableCommand, PublishedFiguresKeepAllTheirDigits) {
   Experiment experiment = example("datasets");
   const auto paper = [&experiment](const Json& value) {
