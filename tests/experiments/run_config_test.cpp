@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -173,6 +174,18 @@ TEST(RunConfig, EveryAblationAsksAQuestion) {
     EXPECT_NE(experiment.question.find('?'), std::string::npos);
     EXPECT_GE(experiment.variants.size(), 2u);
   }
+}
+
+// Distances from the surface can be taken from two kinds of points: a heading tells which.
+TEST(RunConfig, AHeadingStandsForOneMeasureOfDistance) {
+  std::map<std::string, std::string> value_of;
+  for (const fs::path& file : experiments_of_the_project()) {
+    for (const Metric& metric : read_experiment(file).metrics) {
+      if (!metric.value.starts_with("distances.")) continue;
+      EXPECT_EQ(value_of.try_emplace(metric.name, metric.value).first->second, metric.value) << file << metric.name;
+    }
+  }
+  EXPECT_GE(value_of.size(), 5u);
 }
 
 TEST(RunConfig, EveryExperimentOfTheProjectRunsInItsSmokeForm) {
