@@ -99,7 +99,10 @@ std::string refuse_empty_name(const std::string& name) {
 }
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
-  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")->type_name("")->required();
+  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
   command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)")
       ->type_name("NX,NY,NZ")
       ->check(refuse_empty_value);

@@ -140,10 +140,18 @@ Reference parse_reference(const StrictObject& experiment, const fs::path& folder
   return reference;
 }
 
-void check_path(const StrictObject& object, std::string_view key, const std::vector<std::string>& paths) {
+void check_path(const StrictObject& object, std::string_view key, const Experiment& experiment,
+                const std::vector<std::string>& paths) {
   if (!object.has(key)) return;
   const auto path = object.get<std::string>(key, "");
-  if (std::find(paths.begin(), paths.end(), path) != paths.end()) return;
+  const auto is_in = [&path](const std::vector<std::string>& known) {
+    return std::find(known.begin(), known.end(), path) != known.end();
+  };
+  if (is_in(paths)) return;
+  if (experiment.task == Task::kMesh && is_in(record_paths(Task::kMesh, true))) {
+    object.fail(key,
+                "needs \"distances\": true in the experiment: '" + path + "' is a figure of its records only then");
+  }
   object.fail(key, "names no figure of a record: '" + path + "', the nearest is '" + nearest_name(path, paths) + "'");
 }
 
@@ -164,8 +172,8 @@ std::vector<Metric> parse_metrics(const StrictObject& object, const Experiment& 
   std::set<std::string> names;
   for (std::size_t i = 0; i < object.at("metrics").size(); ++i) {
     const StrictObject item(object.at("metrics")[i], item_place(object, "metrics", i), kMetricKeys);
-    check_path(item, "value", paths);
-    check_path(item, "per", paths);
+    check_path(item, "value", experiment, paths);
+    check_path(item, "per", experiment, paths);
     check_column(item, experiment.reference);
     Metric metric;
     metric.name = item.get<std::string>("name", "");

@@ -37,7 +37,7 @@ void check_field_keys(const StrictObject& object) {
   try {
     find_analytic_field(object.get<std::string>("field", ""));
   } catch (const InputError& error) {
-    object.fail("field", std::string(": ") + error.what());
+    throw InputError(object.place_of("field") + ": " + error.what());
   }
 }
 

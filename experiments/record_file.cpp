@@ -39,6 +39,29 @@ Json parse_record(const std::string& line, const std::string& place) {
   return record;
 }
 
+// A record and where it stands: "out/records.jsonl line 3".
+struct PlacedRecord {
+  Json record;
+  std::string place;
+};
+
+std::vector<PlacedRecord> placed_records(const fs::path& path, std::vector<std::string>& notes) {
+  const std::string text = read_text(path);
+  std::vector<PlacedRecord> records;
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string place = path.string() + " line " + std::to_string(number);
+    if (end == std::string::npos) {
+      notes.push_back(place + " is incomplete and left out");
+      break;
+    }
+    records.push_back({parse_record(text.substr(begin, end - begin), place), place});
+    begin = end + 1;
+  }
+  return records;
+}
+
 bool is_done(const Json& record) { return record["status"] == kStatusDone; }
 
 // What two records of the same run must agree on: what is not measured in seconds or bytes.
@@ -92,36 +115,28 @@ std::vector<fs::path> record_files(const fs::path& folder) {
 }
 
 std::vector<Json> read_records(const fs::path& path, std::vector<std::string>& notes) {
-  const std::string text = read_text(path);
   std::vector<Json> records;
-  std::size_t number = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++number) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string place = path.string() + " line " + std::to_string(number);
-    if (end == std::string::npos) {
-      notes.push_back(place + " is incomplete and left out");
-      break;
-    }
-    records.push_back(parse_record(text.substr(begin, end - begin), place));
-    begin = end + 1;
-  }
+  for (PlacedRecord& placed : placed_records(path, notes)) records.push_back(std::move(placed.record));
   return records;
 }
 
-std::vector<Json> merge_records(const std::vector<fs::path>& folders, std::vector<std::string>& notes) {
+std::vector<Json> merge_records(const Experiment& experiment, const std::vector<fs::path>& folders,
+                                std::vector<std::string>& notes) {
   std::map<std::string, Json> by_run;
   for (const fs::path& folder : folders) {
     for (const fs::path& file : record_files(folder)) {
-      for (Json& record : read_records(file, notes)) {
+      for (auto& [record, place] : placed_records(file, notes)) {
+        const std::string foreign = foreign_part(experiment, record);
+        if (!foreign.empty()) throw InputError(std::string(place).append(": does not belong here: ").append(foreign));
         const auto [found, is_new] = by_run.try_emplace(run_key(record), record);
         if (is_new) continue;
         // A finished run goes before a failed or absent one; two finished ones must agree.
         if (is_done(found->second) && is_done(record)) {
           if (outcome(found->second) != outcome(record)) {
-            throw InputError(file.string() + ": has another result for " + run_name(record) +
+            throw InputError(place + ": has another result for " + run_name(record) +
                              " than an earlier record: the records are of different programs or experiments");
           }
-          notes.push_back(file.string() + ": " + run_name(record) + " is recorded twice, the first record counts");
+          notes.push_back(place + ": " + run_name(record) + " is recorded twice, the first record counts");
         } else if (!is_done(found->second)) {
           found->second = std::move(record);
         }

@@ -41,8 +41,10 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 // `notes`. Throws InputError naming the line when another is no record.
 std::vector<Json> read_records(const std::filesystem::path& path, std::vector<std::string>& notes);
 
-// The records of some results folders, at most one for each run, finished ones before others. The same run twice with
-// the same result is noted; with another result it is an InputError.
-std::vector<Json> merge_records(const std::vector<std::filesystem::path>& folders, std::vector<std::string>& notes);
+// The records of an experiment in some results folders, at most one for each run, finished ones before others. The same
+// run twice with the same result is noted. Throws InputError naming file and line when it has another result, or when a
+// record is not of the experiment.
+std::vector<Json> merge_records(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
+                                std::vector<std::string>& notes);
 
 }  // namespace deliso

@@ -27,6 +27,13 @@ Experiment experiment_of(const std::vector<fs::path>& folders) {
 Experiment experiment_for_records(const fs::path& file, const Experiment& recorded) {
   Experiment experiment = read_experiment(file);
   if (recorded.name == experiment.name + "_builtin") experiment = builtin_form(std::move(experiment));
+  const std::string refusal = "--experiment: " + file.string() + " is not the experiment of these records: ";
+  if (experiment.name != recorded.name) {
+    const bool named = read_json(file).contains("name");
+    throw InputError(refusal + "its name is '" + experiment.name + "' (" +
+                     (named ? "its key 'name'" : "that of the file, for it has no key 'name'") + "), theirs is '" +
+                     recorded.name + "'");
+  }
   // What shows and what is only shown may differ, what was run may not.
   Json now = experiment_to_json(experiment);
   Json then = experiment_to_json(recorded);
@@ -36,8 +43,7 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
   }
   for (const auto& [key, value] : then.items()) {
     if (now[key] != value) {
-      throw InputError("--experiment: " + file.string() + " is not the experiment of these records: its key '" + key +
-                       "' differs");
+      throw InputError(std::string(refusal).append("its key '").append(key).append("' differs"));
     }
   }
   return experiment;
@@ -45,7 +51,7 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
 
 std::string write_tables(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
                          std::vector<std::string>& notes) {
-  const std::vector<Json> records = merge_records(folders, notes);
+  const std::vector<Json> records = merge_records(experiment, folders, notes);
   const Table table = make_table(experiment, records);
   std::string markdown = table_markdown(experiment, table);
   std::error_code error;

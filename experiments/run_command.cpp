@@ -116,7 +116,8 @@ void add_run_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("run", "Do an experiment and make its table and plots");
   command->add_option("EXPERIMENT", options->experiment, "The experiment: a JSON file (configs/paper/table3.json)")
       ->type_name("")
-      ->required();
+      ->required()
+      ->check(refuse_empty_name);
   command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
       ->type_name("DIR")
       ->check(refuse_empty_name);

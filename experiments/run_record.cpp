@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "delaunay/base/nearest_name.h"
 #include "delaunay/base/stopwatch.h"
 #include "experiments/isosurface_samples.h"
 #include "experiments/program_info.h"
@@ -126,6 +127,26 @@ std::string run_key(const Json& record) {
 
 std::string run_key(const Experiment& experiment, const PlannedRun& run) {
   return run_key(run_header(experiment, run, kStatusDone));
+}
+
+std::string foreign_part(const Experiment& experiment, const Json& record) {
+  const std::string owner = " of the experiment " + experiment.name;
+  const Json& name = record.at("experiment");
+  if (name != experiment.name) return "it is of the experiment " + name.dump() + ", not" + owner;
+  const auto part = [&](const std::string& key, const std::string& what, const auto& list) {
+    const auto value = record.at(key).template get<std::string>();
+    std::vector<std::string> known;
+    known.reserve(list.size());
+    for (const auto& item : list) known.push_back(item.name);
+    if (std::find(known.begin(), known.end(), value) != known.end()) return std::string();
+    return "its " + what + " '" + value + "' is none" + owner + nearest_name_hint(value, known);
+  };
+  if (std::string text = part("dataset", "data set", experiment.datasets); !text.empty()) return text;
+  if (std::string text = part("variant", "variant", experiment.variants); !text.empty()) return text;
+  const Json& repeat = record.at("repeat");
+  if (repeat >= 1 && repeat <= experiment.repeats) return "";
+  return "its repeat " + repeat.dump() + " is none" + owner + ", whose repeats are 1 to " +
+         std::to_string(experiment.repeats);
 }
 
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {

@@ -26,6 +26,9 @@ Json run_header(const Experiment& experiment, const PlannedRun& run, const std::
 std::string run_key(const Experiment& experiment, const PlannedRun& run);
 std::string run_key(const Json& record);
 
+// What makes a record one of another experiment: "its repeat 99 is none of ..."; empty when it is of this one.
+std::string foreign_part(const Experiment& experiment, const Json& record);
+
 struct RunInput {
   std::filesystem::path path;  // of the volume
   const ScalarGrid& grid;

@@ -51,6 +51,7 @@ void prepare_folder(const Experiment& experiment, const RunnerOptions& options) 
       return;
     }
     if (has_records) {
+      read_json(file);  // a damaged file is told of as one
       throw InputError("--out: " + options.out_folder.string() +
                        " holds records of another experiment, or of another state of this one; name another folder");
     }
@@ -127,7 +128,7 @@ std::vector<PlannedRun> pending_runs(const Experiment& experiment, const RunnerO
   if (!options.resume || !fs::exists(options.out_folder, error)) return runs;
   std::set<std::string> done;
   std::vector<std::string> notes;
-  for (const Json& record : merge_records({options.out_folder}, notes)) {
+  for (const Json& record : merge_records(experiment, {options.out_folder}, notes)) {
     if (record["status"] == kStatusDone) done.insert(run_key(record));
   }
   std::erase_if(runs, [&](const PlannedRun& run) { return done.contains(run_key(experiment, run)); });

@@ -94,7 +94,7 @@ std::string short_json(const Json& value) {
 
 StrictObject::StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys)
     : value_(value), place_(std::move(place)) {
-  if (!value.is_object()) throw InputError(place_ + " must be an object, found " + short_json(value));
+  if (!value.is_object()) throw InputError(own_place() + " must be an object, found " + short_json(value));
   // Every key that is there must be known and hold what the table allows ...
   std::vector<std::string> known;
   for (const KeyInfo& key : keys) known.emplace_back(key.name);
@@ -102,18 +102,22 @@ StrictObject::StrictObject(const Json& value, std::string place, std::span<const
     const auto key =
         std::find_if(keys.begin(), keys.end(), [&known_name = name](const KeyInfo& k) { return k.name == known_name; });
     if (key == keys.end()) {
-      throw InputError(place_ + ": unknown key '" + name + "', the nearest known key is '" + nearest_name(name, known) +
-                       "'");
+      throw InputError(own_place() + ": unknown key '" + name + "', the nearest known key is '" +
+                       nearest_name(name, known) + "'");
     }
     if (!fits(*key, held)) fail(name, "must be " + expected(*key) + ", found " + short_json(held));
   }
   // ... and every required one must be there.
   for (const KeyInfo& key : keys) {
     if (key.required && !has(key.name)) {
-      throw InputError(place_ + ": the key '" + std::string(key.name) + "' is missing (" + std::string(key.effect) +
-                       ")");
+      throw InputError(own_place() + ": the key '" + std::string(key.name) + "' is missing (" +
+                       std::string(key.effect) + ")");
     }
   }
+}
+
+std::string StrictObject::own_place() const {
+  return place_.ends_with('#') ? place_.substr(0, place_.size() - 1) : place_;
 }
 
 std::string StrictObject::place_of(std::string_view key) const { return place_ + "/" + std::string(key); }

@@ -36,12 +36,11 @@ constexpr KeyInfo choice_key(std::string_view name, std::string_view effect, std
 // An object whose keys are those of a table. The object read from must outlive it.
 class StrictObject {
  public:
-  // `place` names the object in messages: the file, then the JSON pointer. Throws InputError when `value` is no object,
-  // has a key that the table does not name (the message gives the nearest), lacks a required one, or has a value of the
-  // wrong type or out of range.
+  // `place` names the object in messages: the file, '#' and the JSON pointer, which is empty for a whole file. Throws
+  // InputError when `value` is no object, has a key that the table does not name (the message gives the nearest), lacks
+  // a required one, or has a value of the wrong type or out of range.
   StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys);
 
-  [[nodiscard]] const std::string& place() const { return place_; }
   // Where the value of a key stands.
   [[nodiscard]] std::string place_of(std::string_view key) const;
   [[nodiscard]] bool has(std::string_view key) const { return value_.contains(key); }
@@ -56,6 +55,9 @@ class StrictObject {
   [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
 
  private:
+  // Where the object itself stands: of a whole file its name alone.
+  [[nodiscard]] std::string own_place() const;
+
   const Json& value_;
   std::string place_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "delaunay/base/check.h"
 #include "experiments/metric.h"
@@ -90,12 +89,9 @@ RowState state_of(const std::vector<const Json*>& records) {
 class TableMaker {
  public:
   TableMaker(const Experiment& experiment, const std::vector<Json>& records) : experiment_(experiment) {
-    std::set<std::string> known;
-    for (const PlannedRun& run : planned_runs(experiment)) known.insert(run_key(experiment, run));
     for (const Json& record : records) {
-      if (record.at("experiment") != experiment.name || !known.contains(run_key(record))) {
-        throw InputError("a record of " + record.at("experiment").dump() + " with the run " + run_key(record) +
-                         " is not of the experiment " + experiment.name);
+      if (const std::string foreign = foreign_part(experiment, record); !foreign.empty()) {
+        throw InputError("a record does not belong here: " + foreign);
       }
       const auto dataset = record["dataset"].get<std::string>();
       all_[{dataset, record["variant"].get<std::string>()}].push_back(&record);

@@ -36,7 +36,8 @@ void add_table_command(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) and plots (SVG) from the records of a run");
   command->add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
       ->type_name("")
-      ->required();
+      ->required()
+      ->check(refuse_empty_name);
   command
       ->add_option("-o,--output", options->output,
                    "Folder for table.md, table.csv, table.json and the plots (default: the first)")

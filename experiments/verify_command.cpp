@@ -180,7 +180,10 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
 void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyCommandOptions>();
   CLI::App* command = app.add_subcommand("verify", "Check any mesh against an isosurface");
-  command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))->type_name("")->required();
+  command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
   add_volume_options(*command, options->volume);
   command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
   command->add_option("--report", options->report, "Write every figure as JSON")

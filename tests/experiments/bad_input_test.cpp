@@ -65,6 +65,23 @@ class BadInput : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(BadInput, EmptyNamesOfInputs) {
+  const std::string found = ": expected a name, found an empty one";
+  expect_refusal({"mesh", "", "--isovalue", "1", "-o", "@/m.ply"}, {"deliso: VOLUME" + found});
+  expect_refusal({"verify", "", "@/v.nrrd", "--isovalue", "1"}, {"deliso: MESH" + found});
+  expect_refusal({"topology", "", "--isovalue", "1"}, {"deliso: VOLUME" + found});
+  expect_refusal({"info", ""}, {"deliso: VOLUME" + found});
+  expect_refusal({"render", "", "--isovalue", "1", "-o", "@/p.png"}, {"deliso: VOLUME" + found});
+  expect_refusal({"run", ""}, {"deliso: EXPERIMENT" + found});
+  expect_refusal({"table", ""}, {"deliso: OUT_DIR" + found});
+  expect_refusal({"table", "@", ""}, {"deliso: OUT_DIR" + found});
+}
+
+TEST_F(BadInput, NamesThatTellNoFormat) {
+  expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr or .raw"});
+  expect_refusal({"info", "@/volume.png"}, {"/volume.png: has the extension \".png\", a volume is read from"});
+}
+
 TEST_F(BadInput, TruncatedData) {
   expect_bad_volume(nrrd("type: uint8\nsizes: 4 4 4\nencoding: raw", ramp().substr(1)), {"v.nrrd", "64"});
   expect_bad_volume(nrrd("type: uint8\nsizes: 4 4 4\nencoding: gzip", "\x1f\x8b\x08"), {"v.nrrd"});

@@ -151,6 +151,15 @@ TEST_F(RunCommand, RecordsAreNotOverwritten) {
   EXPECT_EQ(read_file(folder_ / "out/records.jsonl"), before);
 }
 
+TEST_F(RunCommand, ADamagedExperimentInTheFolderIsToldOfAsDamaged) {
+  run("out");
+  write_file(folder_ / "out/experiment.json", "{\"title\": ");
+  const ProgramResult result = run("out", {"--resume"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+  EXPECT_MESSAGE(result.err, (folder_ / "out/experiment.json") + ": not valid JSON, ");
+}
+
 TEST_F(RunCommand, AbsentDataSetsAreListedAndMadeUpForLater) {
   const ScalarGrid ball = generate_field("sphere", 8);
   write_file_experiment(sample_sha256(ball));

@@ -57,7 +57,7 @@ TEST(RunConfig, NamesThatLeadElsewhereAreRefused) {
 }
 
 TEST(RunConfig, MisspeltKeysNameThePlaceAndTheNearestKey) {
-  EXPECT_EQ(refusal_with("/repeat", 3), "small.json#: unknown key 'repeat', the nearest known key is 'repeats'");
+  EXPECT_EQ(refusal_with("/repeat", 3), "small.json: unknown key 'repeat', the nearest known key is 'repeats'");
   EXPECT_EQ(refusal_with("/variants/1/extend", "fine"),
             "small.json#/variants/1: unknown key 'extend', the nearest known key is 'extends'");
   EXPECT_EQ(refusal_with("/datasets/0/isovalu", 1),
@@ -76,11 +76,28 @@ TEST(RunConfig, NamesOfNothingNameTheNearest) {
   EXPECT_MESSAGE(refusal_with("/metrics/1/over", "fin"),
                  "#/metrics/1/over names no variant: 'fin', the nearest is 'fine'");
   EXPECT_MESSAGE(refusal_with("/variants/1/extends", "defualt"), "the nearest is 'default'");
+  EXPECT_MESSAGE(refusal_with("/datasets/0/field", "spere"), "small.json#/datasets/0/field: there is no ");
   EXPECT_MESSAGE(refusal_with("/datasets/0/field", "spere"), "sphere");
   EXPECT_MESSAGE(refusal_with("/datasets/0", "FUEL"), "#/datasets/0: the manifest has no data set 'FUEL'");
 }
 
+// A figure that records can hold, but not those of this experiment.
+TEST(RunConfig, FiguresOfDistancesSayWhatTheyNeed) {
+  const std::string path = "distances.mesh_to_isosurface_max_voxels";
+  EXPECT_EQ(refusal_with("/metrics/0/value", path),
+            "small.json#/metrics/0/value needs \"distances\": true in the experiment: '" + path +
+                "' is a figure of its records only then");
+  Json document = small_document();
+  document["distances"] = true;
+  document["metrics"][0]["value"] = path;
+  EXPECT_EQ(refusal(document), "");
+  document["distances"] = false;
+  document["task"] = "topology";
+  EXPECT_MESSAGE(refusal(document), "names no figure of a record");
+}
+
 TEST(RunConfig, WrongTypesAndRangesNameThePlace) {
+  EXPECT_EQ(refusal(7), "small.json must be an object, found 7");
   EXPECT_EQ(refusal_with("/repeats", 0), "small.json#/repeats must be an integer from 1 to 10000, found 0");
   EXPECT_MESSAGE(refusal_with("/repeats", 1.5), "#/repeats must be an integer");
   EXPECT_MESSAGE(refusal_with("/repeats", "3"), "#/repeats must be an integer");
@@ -93,7 +110,7 @@ TEST(RunConfig, WrongTypesAndRangesNameThePlace) {
   EXPECT_MESSAGE(refusal_with("/sweep", Json{{"stage1.rho", {2, 2}}}), "has the value 2 twice");
   Json document = small_document();
   document.erase("metrics");
-  EXPECT_MESSAGE(refusal(document), "small.json#: the key 'metrics' is missing");
+  EXPECT_MESSAGE(refusal(document), "small.json: the key 'metrics' is missing");
 }
 
 TEST(RunConfig, ContradictionsAreRefused) {

@@ -148,7 +148,7 @@ TEST(TableCommand, FinishedRecordsGoBeforeOthersAndDuplicatesAreNoted) {
   write_file(folder / "records.1-of-2.jsonl", failed.dump() + "\n" + done.dump() + "\n");
   write_file(folder / "records.2-of-2.jsonl", slower.dump() + "\n" + failed.dump() + "\n");
   std::vector<std::string> notes;
-  const std::vector<Json> merged = merge_records({folder.path()}, notes);
+  const std::vector<Json> merged = merge_records(example("datasets"), {folder.path()}, notes);
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_EQ(merged[0], done);
   ASSERT_EQ(notes.size(), 1u);
@@ -157,7 +157,7 @@ TEST(TableCommand, FinishedRecordsGoBeforeOthersAndDuplicatesAreNoted) {
   Json other = done;
   other["vertices"] = 11;
   write_file(folder / "records.2-of-2.jsonl", other.dump() + "\n");
-  EXPECT_THROW(merge_records({folder.path()}, notes), InputError);
+  EXPECT_THROW(merge_records(example("datasets"), {folder.path()}, notes), InputError);
 }
 
 TEST(TableCommand, ACutLastLineIsLeftOutAndABrokenOneNamed) {
@@ -226,6 +226,57 @@ TEST(TableCommand, AnotherTableOfTheSameRunsNeedsNoNewRuns) {
   const ProgramResult other = run_deliso(command);
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_MESSAGE(other.err, "is not the experiment of these records: its key 'variants' differs");
+}
+
+// With file and line: a folder may hold many shards.
+TEST(TableCommand, ARecordThatDoesNotBelongHereIsNamedWithItsPlaceAndWhatIsWrong) {
+  const TemporaryFolder folder;
+  write_file(folder / "small.json", kSmallExperiment);
+  ASSERT_EQ(run_deliso({"run", folder / "small.json", "--out", folder / "out"}).exit_code, 0);
+  std::vector<std::string> notes;
+  const Json first = read_records(folder / "out/records.jsonl", notes).front();
+  const std::string place = folder / "out/records.2-of-2.jsonl line 2: does not belong here: ";
+  const auto expect_refused = [&](const std::string& key, const Json& value, const std::string& sentence) {
+    Json record = first;
+    record[key] = value;
+    write_file(folder / "out/records.2-of-2.jsonl", first.dump() + "\n" + record.dump() + "\n");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"table", folder / "out"},
+          {"run", folder / "small.json", "--out", folder / "out", "--resume"}}) {
+      const ProgramResult result = run_deliso(command);
+      EXPECT_EQ(result.exit_code, 2);
+      EXPECT_EQ(result.err, "deliso: " + place + sentence + "\n");
+    }
+  };
+  expect_refused("repeat", 99, "its repeat 99 is none of the experiment small, whose repeats are 1 to 3");
+  expect_refused("repeat", 0, "its repeat 0 is none of the experiment small, whose repeats are 1 to 3");
+  expect_refused("variant", "fin",
+                 "its variant 'fin' is none of the experiment small; the nearest known name is \"fine\"");
+  expect_refused("dataset", "rin",
+                 "its data set 'rin' is none of the experiment small; the nearest known name is \"ring\"");
+  expect_refused("experiment", "large", "it is of the experiment \"large\", not of the experiment small");
+}
+
+// The name, too, must be that of the records; most files have no key for it.
+TEST(TableCommand, AnExperimentOfAnotherNameIsToldWhereTheNameComesFrom) {
+  const TemporaryFolder folder;
+  write_file(folder / "small.json", kSmallExperiment);
+  ASSERT_EQ(run_deliso({"run", folder / "small.json", "--out", folder / "out"}).exit_code, 0);
+  const std::string other = folder / "other.json";
+  const auto refusal = [&](const Json& document) {
+    write_file(other, json_text(document));
+    const ProgramResult result = run_deliso({"table", folder / "out", "--experiment", other});
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  const std::string begin = "deliso: --experiment: " + other + " is not the experiment of these records: its name is ";
+  Json document = small_document();
+  EXPECT_EQ(refusal(document), begin + "'other' (that of the file, for it has no key 'name'), theirs is 'small'\n");
+  document["name"] = "third";
+  EXPECT_EQ(refusal(document), begin + "'third' (its key 'name'), theirs is 'small'\n");
+  document["name"] = "small";
+  write_file(other, json_text(document));
+  EXPECT_EQ(run_deliso({"table", folder / "out", "--experiment", other}).exit_code, 0);
 }
 
 TEST(TableCommand, FoldersOfDifferentExperimentsAreRefused) {

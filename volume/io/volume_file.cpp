@@ -23,8 +23,8 @@ ScalarGrid read_volume(const std::filesystem::path& path, const RawOptions& opti
   const std::string extension = lower_case_extension(path);
   if (extension == ".nrrd" || extension == ".nhdr") return read_nrrd(path);
   if (extension == ".raw") return read_raw(path, options);
-  throw InputError(path.string() + ": the extension is \"" + extension +
-                   "\", a volume is read from .nrrd, .nhdr or .raw");
+  const std::string found = extension.empty() ? "has no extension" : "has the extension \"" + extension + "\"";
+  throw InputError(path.string() + ": " + found + ", a volume is read from .nrrd, .nhdr or .raw");
 }
 
 VolumeHeader header_of(const ScalarGrid& grid) {
