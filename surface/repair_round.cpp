@@ -34,6 +34,7 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
       threads_(threads),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
+      flat_(*restricted_, threads),
       unfounded_(*restricted_, grid, threads),
       poles_(*restricted_) {
   find_components(0);
@@ -77,6 +78,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
     as_before_.clear();
     if (keeps_signs) keep_signs(exchanged);
   }
+  flat_.renew(exchanged);
   unfounded_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
   if (located_) located_->renew(exchanged);
@@ -92,9 +94,14 @@ void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
   for (const TetId t : exchanged.renewed) as_before_[t.index()] = by_rule[t.index()];
 }
 
+void RepairRound::settle_signs() {
+  flat_.settle(*restricted_);
+  unfounded_.overturn(*restricted_);
+}
+
 void RepairRound::take_plain_signs() {
   restricted_->set_signs(at_circumcenters_);
-  unfounded_.overturn(*restricted_);
+  settle_signs();
 }
 
 void RepairRound::take_signs(SignRule rule) {
@@ -102,13 +109,13 @@ void RepairRound::take_signs(SignRule rule) {
   if (!known.empty()) return restricted_->set_signs(known);
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
   rules_->take_signs(rule, rule == SignRule::kAsBefore ? as_before_ : at_circumcenters_);
-  unfounded_.overturn(*restricted_);
+  settle_signs();
   known = restricted_->signs();
 }
 
 void RepairRound::overturn(std::span<const TetId> tets) {
   for (const TetId t : tets) restricted_->overturn_sign(t);
-  unfounded_.overturn(*restricted_);
+  settle_signs();
 }
 
 // None when they would be the same as the last time in this round.

@@ -15,6 +15,7 @@
 
 #include "surface/critical_places.h"
 #include "surface/facet_pairing.h"
+#include "surface/flat_signs.h"
 #include "surface/founded_signs.h"
 #include "surface/local_characteristic.h"
 #include "surface/poles.h"
@@ -40,10 +41,9 @@ class RepairRound {
   bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                 ExchangedPoints& exchanged);
 
-  // Takes the signs of the circumcenters, less those without foundation.
+  // Takes the signs of the circumcenters, less folds (flat_signs.h) and signs without foundation (founded_signs.h).
   void take_plain_signs();
-  // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less those without
-  // foundation.
+  // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less the same.
   void take_signs(SignRule rule);
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Before meshes are put together, after which there is hardly ever another round: what can be found again goes.
@@ -51,7 +51,7 @@ class RepairRound {
     forget_rules();
     pairing_.reset();
   }
-  // Turns some signs over; then those without foundation.
+  // Turns some signs over; then those of folds and those without foundation.
   void overturn(std::span<const TetId> tets);
   // What that would change (local_characteristic.h).
   [[nodiscard]] std::int64_t change_of_characteristic(std::span<const TetId> tets) {
@@ -98,6 +98,7 @@ class RepairRound {
     for (TetSigns& signs : signs_by_rule_) TetSigns().swap(signs);
   }
   void find_components(std::size_t first);
+  void settle_signs();
   void keep_signs(const ExchangedPoints& exchanged);
   std::optional<PairedTriangles> take_triangles(const TetSigns& signs);
   std::optional<MatchedMesh> finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads);
@@ -115,6 +116,7 @@ class RepairRound {
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRules> rules_;
   std::array<TetSigns, kSignRules.size()> signs_by_rule_;  // in this round; empty for a rule that has not been tried
+  FlatSigns flat_;
   UnfoundedPockets unfounded_;
   std::optional<FacetPairing> pairing_;
   bool has_assembled_ = false;  // in this round
