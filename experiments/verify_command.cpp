@@ -1,4 +1,4 @@
-// deliso verify: judges any mesh as an image of an isosurface, with code that the mesher does not use.
+// deliso verify: judges any mesh as an image of an isosurface, ours or another tool's.
 #include <iostream>
 #include <memory>
 #include <string>
