@@ -16,7 +16,7 @@ struct ProgramInfo {
 
 ProgramInfo program_info();
 
-// The most memory this process has held so far, in bytes.
+// The most memory this process has held so far, in bytes, but for some pages that the system has not added up yet.
 std::int64_t peak_memory_bytes();
 
 // Lets the peak begin anew from what is in use now, freed memory given back first. Does nothing where the system
