@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "delaunay/base/counted.h"
+#include "delaunay/base/parallel.h"
 #include "surface/blocks.h"
 #include "surface/component_match.h"
 
@@ -122,11 +123,18 @@ std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const Sca
 
 PlaceFaults place_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
                          const IsosurfaceTopology& topology, int threads) {
-  std::vector<Vec3> points;
-  points.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
-  const std::vector<std::uint32_t> component_of = components_of(points, grid, isovalue, topology, threads);
-  const ComponentMatch match = match_components(mesh, std::vector<std::uint32_t>(points.size()), {{}});
+  std::vector<std::uint32_t> component_of;
+  ComponentMatch match;
+  run_tasks(2, threads, [&](std::size_t task) {
+    if (task == 0) {
+      match = match_components(mesh, std::vector<std::uint32_t>(mesh.points.size()), {{}});
+    } else {
+      std::vector<Vec3> points;
+      points.reserve(mesh.points.size());
+      for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
+      component_of = components_of(points, grid, isovalue, topology, threads);
+    }
+  });
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
