@@ -253,7 +253,6 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   }
   result.stopped_early = controls.stopped();
   result.stopped_in = controls.stopped_in();
-
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {
     result.mesh = to_world(std::move(surface), grid, isosurface->step());
