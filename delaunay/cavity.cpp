@@ -43,7 +43,7 @@ void BowyerWatson::take_slots(std::span<const TetId> old, std::size_t count) {
   while (created_.size() < count) {
     if (free_.empty()) {
       if (tets_.size() >= kMostTets) {
-        throw InputError("a triangulation of this surface has more than " + std::to_string(kMostTets) +
+        throw InputError("the triangulation needs more than " + std::to_string(kMostTets) +
                          " tetrahedra, expected no more");
       }
       created_.push_back(TetId(tets_.size()));

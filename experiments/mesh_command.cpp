@@ -105,7 +105,7 @@ void print_remarks(const MeshRun& run, const MeshingResult& result) {
 }
 
 ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result) {
-  if (result.stopped_early) return ExitCode::kStopped;
+  if (result.stopped_early()) return ExitCode::kStopped;
   const bool proven = result.certificate.verdict == Verdict::kHomeomorphic;
   return proven || !options.parameters.certify ? ExitCode::kDone : ExitCode::kNotProven;
 }

@@ -178,7 +178,7 @@ std::vector<TopologyCount> mesh_topology(const MeshingResult& result) {
 }
 
 std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result) {
-  if (!result.stopped_early) return {};
+  if (!result.stopped_early()) return {};
   // Which limit it was: a signal is known, and so are the numbers the budgets speak of.
   const BudgetParameters& budget = run.options.parameters.budget;
   std::string cause = "the budget";
@@ -208,8 +208,8 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
               {"seed", run.options.seed},
               {"threads", run.options.threads},
               {"r_min_voxels", result.r_min_voxels},
-              {"stopped_early", result.stopped_early},
-              {"stopped_in", result.stopped_early ? Json(result.stopped_in) : Json()},
+              {"stopped_early", result.stopped_early()},
+              {"stopped_in", result.stopped_early() ? Json(result.stopped_in) : Json()},
               {"unmet", unmet_goals(run, result)},
               {"vertices", result.mesh.points.size()},
               {"triangles", result.mesh.triangles.size()},

@@ -109,8 +109,7 @@ void find_agreements(const std::vector<ComponentTopology>& components, const std
 
 }  // namespace
 
-ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
-                                const std::vector<ComponentTopology>& components) {
+ComponentMatch find_pieces(const SurfaceMesh& mesh) {
   ComponentMatch match;
   std::vector<std::uint32_t> piece_of_triangle;
   match.pieces.resize(label_triangles(mesh, piece_of_triangle));
@@ -131,7 +130,12 @@ ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::
     }
   }
   count_loops(mesh, match);
+  return match;
+}
 
+ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
+                                const std::vector<ComponentTopology>& components) {
+  ComponentMatch match = find_pieces(mesh);
   find_components(component_of, match);
   find_agreements(components, component_of, match);
   return match;

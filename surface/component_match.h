@@ -39,6 +39,9 @@ struct ComponentMatch {
   std::int64_t error = 0;
 };
 
+// The pieces and their topology alone: which components they lie on is left open.
+ComponentMatch find_pieces(const SurfaceMesh& mesh);
+
 // `component_of`: the exact component of each mesh vertex.
 ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
                                 const std::vector<ComponentTopology>& components);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "delaunay/base/counted.h"
@@ -127,7 +126,7 @@ PlaceFaults place_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double
   ComponentMatch match;
   run_tasks(2, threads, [&](std::size_t task) {
     if (task == 0) {
-      match = match_components(mesh, std::vector<std::uint32_t>(mesh.points.size()), {{}});
+      match = find_pieces(mesh);
     } else {
       std::vector<Vec3> points;
       points.reserve(mesh.points.size());

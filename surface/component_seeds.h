@@ -20,8 +20,8 @@ std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isos
                                   const IsosurfaceTopology& topology, int threads = 1);
 
 // `count` points of the isosurface hit by random lines through the box, in mesh space (InitTriangulation of the paper).
-// Fewer when 1000 lines in a row miss, or when `controls` say stop, which are asked from the 1000th point on: so there is
-// always something to start from.
+// Fewer when 1000 lines in a row miss, or when `controls` say stop, which are asked from the 1000th point on: so there
+// is always something to start from.
 std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
                                     SearchCounters& counters, Controls* controls = nullptr);
 

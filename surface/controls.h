@@ -33,7 +33,7 @@ class Controls {
     report(stage, 0, 0);
   }
   // The stage in which the run had to stop; empty when it had not.
-  [[nodiscard]] std::string_view stopped_in() const { return stopped_ ? stopped_in_ : std::string_view(); }
+  [[nodiscard]] std::string_view stopped_in() const { return stopped_in_; }
 
   // To be called before each insertion that is tried. True when the run must end now; it stays true.
   bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {

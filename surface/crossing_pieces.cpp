@@ -35,7 +35,7 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
   return dropped;
 }
 
-// Drops the pieces that count for one of these components.
+// Drops the pieces that count for one of these components, or for none at all.
 void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const SurfaceFacts& facts,
                     const Isosurface& isosurface) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);

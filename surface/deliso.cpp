@@ -251,7 +251,6 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
              result.refine);
     });
   }
-  result.stopped_early = controls.stopped();
   result.stopped_in = controls.stopped_in();
   controls.report("certify", surface.points.size(), 0);
   timed(result.certify_stage, [&] {

@@ -37,8 +37,7 @@ struct MeshingResult {
   TriangleMesh mesh;
   std::optional<TriangleMesh> stage1_mesh;  // after Recover, when asked for
   double isovalue_used = 0;
-  double r_min_voxels = 0;  // r_min of stage 2 in smallest spacings
-  bool stopped_early = false;
+  double r_min_voxels = 0;                                    // r_min of stage 2 in smallest spacings
   std::string_view stopped_in;                                // the stage in which it stopped (controls.h); else empty
   StageStats index, topology, initial, poles, certify_stage;  // topology: the exact one, found from the grid
   SearchCounters initial_search;                              // of the random rays
@@ -48,6 +47,8 @@ struct MeshingResult {
   RefineStats refine;
   Certificate certificate;
   double total_seconds = 0;
+
+  [[nodiscard]] bool stopped_early() const { return !stopped_in.empty(); }
 };
 
 // Throws InputError when the isovalue is not finite, lies outside the data's range, or the surface has no point.

@@ -21,8 +21,7 @@ void check_enough(const std::vector<Vec3>& points, const InitialParameters& init
   constexpr std::size_t kFewest = 3;  // not in line
   if (initial.seeding == Seeding::kRandom && points.size() < kFewest) {
     throw InputError("too few points of the isosurface to start from: initial.random_points is " +
-                     std::to_string(initial.random_points) +
-                     ", with initial.seeding \"random\" it should be about 20");
+                     std::to_string(initial.random_points) + ", with initial.seeding \"random\" it should be about 20");
   }
   if (points.empty()) throw InputError("the isosurface has no point to start from");
 }

@@ -1,5 +1,4 @@
 #include "surface/verification.h"
-#include "surface/component_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/counted.h"
 #include "delaunay/base/stopwatch.h"
+#include "surface/component_places.h"
 #include "surface/delaunay_balls.h"
 #include "surface/isosurface_probe.h"
 #include "surface/mesh_topology.h"
@@ -218,8 +218,8 @@ std::vector<std::string> list_failures(const Verification& v) {
   return failures;
 }
 
-PlaceFaults faults_of_places(const TriangleMesh& mesh, const ScalarGrid& grid, const RegularTopology& truth) {
-  const MeshTopology topology = mesh_topology(mesh);
+PlaceFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
+                             const RegularTopology& truth) {
   if (!topology.is_manifold()) return {};
   const Vec3& s = grid.spacing();
   std::vector<Vec3> points;
@@ -271,14 +271,16 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   // Combinatorics.
   v.self_intersection.found = self_intersections(mesh, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
+  PlaceFaults faults;
   {
     const MeshTopology topology = mesh_topology(mesh);
+    faults = faults_of_places(mesh, topology, grid, regular);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
     v.orientation = check_orientation(mesh, voxels, topology, next, off);
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);
-  add_place_faults(faults_of_places(mesh, grid, regular), v.topology);
+  add_place_faults(faults, v.topology);
 
   // Geometry.
   check_distances(voxels, probe, off, v);

@@ -1,5 +1,5 @@
-// Judges any triangle mesh as an image of an isosurface. It shares the exact topology, the certificate's comparison with
-// it and the search for triangles that meet with the mesher, and measures with code that the mesher does not use.
+// Judges any triangle mesh as an image of an isosurface. It shares the exact topology, the certificate's comparison
+// with it and the search for triangles that meet with the mesher, and measures with code that the mesher does not use.
 //
 // Every check is plain data: whether it passed, and its figures. Lengths are in voxels: units of the smallest spacing.
 #pragma once

@@ -190,20 +190,20 @@ TEST(Deliso, TheStopFlagAndBudgetsLeaveAValidPartialMesh) {
   MeshingOptions options;
   options.stop = &stop;
   const MeshingResult stopped = mesh_isosurface(grid, isovalue, options);
-  EXPECT_TRUE(stopped.stopped_early);
+  EXPECT_TRUE(stopped.stopped_early());
   expect_valid(stopped, grid);
 
   for (const std::int64_t vertices : {4, 300, 700}) {
     MeshingOptions limited;
     limited.parameters.budget.max_vertices = vertices;
     const MeshingResult result = mesh_isosurface(grid, isovalue, limited);
-    EXPECT_TRUE(result.stopped_early) << vertices;
+    EXPECT_TRUE(result.stopped_early()) << vertices;
     expect_valid(result, grid);
   }
 
   MeshingOptions hurried;
   hurried.parameters.budget.seconds = 1e-9;
-  EXPECT_TRUE(mesh_isosurface(grid, isovalue, hurried).stopped_early);
+  EXPECT_TRUE(mesh_isosurface(grid, isovalue, hurried).stopped_early());
 }
 
 // Noise needs much repair, and repair adds many points: none of it when the budget is spent before.
@@ -213,7 +213,7 @@ TEST(Deliso, ASpentBudgetLeavesNothingToRepair) {
   MeshingOptions options;
   options.parameters.budget.max_vertices = 300;
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
-  EXPECT_TRUE(result.stopped_early);
+  EXPECT_TRUE(result.stopped_early());
   EXPECT_EQ(result.repair.rounds, 0);
   EXPECT_EQ(result.repair.components_polygonized, 0);
   EXPECT_EQ(result.refine.insertions, 0);
