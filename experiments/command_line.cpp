@@ -1,13 +1,15 @@
 #include "experiments/command_line.h"
 
-#include <charconv>
-#include <cmath>
+#include <cctype>
+#include <filesystem>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
+#include "experiments/parse_number.h"
 #include "volume/io/sample_type.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
@@ -65,38 +67,7 @@ RawOptions raw_options(const VolumeOptions& options) {
   return raw;
 }
 
-std::string refuse_empty_value(const std::string& value) {
-  return value.empty() ? "expected a value, found an empty one" : "";
-}
-
 }  // namespace
-
-double parse_number(const std::string& text, const std::string& option) {
-  double value = 0;
-  const bool plus = text.starts_with('+') && !text.starts_with("+-");
-  const char* const begin = text.data() + (plus ? 1 : 0);
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || begin == end || !std::isfinite(value)) {
-    throw InputError(option + ": expected a finite number, found '" + text + "'");
-  }
-  return value;
-}
-
-std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high) {
-  std::uint64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end || value < low || value > high) {
-    throw InputError(option + ": expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
-                     ", found '" + text + "'");
-  }
-  return value;
-}
-
-std::string refuse_empty_name(const std::string& name) {
-  return name.empty() ? "expected a name, found an empty one" : "";
-}
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
   command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")

@@ -1,7 +1,6 @@
-// What the commands' options have in common: numbers as typed, the volume and the isovalue.
+// What the commands' options have in common: the volume and the isovalue.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,16 +8,6 @@
 #include "volume/scalar_grid.h"
 
 namespace deliso {
-
-// A finite decimal number. Throws InputError naming the option.
-double parse_number(const std::string& text, const std::string& option);
-
-// A whole number from `low` to `high`. Throws InputError naming the option and the range.
-std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high);
-
-// For CLI::Option::check of an option that names a file or folder: what is wrong with the name, or nothing. An empty
-// name would pass for an option that is not there.
-std::string refuse_empty_name(const std::string& name);
 
 // The options that name a volume, as typed. Those beyond the path describe a .raw file, which cannot describe itself.
 struct VolumeOptions {

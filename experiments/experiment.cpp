@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "delaunay/base/check.h"
-#include "experiments/command_line.h"
+#include "experiments/parse_number.h"
 
 namespace deliso {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "delaunay/base/check.h"
-#include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/files.h"
+#include "experiments/parse_number.h"
 #include "experiments/stop_signal.h"
 #include "experiments/text_table.h"
 #include "volume/analytic_fields.h"

@@ -11,6 +11,7 @@
 #include "experiments/commands.h"
 #include "experiments/files.h"
 #include "experiments/output_names.h"
+#include "experiments/parse_number.h"
 #include "experiments/record.h"
 #include "experiments/sample_histogram.h"
 #include "experiments/text_table.h"

@@ -14,6 +14,7 @@
 #include "experiments/config.h"
 #include "experiments/files.h"
 #include "experiments/output_names.h"
+#include "experiments/parse_number.h"
 #include "experiments/progress_bar.h"
 #include "experiments/record.h"
 #include "experiments/rounded_output.h"

@@ -15,6 +15,7 @@
 #include "experiments/files.h"
 #include "experiments/isosurface_shape.h"
 #include "experiments/mesh_shape.h"
+#include "experiments/parse_number.h"
 #include "experiments/picture.h"
 #include "experiments/text_table.h"
 #include "surface/exact_tests.h"

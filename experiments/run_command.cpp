@@ -4,10 +4,10 @@
 #include <string>
 
 #include "delaunay/base/check.h"
-#include "experiments/command_line.h"
 #include "experiments/commands.h"
 #include "experiments/experiment_config.h"
 #include "experiments/experiment_datasets.h"
+#include "experiments/parse_number.h"
 #include "experiments/progress_bar.h"
 #include "experiments/results.h"
 #include "experiments/run_progress.h"

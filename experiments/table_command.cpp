@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/command_line.h"
 #include "experiments/commands.h"
+#include "experiments/parse_number.h"
 #include "experiments/results.h"
 
 namespace deliso {

@@ -8,6 +8,7 @@
 #include "experiments/commands.h"
 #include "experiments/files.h"
 #include "experiments/output_names.h"
+#include "experiments/parse_number.h"
 #include "experiments/record.h"
 #include "experiments/text_table.h"
 #include "surface/mesh_io.h"

@@ -2,26 +2,14 @@
 // topology nor any dual edge tells of it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
-#include "surface/mesh_cover.h"
 #include "surface/restricted_delaunay.h"
-#include "surface/surface_mesh.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
-
-// Whether a sample lies within 0.65 mesh-space units of a triangle.
-bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);
-// For each of a few points, on several threads: the first triangle t that covers it so and for which takes(t) holds;
-// kNoTriangle when there is none.
-inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
-std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                              const std::function<bool(std::uint32_t)>& takes, int threads = 1);
 
 // The grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover): for stage 1 to insert.
 // `suspects` are the crossings to ask about (places in topology.crossings); those that are not covered stay in it.

@@ -10,7 +10,7 @@
 #include "surface/box_tree.h"
 #include "surface/gradients_at.h"
 #include "surface/least_triangulation.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 #include "surface/vertex_fans.h"
 
 namespace deliso {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "surface/coverage.h"
+#include "surface/covering_triangles.h"
 #include "surface/mesh_pieces.h"
 #include "surface/vertex_fans.h"
 

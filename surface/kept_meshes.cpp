@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "delaunay/base/parallel.h"
+#include "surface/matched_mesh.h"
 #include "surface/separate_copies.h"
 #include "surface/vertex_fans.h"
 

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "surface/component_match.h"
-#include "surface/repair.h"
+#include "surface/matched_mesh.h"
 #include "surface/repair_round.h"
+#include "surface/stage_stats.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {

@@ -11,7 +11,7 @@
 #include "surface/blocks.h"
 #include "surface/near_blocks.h"
 #include "surface/point_blocks.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 
 namespace deliso {
 

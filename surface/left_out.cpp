@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "surface/box_tree.h"
-#include "surface/coverage.h"
+#include "surface/covering_triangles.h"
+#include "surface/mesh_cover.h"
 
 namespace deliso {
 

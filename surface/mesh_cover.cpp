@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "delaunay/constructions.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 
 namespace deliso {
 

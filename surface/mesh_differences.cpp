@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "surface/curvature_lattice.h"
+#include "surface/matched_mesh.h"
 
 namespace deliso {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "surface/matched_mesh.h"
 #include "surface/place_boxes.h"
 #include "surface/surface_facts.h"
 #include "surface/sweep_difference.h"
-#include "surface/trouble.h"
 
 namespace deliso {
 

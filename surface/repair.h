@@ -17,24 +17,12 @@
 #include <memory>
 
 #include "surface/controls.h"
-#include "surface/recover.h"
 #include "surface/signed_delaunay.h"
+#include "surface/stage_stats.h"
 #include "surface/surface_facts.h"
 #include "surface/surface_mesh.h"
 
 namespace deliso {
-
-struct RepairStats : StageStats {
-  std::int64_t rounds = 0;                  // resamplings made
-  std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
-  std::int64_t components_mixed = 0;        // taken with vertices of another component at last
-  std::int64_t components_stray = 0;        // done after stray pieces were dropped
-  std::int64_t components_polygonized = 0;  // taken from marching cubes at last
-  std::int64_t intruders_removed = 0;       // vertices taken out of such components (intruders.h)
-  std::int64_t dents_removed = 0;           // vertices taken out of the mesh at last (dents.h)
-  std::int64_t vertices_before = 0;         // of the mesh of stage 1
-  std::int64_t vertices_after = 0;
-};
 
 // `restricted` is what stage 1 left. Returns the mesh that stage 2 starts from, with pole heights; the same for any
 // number of threads.

@@ -7,7 +7,8 @@
 #include "surface/blocks.h"
 #include "surface/build_triangle_mesh.h"
 #include "surface/component_match.h"
-#include "surface/coverage.h"
+#include "surface/covering_triangles.h"
+#include "surface/matched_mesh.h"
 
 namespace deliso {
 

@@ -18,12 +18,12 @@
 #include "surface/flat_signs.h"
 #include "surface/founded_signs.h"
 #include "surface/local_characteristic.h"
+#include "surface/matched_mesh.h"
 #include "surface/poles.h"
 #include "surface/raised_cells.h"
 #include "surface/sign_rules.h"
 #include "surface/signed_delaunay.h"
 #include "surface/specks.h"
-#include "surface/trouble.h"
 #include "volume/exact_topology.h"
 
 namespace deliso {

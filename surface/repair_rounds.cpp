@@ -7,6 +7,7 @@
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/left_out.h"
+#include "surface/matched_mesh.h"
 #include "surface/mesh_pieces.h"
 #include "surface/poles.h"
 #include "surface/separate_copies.h"

@@ -11,13 +11,14 @@
 
 #include "surface/controls.h"
 #include "surface/kept_meshes.h"
+#include "surface/matched_mesh.h"
 #include "surface/mesh_differences.h"
 #include "surface/raised_cells.h"
-#include "surface/repair.h"
 #include "surface/repair_round.h"
 #include "surface/repair_samples.h"
 #include "surface/sample_lattice.h"
 #include "surface/self_intersection.h"
+#include "surface/stage_stats.h"
 #include "surface/surface_facts.h"
 
 namespace deliso {

@@ -7,6 +7,7 @@
 
 #include "surface/blocks.h"
 #include "surface/evidence.h"
+#include "surface/matched_mesh.h"
 
 namespace deliso {
 

@@ -14,9 +14,10 @@
 
 #include "surface/controls.h"
 #include "surface/disputed_signs.h"
+#include "surface/matched_mesh.h"
+#include "surface/places.h"
 #include "surface/raised_cells.h"
 #include "surface/repair_round.h"
-#include "surface/trouble.h"
 
 namespace deliso {
 

@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "delaunay/base/box3.h"
-#include "surface/surface_distance.h"
+#include "surface/matched_mesh.h"
+#include "surface/triangle_distance.h"
 
 namespace deliso {
 

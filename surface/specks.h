@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
-#include "surface/trouble.h"
+#include "surface/matched_mesh.h"
 #include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
 

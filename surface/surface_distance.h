@@ -17,9 +17,6 @@ struct DistanceFigure {
   Vec3 worst;  // where the maximum is: the sampled point
 };
 
-// The squared distance from p to the triangle abc, which may be degenerate.
-double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 // The distance of each vertex to the isosurface; nothing for vertices without a triangle. All in voxel space.
 std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);
 // Of these; the mean is over vertices.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "surface/evidence.h"
+#include "surface/matched_mesh.h"
 #include "volume/cell_crossings.h"
 #include "volume/exact_topology_cell.h"
 

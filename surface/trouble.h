@@ -5,22 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "surface/build_triangle_mesh.h"
-#include "surface/component_match.h"
 #include "surface/critical_places.h"
+#include "surface/matched_mesh.h"
 #include "surface/places.h"
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
 #include "volume/exact_topology.h"
 
 namespace deliso {
-
-// A mesh of the whole surface and what it was matched with.
-struct MatchedMesh {
-  BuiltMesh built;
-  std::vector<std::uint32_t> component;  // of each mesh vertex: the exact component it lies on
-  ComponentMatch match;
-};
 
 // What trouble is looked for in. References must outlive the search.
 struct TroubleContext {

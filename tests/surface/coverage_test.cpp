@@ -11,8 +11,10 @@
 #include "delaunay/base/rng.h"
 #include "delaunay/constructions.h"
 #include "surface/blocks.h"
+#include "surface/covering_triangles.h"
+#include "surface/mesh_cover.h"
 #include "surface/polygonized_components.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

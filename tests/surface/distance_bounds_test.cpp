@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 
 namespace deliso {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "surface/matched_mesh.h"
 #include "surface/separate_copies.h"
 #include "surface/vertex_fans.h"
 #include "tests/support/surface_fields.h"

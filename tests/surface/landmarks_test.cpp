@@ -15,6 +15,7 @@
 #include "surface/blocks.h"
 #include "surface/self_intersection.h"
 #include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 #include "tests/support/mesh_fields.h"
 #include "tests/support/refine_runs.h"
 #include "tests/support/surface_fields.h"

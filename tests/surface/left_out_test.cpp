@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "surface/blocks.h"
-#include "surface/coverage.h"
+#include "surface/mesh_cover.h"
 #include "surface/polygonized_components.h"
 #include "tests/support/surface_fields.h"
 

@@ -11,7 +11,7 @@
 
 #include "delaunay/base/rng.h"
 #include "delaunay/constructions.h"
-#include "surface/surface_distance.h"
+#include "surface/triangle_distance.h"
 
 namespace deliso {
 namespace {

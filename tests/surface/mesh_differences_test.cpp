@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "surface/curvature_lattice.h"
+#include "surface/matched_mesh.h"
 #include "surface/repair_round.h"
 #include "tests/support/surface_fields.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "surface/evidence.h"
+#include "surface/matched_mesh.h"
 #include "surface/restricted_delaunay.h"
 #include "surface/sample_lattice.h"
 #include "tests/support/surface_fields.h"

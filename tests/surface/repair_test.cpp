@@ -1,5 +1,4 @@
 // Repair as a whole, on a field that keeps it busy.
-#include "surface/repair.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 
 #include "surface/deliso.h"
 #include "surface/mesh_topology.h"
+#include "surface/stage_stats.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

@@ -9,6 +9,7 @@
 
 #include "delaunay/base/rng.h"
 #include "surface/build_triangle_mesh.h"
+#include "surface/matched_mesh.h"
 #include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
+#include "surface/triangle_distance.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/mesh_fields.h"
 
