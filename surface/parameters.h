@@ -1,5 +1,5 @@
-// The parameters of the mesher. Defaults are the paper's where it gives them. experiments/config.h holds the table that
-// makes JSON, help text and schema out of these structs.
+// The parameters of the mesher. Defaults are the paper's where it gives them. experiments/config/config.h holds the
+// table that makes JSON, help text and schema out of these structs.
 #pragma once
 
 #include <cstdint>

@@ -67,7 +67,7 @@ TEST(IncludeDirection, WrongArrowsWouldBeSeen) {
   EXPECT_FALSE(may_include("raycast", "delaunay/predicates.h"));
   EXPECT_FALSE(may_include("delaunay/base", "delaunay/ids.h"));
   EXPECT_FALSE(may_include("raycast", "surface/parameters.h"));
-  EXPECT_FALSE(may_include("surface", "experiments/json.h"));
+  EXPECT_FALSE(may_include("surface", "experiments/config/json.h"));
   EXPECT_FALSE(may_include("experiments", "tests/support/program_runner.h"));
   EXPECT_TRUE(may_include("raycast", "volume/scalar_grid.h"));
   EXPECT_TRUE(may_include("volume", "delaunay/base/vec3.h"));

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/json.h"
+#include "experiments/config/json.h"
 
 namespace deliso::testing {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/experiment_config.h"
+#include "experiments/runs/experiment_config.h"
 #include "tests/support/program_runner.h"
 
 namespace deliso::testing {

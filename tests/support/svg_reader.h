@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/svg.h"
+#include "experiments/results/svg.h"
 
 namespace deliso::testing {
 

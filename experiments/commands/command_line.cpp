@@ -1,0 +1,116 @@
+#include "experiments/commands/command_line.h"
+
+#include <cctype>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
+#include "experiments/system/parse_number.h"
+#include "volume/io/sample_type.h"
+#include "volume/io/volume_file.h"
+#include "volume/isovalue_range.h"
+
+namespace deliso {
+namespace {
+
+// "256,256,98" as three texts.
+std::vector<std::string> three_parts(const std::string& text, const std::string& option) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text + ',');
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  if (parts.size() != 3) throw InputError(option + ": expected three numbers A,B,C, found '" + text + "'");
+  return parts;
+}
+
+Vec3 parse_spacing(const std::string& text) {
+  Vec3 spacing;
+  const std::vector<std::string> parts = three_parts(text, "--spacing");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    spacing[axis] = parse_number(parts[axis], "--spacing");
+    if (spacing[axis] <= 0) throw InputError("--spacing: expected numbers > 0, found '" + text + "'");
+  }
+  return spacing;
+}
+
+Dims parse_dims(const std::string& text) {
+  Dims dims{};
+  const std::vector<std::string> parts = three_parts(text, "--dims");
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::int32_t>::max();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    dims[axis] = static_cast<std::int32_t>(parse_count(parts[axis], "--dims", 2, kLargest));
+  }
+  return dims;
+}
+
+bool is_raw(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".raw";
+}
+
+RawOptions raw_options(const VolumeOptions& options) {
+  RawOptions raw;
+  if (!options.dims.empty()) raw.dims = parse_dims(options.dims);
+  if (!options.spacing.empty()) raw.spacing = parse_spacing(options.spacing);
+  raw.type = options.type;
+  if (!raw.type.empty() && !parse_sample_type(raw.type)) {
+    throw InputError("--type: expected " + supported_sample_types() + ", found '" + raw.type + "'");
+  }
+  if (options.endian == "big") raw.endian = Endian::kBig;
+  if (!options.endian.empty() && options.endian != "big" && options.endian != "little") {
+    throw InputError("--endian: expected little or big, found '" + options.endian + "'");
+  }
+  return raw;
+}
+
+}  // namespace
+
+void add_volume_options(CLI::App& command, VolumeOptions& options) {
+  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
+  command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)")
+      ->type_name("NX,NY,NZ")
+      ->check(refuse_empty_value);
+  command
+      .add_option("--type", options.type, "Of a .raw file: " + supported_sample_types() + " (default: from its name)")
+      ->type_name("T")
+      ->check(refuse_empty_value);
+  command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big")
+      ->type_name("ORDER")
+      ->check(refuse_empty_value);
+  command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)")
+      ->type_name("SX,SY,SZ")
+      ->check(refuse_empty_value);
+}
+
+ScalarGrid load_volume(const VolumeOptions& options) {
+  const bool described =
+      !options.dims.empty() || !options.type.empty() || !options.endian.empty() || !options.spacing.empty();
+  if (described && !is_raw(options.path)) {
+    throw InputError("--dims, --type, --endian and --spacing describe a .raw file, but the volume is " + options.path);
+  }
+  return read_volume(options.path, raw_options(options));
+}
+
+void check_isovalue(const ScalarGrid& grid, double isovalue) {
+  check_samples(grid);
+  if (has_isosurface(grid, isovalue)) return;
+  throw InputError("--isovalue: the isosurface at " + shortest_text(isovalue) +
+                   " has no point: " + isovalue_range_text(grid, isovalue));
+}
+
+void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {
+  if (used == isovalue) return;
+  const bool is_sample = regular_isovalue(grid, isovalue) != isovalue;
+  std::cerr << "deliso: " << (is_sample ? "a sample" : "a saddle of the interpolant") << " equals the isovalue "
+            << shortest_text(isovalue) << ", so the isosurface is singular; used " << shortest_text(used)
+            << " instead\n";
+}
+
+}  // namespace deliso

@@ -1,0 +1,102 @@
+// deliso generate: writes a built-in volume.
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "delaunay/base/check.h"
+#include "experiments/commands/commands.h"
+#include "experiments/system/files.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/stop_signal.h"
+#include "experiments/system/text_table.h"
+#include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
+#include "volume/io/volume_file.h"
+#include "volume/isovalue_range.h"
+
+namespace deliso {
+namespace {
+
+struct GenerateCommandOptions {
+  std::string name;
+  std::string output;
+  std::string size;
+  std::string seed = "1";
+  std::string encoding = "gzip";
+  bool list = false;
+};
+
+void print_list() {
+  TextTable table;
+  table.row({"name", "size", "isovalue", "type"});
+  for (const AnalyticField& field : analytic_fields()) {
+    table.row({field.name, std::to_string(field.default_size), number_text(field.isovalue), field.type_name});
+  }
+  table.print(std::cout, true);
+  std::cout << '\n';
+  for (const AnalyticField& field : analytic_fields()) std::cout << field.name << ": " << field.description << '\n';
+}
+
+// Coarse volumes may miss what the field has.
+std::string suggested_isovalue(const AnalyticField& field, std::int32_t size, std::uint64_t seed) {
+  constexpr std::int32_t kCoarse = 16;
+  const bool has_points = size > kCoarse || has_isosurface(generate_field(field.name, size, seed), field.isovalue);
+  return number_text(field.isovalue) + (has_points ? "" : " (no point of it at this size)");
+}
+
+ExitCode run_generate(const GenerateCommandOptions& options) {
+  if (options.list) {
+    print_list();
+    return ExitCode::kDone;
+  }
+  if (options.name.empty()) throw InputError("generate: NAME is required (--list names all)");
+  if (options.output.empty()) throw InputError("generate: -o VOLUME is required");
+  const AnalyticField& field = find_analytic_field(options.name);
+  const auto size = options.size.empty()
+                        ? field.default_size
+                        : static_cast<std::int32_t>(parse_count(options.size, "--size", 2, kLargestFieldSize));
+  const std::uint64_t seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  check_replaceable(options.output, "-o");
+  const bool is_raw = options.encoding == "raw";
+  if (!is_raw && options.encoding != "gzip") {
+    throw InputError("--encoding is \"" + options.encoding + "\", expected \"gzip\" or \"raw\"");
+  }
+  FieldSlices slices(field, size, seed);
+  StopHold hold;
+  const auto next = [&] {
+    hold.check();
+    return slices.next();
+  };
+  write_volume({{size, size, size}, slices.type()}, next, options.output,
+               is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
+  hold.finish();
+  const std::string side = std::to_string(size);
+  TextTable()
+      .row({"volume", options.output})
+      .row({"dims", side + " " + side + " " + side})
+      .row({"type", field.type_name})
+      .row({"suggested isovalue", suggested_isovalue(field, size, seed)})
+      .print(std::cout);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_generate_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<GenerateCommandOptions>();
+  CLI::App* command = app.add_subcommand("generate", "Write a built-in volume");
+  command->add_option("NAME", options->name, "Which one")->type_name("");
+  command->add_option("-o,--output", options->output, "The volume: .nrrd or .raw")->type_name("VOLUME");
+  command->add_option("--size", options->size, "Samples along each axis (default: the field's own)")->type_name("N");
+  command->add_option("--seed", options->seed, "Seed of the fields that are random")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
+      ->type_name("gzip|raw")
+      ->capture_default_str();
+  command->add_flag("--list", options->list, "List the built-in volumes");
+  command->callback([options, &exit_code] { exit_code = run_generate(*options); });
+}
+
+}  // namespace deliso

@@ -1,0 +1,115 @@
+// deliso info: what a volume holds, and isovalues worth a try.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/commands/sample_histogram.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/text_table.h"
+
+namespace deliso {
+namespace {
+
+struct InfoCommandOptions {
+  VolumeOptions volume;
+  std::string report;
+  bool json = false;
+};
+
+Json info_report(const VolumeOptions& options, const ScalarGrid& grid, const SampleHistogram& histogram) {
+  Json suggestions = Json::array();
+  for (const IsovalueSuggestion& suggestion : suggested_isovalues(histogram)) {
+    suggestions.push_back(Json{{"isovalue", suggestion.isovalue}, {"reason", suggestion.reason}});
+  }
+  return Json{{"schema", "deliso-info-1"},
+              {"program", program_json()},
+              {"volume", volume_json(options.path, grid)},
+              {"histogram", {{"low", histogram.low}, {"high", histogram.high}, {"counts", histogram.counts}}},
+              {"suggested_isovalues", suggestions}};
+}
+
+// Sixteen rows, or fewer where there are fewer bins: where the first bin begins, how many samples, a bar.
+void print_histogram(const SampleHistogram& histogram) {
+  constexpr std::size_t kMostRows = 16;
+  constexpr double kBarWidth = 40;
+  const std::size_t bins = histogram.counts.size();
+  const std::size_t rows = std::min(kMostRows, bins);
+  std::vector<std::uint64_t> counts(rows);
+  for (std::size_t bin = 0; bin < bins; ++bin) counts[bin * rows / bins] += histogram.counts[bin];
+  const double largest = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+  TextTable table;
+  table.row({"from", "samples", ""});
+  for (std::size_t r = 0; r < rows; ++r) {
+    // The first bin of the row.
+    const std::size_t bin = (r * bins + rows - 1) / rows;
+    const double from = histogram.low + static_cast<double>(bin) * histogram.bin_width();
+    std::string bar(static_cast<std::size_t>(std::lround(kBarWidth * static_cast<double>(counts[r]) / largest)), '#');
+    bar.resize(static_cast<std::size_t>(kBarWidth), ' ');
+    table.row({number_text(from), std::to_string(counts[r]), bar});
+  }
+  table.print(std::cout, true);
+}
+
+std::string triple(double a, double b, double c) {
+  return number_text(a) + " " + number_text(b) + " " + number_text(c);
+}
+
+void print_info(const Json& report, const ScalarGrid& grid, const SampleHistogram& histogram) {
+  TextTable table;
+  table.row({"dims", triple(grid.dims()[0], grid.dims()[1], grid.dims()[2])})
+      .row({"type", grid.type_name()})
+      .row({"spacing", triple(grid.spacing().x, grid.spacing().y, grid.spacing().z)})
+      .row({"origin", triple(grid.origin().x, grid.origin().y, grid.origin().z)})
+      .row({"range", number_text(grid.range().first) + " " + number_text(grid.range().second)})
+      .row({"sha256", report["volume"]["sha256"].get<std::string>()});
+  table.print(std::cout);
+  std::cout << '\n';
+  print_histogram(histogram);
+  if (report["suggested_isovalues"].empty()) return;
+  TextTable suggestions;
+  suggestions.row({"suggested isovalue", "because it"});
+  for (const Json& suggestion : report["suggested_isovalues"]) {
+    suggestions.row({number_text(suggestion["isovalue"].get<double>()), suggestion["reason"].get<std::string>()});
+  }
+  std::cout << '\n';
+  suggestions.print(std::cout, true);
+}
+
+ExitCode run_info(const InfoCommandOptions& options) {
+  if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
+  const ScalarGrid grid = load_volume(options.volume);
+  const SampleHistogram histogram = sample_histogram(grid);
+  const Json report = info_report(options.volume, grid, histogram);
+  if (!options.report.empty()) write_text(json_text(report), options.report);
+  if (options.json) {
+    std::cout << json_text(report);
+  } else {
+    print_info(report, grid, histogram);
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<InfoCommandOptions>();
+  CLI::App* command = app.add_subcommand("info", "Dimensions, range, histogram and suggested isovalues of a volume");
+  add_volume_options(*command, options->volume);
+  command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--report", options->report, "Write the JSON to a file")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->callback([options, &exit_code] { exit_code = run_info(*options); });
+}
+
+}  // namespace deliso

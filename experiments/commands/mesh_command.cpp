@@ -1,0 +1,178 @@
+// deliso mesh: a volume and an isovalue in, a certified Delaunay mesh out.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/config.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/progress_bar.h"
+#include "experiments/system/rounded_output.h"
+#include "experiments/system/stop_signal.h"
+#include "experiments/system/text_table.h"
+#include "surface/deliso.h"
+#include "surface/mesh_io.h"
+#include "surface/mesh_quality.h"
+
+namespace deliso {
+namespace {
+
+struct MeshCommandOptions {
+  VolumeOptions volume;
+  std::string isovalue;
+  std::string output;
+  std::string config;
+  std::vector<std::string> assignments;
+  std::string seed = "1";
+  std::string report;
+  std::string stage1_output;
+  std::string threads = "1";
+  bool quiet = false;
+  bool ascii = false;
+};
+
+Parameters resolved_parameters(const MeshCommandOptions& options) {
+  Parameters parameters;
+  if (!options.config.empty()) parameters = read_parameters(options.config);
+  for (const std::string& assignment : options.assignments) set_parameter(assignment, parameters);
+  return parameters;
+}
+
+void check_mesh_output(const std::filesystem::path& path, const std::string& option) {
+  if (!is_mesh_path(path)) {
+    throw InputError(option + ": a mesh file ends in " + std::string(kMeshExtensions) + ", found '" + path.string() +
+                     "'");
+  }
+  check_replaceable(path, option);
+}
+
+// Everything that could keep the results from being written is found before the work starts.
+void check_outputs(const MeshCommandOptions& options) {
+  check_mesh_output(options.output, "-o");
+  if (!options.stage1_output.empty()) check_mesh_output(options.stage1_output, "--stage1-out");
+  if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
+                 {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
+}
+
+void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const MeshingResult& result) {
+  // The report first in memory, or where it cannot be taken back: a failure there must leave no mesh behind.
+  const std::string report = options.report.empty() ? "" : json_text(mesh_report(run, result));
+  const bool is_file = !is_special(options.report);
+  if (!is_file) write_text(report, options.report);
+  write_mesh(result.mesh, options.output, options.ascii);
+  if (!options.stage1_output.empty() && result.stage1_mesh) {
+    write_mesh(*result.stage1_mesh, options.stage1_output, options.ascii);
+  }
+  if (is_file && !options.report.empty()) write_text(report, options.report);
+}
+
+void print_summary(const MeshingResult& result, int threads) {
+  const TopologySum topology = sum_of(mesh_topology(result));
+  TextTable table;
+  table.row({"vertices", std::to_string(result.mesh.points.size())})
+      .row({"triangles", std::to_string(result.mesh.triangles.size())})
+      .row({"components", std::to_string(topology.components)})
+      .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
+      .row({"boundary loops", std::to_string(topology.boundary_loops)})
+      .row({"verdict", verdict_name(result.certificate.verdict)})
+      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, threads).min_angle_degrees)})
+      .row({"seconds", number_text(result.total_seconds)});
+  table.print(std::cout);
+}
+
+// What a reader of stderr must know beyond the table.
+void print_remarks(const MeshRun& run, const MeshingResult& result) {
+  remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
+  for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
+  constexpr std::size_t kShown = 10;
+  const std::vector<std::string>& differences = result.certificate.differences;
+  for (std::size_t i = 0; i < std::min(kShown, differences.size()); ++i) {
+    std::cerr << "deliso: " << differences[i] << '\n';
+  }
+  if (differences.size() > kShown) {
+    std::cerr << "deliso: " << differences.size() - kShown << " more differences stand in the report\n";
+  }
+}
+
+ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result) {
+  if (result.stopped_early()) return ExitCode::kStopped;
+  const bool proven = result.certificate.verdict == Verdict::kHomeomorphic;
+  return proven || !options.parameters.certify ? ExitCode::kDone : ExitCode::kNotProven;
+}
+
+ExitCode run_mesh(const MeshCommandOptions& options) {
+  // Every option is judged before the volume is read, the volume before the work starts.
+  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  MeshingOptions meshing;
+  meshing.parameters = resolved_parameters(options);
+  meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  meshing.keep_stage1_mesh = !options.stage1_output.empty();
+  check_outputs(options);
+  meshing.stop = &catch_stop_signals();
+  const ScalarGrid grid = load_volume(options.volume);
+
+  // Mesh, watched on a terminal.
+  const MeshRun run{options.volume.path, grid, isovalue, meshing};
+  MeshingResult result = [&] {
+    ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
+    MeshingOptions watched = meshing;
+    watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
+    return mesh_isosurface(grid, isovalue, watched);
+  }();
+  if (meshing.parameters.certify) {
+    const Vec3& s = grid.spacing();
+    judge_rounding(result.mesh, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+  }
+
+  write_outputs(options, run, result);
+  print_summary(result, meshing.threads);
+  if (!options.quiet) print_remarks(run, result);
+  return exit_code_of(meshing, result);
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<MeshCommandOptions>();
+  CLI::App* command = app.add_subcommand("mesh", "Mesh an isosurface and certify the mesh");
+  add_volume_options(*command, options->volume);
+  command->add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")
+      ->type_name("K")
+      ->required();
+  command->add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
+      ->type_name("MESH")
+      ->required();
+  command->add_option("--config", options->config, "Parameters in a JSON file")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->seed, "Seed of the random choices")->type_name("N")->capture_default_str();
+  command->add_option("--report", options->report, "Write a JSON report of the run")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
+      ->type_name("MESH")
+      ->check(refuse_empty_name);
+  command->add_option("--threads", options->threads, "Threads to use")->type_name("N")->capture_default_str();
+  command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
+  command->add_flag("--ascii", options->ascii, "Write PLY as text");
+  command->footer(parameters_help());
+  command->callback([options, &exit_code] { exit_code = run_mesh(*options); });
+}
+
+}  // namespace deliso

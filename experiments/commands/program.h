@@ -1,0 +1,10 @@
+// The program `deliso`: reads the command line, runs one command, turns failures into messages and exit codes.
+#pragma once
+
+#include "experiments/system/exit_code.h"
+
+namespace deliso {
+
+ExitCode run_program(int argc, const char* const* argv);
+
+}  // namespace deliso

@@ -1,0 +1,230 @@
+// deliso render: pictures of isosurfaces by ray casting, and of meshes with their edges.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/stopwatch.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/pictures/isosurface_shape.h"
+#include "experiments/pictures/mesh_shape.h"
+#include "experiments/pictures/picture.h"
+#include "experiments/system/files.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/text_table.h"
+#include "surface/exact_tests.h"
+#include "surface/mesh_io.h"
+#include "volume/marching_cubes.h"
+
+namespace deliso {
+namespace {
+
+struct RenderCommandOptions {
+  VolumeOptions volume;
+  std::string isovalue;
+  std::string output;
+  std::vector<std::string> meshes;
+  bool surface = false;
+  bool marching_cubes = false;
+  bool closed = false;
+  std::vector<std::string> clips;
+  std::string view = "30,20";
+  std::string zoom = "1";
+  std::string look_at;
+  std::string field_of_view = "0";
+  std::string size;
+  std::string samples = "3";
+  std::string line_width = "1.1";
+  std::string threads;
+};
+
+// One part of the picture, from left to right.
+struct Panel {
+  std::string name;
+  std::unique_ptr<Shape> shape;
+  const TriangleMesh* mesh = nullptr;  // the shape's, if it has one
+};
+
+constexpr std::int32_t kLargestSide = 16384;
+constexpr std::int32_t kMostSamples = 8;
+constexpr std::int64_t kMostRays = std::int64_t{1} << 26;  // they are all kept until a panel is drawn
+
+double number_in(const std::string& text, const std::string& option, double low, double high) {
+  const double value = parse_number(text, option);
+  if (value >= low && value <= high) return value;
+  throw InputError(option + ": expected a number from " + number_text(low) + " to " + number_text(high) + ", found '" +
+                   text + "'");
+}
+
+// "a<separator>b<separator>c" as its parts.
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+View parse_view(const RenderCommandOptions& options) {
+  View view;
+  const std::vector<std::string> angles = parts_of(options.view, ',');
+  if (angles.size() != 2) {
+    throw InputError("--view: expected AZIMUTH,ELEVATION in degrees, found '" + options.view + "'");
+  }
+  view.azimuth = number_in(angles[0], "--view", -360, 360);
+  view.elevation = number_in(angles[1], "--view", -90, 90);
+  view.zoom = number_in(options.zoom, "--zoom", 1e-3, 1e6);
+  view.field_of_view = number_in(options.field_of_view, "--perspective", 0, 150);
+  if (options.look_at.empty()) return view;
+  const std::vector<std::string> coordinates = parts_of(options.look_at, ',');
+  if (coordinates.size() != 3) throw InputError("--look-at: expected X,Y,Z, found '" + options.look_at + "'");
+  view.look_at.emplace();
+  for (std::size_t a = 0; a < 3; ++a) (*view.look_at)[a] = parse_number(coordinates[a], "--look-at");
+  return view;
+}
+
+// The whole picture's, white.
+Image empty_image(const RenderCommandOptions& options, std::int32_t panels, std::int32_t samples) {
+  if (options.size.empty()) return {panels == 1 ? 800 : 600 * panels, 600};
+  const std::vector<std::string> sides = parts_of(options.size, 'x');
+  if (sides.size() != 2) throw InputError("--size: expected WIDTHxHEIGHT in pixels, found '" + options.size + "'");
+  const auto side = [](const std::string& text, std::int32_t low) {
+    return static_cast<std::int32_t>(parse_count(text, "--size", static_cast<std::uint64_t>(low), kLargestSide));
+  };
+  const std::int32_t width = side(sides[0], panels);
+  const std::int32_t height = side(sides[1], 1);
+  const std::int64_t rays = std::int64_t{width} * height / panels * samples * samples;
+  if (rays > kMostRays) {
+    throw InputError("--size: " + options.size + " with --samples " + std::to_string(samples) + " needs " +
+                     std::to_string(rays) + " rays, the most is " + std::to_string(kMostRays));
+  }
+  return {width, height};
+}
+
+PictureOptions parse_picture_options(const RenderCommandOptions& options) {
+  PictureOptions picture;
+  picture.samples = static_cast<std::int32_t>(parse_count(options.samples, "--samples", 1, kMostSamples));
+  picture.line_width = number_in(options.line_width, "--line-width", 0, 100);
+  picture.threads = options.threads.empty()
+                        ? static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency()))
+                        : static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  return picture;
+}
+
+Panel mesh_panel(const std::string& name, TriangleMesh mesh) {
+  if (mesh.triangles.empty()) throw InputError(name + ": the mesh has no triangle, nothing can be drawn");
+  auto shape = std::make_unique<MeshShape>(std::move(mesh));
+  const TriangleMesh* drawn = &shape->mesh();
+  return {name, std::move(shape), drawn};
+}
+
+// The surface by ray casting first (when it is asked for or nothing else is), then marching cubes, then the meshes.
+std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_ptr<IsosurfaceShape> surface,
+                               const ScalarGrid& grid, double isovalue) {
+  std::vector<Panel> panels;
+  if (options.surface || (options.meshes.empty() && !options.marching_cubes)) {
+    panels.push_back({"isosurface", std::move(surface), nullptr});
+  }
+  if (options.marching_cubes) {
+    MarchingCubesMesh cubes = marching_cubes(grid, isovalue, &kExactTests);
+    panels.push_back(mesh_panel("marching cubes", {std::move(cubes.points), std::move(cubes.triangles)}));
+  }
+  for (const std::string& path : options.meshes) panels.push_back(mesh_panel(path, read_mesh(path)));
+  return panels;
+}
+
+void print_panels(const std::string& output, const Image& image, const std::vector<Panel>& panels, double seconds) {
+  TextTable table;
+  table.row({"picture", output});
+  table.row({"size", std::to_string(image.width) + " x " + std::to_string(image.height)});
+  for (const Panel& panel : panels) {
+    table.row({panel.name, panel.mesh == nullptr ? "ray cast"
+                                                 : std::to_string(panel.mesh->points.size()) + " vertices, " +
+                                                       std::to_string(panel.mesh->triangles.size()) + " triangles"});
+  }
+  table.row({"seconds", number_text(seconds)});
+  table.print(std::cout);
+}
+
+ExitCode run_render(const RenderCommandOptions& options) {
+  // Every option is judged before anything is read.
+  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  const View view = parse_view(options);
+  const PictureOptions picture = parse_picture_options(options);
+  std::vector<ClipPlane> clips;
+  for (const std::string& clip : options.clips) clips.push_back(parse_clip_plane(clip, "--clip"));
+  const bool alone = options.meshes.empty() && !options.marching_cubes;
+  const auto panel_count = static_cast<std::int32_t>(options.meshes.size()) + (options.marching_cubes ? 1 : 0) +
+                           (options.surface || alone ? 1 : 0);
+  Image image = empty_image(options, panel_count, picture.samples);
+  check_png_output(options.output, "-o");
+
+  const ScalarGrid read = load_volume(options.volume);
+  check_isovalue(read, isovalue);
+  const double used = regular_isovalue(read, isovalue);
+  const ScalarGrid grid = options.closed ? padded(read, read.range().first) : read;
+  const Stopwatch stopwatch;
+  auto surface = std::make_unique<IsosurfaceShape>(grid, used);
+  const std::vector<Vec3> framed = surface->outermost_points();
+  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used);
+
+  // All panels are seen alike: the same camera, the same cuts.
+  const std::int32_t width = image.width / panel_count;
+  const Camera camera(view, framed, width, image.height);
+  Box3 whole = grid.box();
+  for (const Panel& panel : panels) {
+    whole.extend(panel.shape->box().low);
+    whole.extend(panel.shape->box().high);
+  }
+  const Box3 kept = kept_box(whole, clips, camera.toward_eye(), "--clip");
+  for (std::int32_t i = 0; i < panel_count; ++i) {
+    draw(*panels[static_cast<std::size_t>(i)].shape, kept, camera, picture, i * width, image);
+  }
+  write_png(image, options.output);
+  print_panels(options.output, image, panels, stopwatch.seconds());
+  remark_isovalue(read, isovalue, used);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<RenderCommandOptions>();
+  CLI::App* command = app.add_subcommand("render", "A picture of an isosurface by ray casting, or of meshes of it");
+  add_volume_options(*command, options->volume);
+  const auto add = [command](const std::string& name, auto& value, const std::string& help, const std::string& type) {
+    return command->add_option(name, value, help)->type_name(type);
+  };
+  const auto add_many = [&add](const std::string& name, auto& values, const std::string& help,
+                               const std::string& type) {
+    add(name, values, help, type)->take_all()->allow_extra_args(false);
+  };
+  add("--isovalue", options->isovalue, "The value of the isosurface", "K")->required();
+  add("-o,--output", options->output, "The picture: .png", "PNG")->required();
+  add_many("--mesh", options->meshes, "Draw this mesh with its edges (repeatable: side by side)", "MESH");
+  command->add_flag("--surface", options->surface, "Draw the isosurface itself beside the meshes");
+  command->add_flag("--marching-cubes", options->marching_cubes, "Draw the mesh of marching cubes, beside the others");
+  add_many("--clip", options->clips, "Cut away what lies between this plane and the eye (repeatable)", "AXIS=VALUE");
+  add("--view", options->view, "Direction of the eye in degrees; z is up", "AZIMUTH,ELEVATION")->capture_default_str();
+  add("--zoom", options->zoom, "1: the whole surface fits", "FACTOR")->capture_default_str();
+  add("--look-at", options->look_at, "The middle of the picture (default: of the surface)", "X,Y,Z");
+  add("--perspective", options->field_of_view, "Field of view; 0: parallel rays", "DEGREES")->capture_default_str();
+  add("--size", options->size, "Of the whole picture (default 800x600, 600x600 for each of several parts)", "WxH");
+  add("--samples", options->samples, "N x N rays per pixel", "N")->capture_default_str();
+  add("--line-width", options->line_width, "Of the edges, in pixels; 0: none", "W")->capture_default_str();
+  add("--threads", options->threads, "Threads to use (default: all)", "N");
+  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command->callback([options, &exit_code] { exit_code = run_render(*options); });
+}
+
+}  // namespace deliso

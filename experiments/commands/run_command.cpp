@@ -1,0 +1,146 @@
+// deliso run: an experiment from a JSON file.
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "delaunay/base/check.h"
+#include "experiments/commands/commands.h"
+#include "experiments/results/results.h"
+#include "experiments/runs/experiment_config.h"
+#include "experiments/runs/experiment_datasets.h"
+#include "experiments/runs/run_progress.h"
+#include "experiments/runs/runner.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/progress_bar.h"
+#include "experiments/system/stop_signal.h"
+
+namespace deliso {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunCommandOptions {
+  std::string experiment;
+  std::string data;
+  std::string out;
+  std::string shard = "1/1";
+  std::string threads = "1";
+  bool resume = false;
+  bool dry_run = false;
+  bool builtin = false;
+  bool smoke = false;
+  bool progress = false;
+  bool quiet = false;
+};
+
+// The plan: one line for each run still to be made.
+void print_plan(const Experiment& experiment, const RunnerOptions& options) {
+  for (const PlannedRun& run : pending_runs(experiment, options)) {
+    const bool present = is_present(experiment.datasets[run.dataset], options.data_folder);
+    std::cout << run_name(experiment, run) << ", seed " << seed_of(experiment, run.repeat)
+              << (present ? "" : " (absent)") << '\n';
+  }
+  for (const Dataset& dataset : experiment.datasets) {
+    if (!is_present(dataset, options.data_folder)) {
+      std::cerr << "deliso: absent: " << absent_text(dataset, options.data_folder) << '\n';
+    }
+  }
+}
+
+ExitCode report(const RunnerSummary& summary, const RunnerOptions& options, bool quiet) {
+  for (const std::string& failure : summary.failed) std::cerr << "deliso: failed: " << failure << '\n';
+  if (!quiet) {
+    for (const std::string& absent : summary.absent) std::cerr << "deliso: absent: " << absent << '\n';
+  }
+  if (summary.stopped) {
+    std::cerr << "deliso: stopped after " << summary.done_before + summary.done << " of " << summary.planned
+              << " runs; --resume goes on with " << options.out_folder.string() << '\n';
+    return ExitCode::kStopped;
+  }
+  return summary.failed.empty() ? ExitCode::kDone : ExitCode::kNotProven;
+}
+
+// A default folder may be missing: its data sets are then absent. One that was named must be there.
+fs::path data_folder(const RunCommandOptions& options) {
+  if (options.data.empty()) return default_data_folder(options.experiment);
+  std::error_code error;
+  if (!fs::is_directory(options.data, error)) {
+    throw InputError("--data: expected a folder with the volumes, found " +
+                     (fs::exists(options.data, error) ? options.data + ", which is no folder"
+                                                      : "no folder of the name " + options.data));
+  }
+  return options.data;
+}
+
+ExitCode run_run(const RunCommandOptions& options) {
+  // The experiment and every option are judged before the first run.
+  Experiment experiment = read_experiment(options.experiment);
+  if (options.builtin) experiment = builtin_form(std::move(experiment));
+  if (options.smoke) experiment = smoke_form(std::move(experiment));
+  RunnerOptions runner;
+  runner.data_folder = data_folder(options);
+  runner.out_folder = options.out.empty() ? fs::path("out") / experiment.name : fs::path(options.out);
+  runner.shard = parse_shard(options.shard);
+  runner.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  runner.resume = options.resume;
+  if (options.dry_run) {
+    print_plan(experiment, runner);
+    return ExitCode::kDone;
+  }
+  runner.stop = &catch_stop_signals();
+
+  // Do the runs, watched on a terminal.
+  using Style = RunProgress::Style;
+  Style style = stderr_is_terminal() ? Style::kBar : Style::kSilent;
+  if (options.progress) style = Style::kLines;
+  if (options.quiet) style = Style::kSilent;
+  std::vector<std::size_t> datasets;
+  for (const PlannedRun& run : pending_runs(experiment, runner)) datasets.push_back(run.dataset);
+  RunProgress progress(std::cerr, style, std::move(datasets));
+  const RunnerSummary summary = run_experiment(experiment, runner, progress);
+  const ExitCode exit_code = report(summary, runner, options.quiet);
+
+  // Of a shard there is no whole table yet.
+  if (runner.shard.count == 1 && !summary.stopped) {
+    std::vector<std::string> notes;
+    std::cout << write_tables(experiment, {runner.out_folder}, runner.out_folder, notes);
+    for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<RunCommandOptions>();
+  CLI::App* command = app.add_subcommand("run", "Do an experiment and make its table and plots");
+  command->add_option("EXPERIMENT", options->experiment, "The experiment: a JSON file (configs/paper/table3.json)")
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
+  command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
+  command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
+  command->add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
+      ->type_name("I/N")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Threads to use in each run")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--resume", options->resume,
+                    "Go on with the records in the folder: finished runs are not repeated");
+  command->add_flag("--dry-run", options->dry_run, "List the runs that would be made");
+  command->add_flag("--builtin", options->builtin, "Take the experiment's built-in fields, which need no file");
+  command->add_flag("--smoke", options->smoke, "Do every variant once on one tiny field: does the experiment work?");
+  command->add_flag("--progress", options->progress, "A line on stderr for every run that ends (for log files)");
+  command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
+  command->footer(
+      "A volume that is absent is listed as absent, with the way to get it, and is no failure.\n"
+      "Exit codes: 0 every run was made, or is absent; 1 a run failed; 3 stopped, --resume goes on.");
+  command->callback([options, &exit_code] { exit_code = run_run(*options); });
+}
+
+}  // namespace deliso

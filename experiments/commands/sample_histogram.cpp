@@ -1,0 +1,98 @@
+#include "experiments/commands/sample_histogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+
+namespace deliso {
+namespace {
+
+// Number and sum of the samples in the bins before each bin edge.
+struct CumulativeSums {
+  std::vector<double> counts;
+  std::vector<double> sums;
+};
+
+CumulativeSums cumulative_sums(const SampleHistogram& histogram) {
+  CumulativeSums cumulative{{0}, {0}};
+  for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
+    const auto count = static_cast<double>(histogram.counts[bin]);
+    cumulative.counts.push_back(cumulative.counts.back() + count);
+    cumulative.sums.push_back(cumulative.sums.back() + count * static_cast<double>(bin));
+  }
+  return cumulative;
+}
+
+// A class's share in the variance between classes, up to a constant: (sum of its values)^2 / its size.
+double class_score(const CumulativeSums& cumulative, std::size_t first, std::size_t last) {
+  const double count = cumulative.counts[last] - cumulative.counts[first];
+  const double sum = cumulative.sums[last] - cumulative.sums[first];
+  return count > 0 ? sum * sum / count : 0;
+}
+
+// The edges that split the bins into `classes` (2 or 3) classes of largest variance between them.
+std::vector<std::size_t> best_edges(const SampleHistogram& histogram, int classes) {
+  const CumulativeSums cumulative = cumulative_sums(histogram);
+  const std::size_t bins = histogram.counts.size();
+  std::vector<std::size_t> best;
+  double best_score = -1;
+  for (std::size_t a = 1; a < bins; ++a) {
+    for (std::size_t b = classes == 3 ? a + 1 : bins; b < bins + (classes == 3 ? 0 : 1); ++b) {
+      const double score =
+          class_score(cumulative, 0, a) + class_score(cumulative, a, b) + class_score(cumulative, b, bins);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = {a, b};
+    }
+  }
+  if (classes == 2 && !best.empty()) best.pop_back();
+  return best;
+}
+
+}  // namespace
+
+SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
+  SampleHistogram histogram;
+  std::tie(histogram.low, histogram.high) = grid.range();
+  const bool integers = visit_samples(grid.samples(), [](const auto& samples) {
+    return std::is_integral_v<typename std::decay_t<decltype(samples)>::value_type>;
+  });
+  if (integers) {
+    // As few bins of a whole number of integers as hold them all.
+    const double values = histogram.high - histogram.low + 1;
+    const double width = std::ceil(values / bins);
+    histogram.counts.resize(static_cast<std::size_t>(std::ceil(values / width)));
+    histogram.low -= 0.5;
+    histogram.high = histogram.low + width * static_cast<double>(histogram.counts.size());
+  } else {
+    histogram.counts.resize(histogram.low < histogram.high ? static_cast<std::size_t>(bins) : 1);
+  }
+  // Halves, because the range of doubles may itself be beyond a double.
+  const double half_range = histogram.high / 2 - histogram.low / 2;
+  visit_samples(grid.samples(), [&](const auto& samples) {
+    for (const auto sample : samples) {
+      const double share = half_range > 0 ? (static_cast<double>(sample) / 2 - histogram.low / 2) / half_range : 0;
+      const auto bin = static_cast<std::size_t>(share * static_cast<double>(histogram.counts.size()));
+      ++histogram.counts[std::min(bin, histogram.counts.size() - 1)];
+    }
+  });
+  return histogram;
+}
+
+std::vector<IsovalueSuggestion> suggested_isovalues(const SampleHistogram& histogram) {
+  std::vector<IsovalueSuggestion> suggestions;
+  const auto add = [&](const std::vector<std::size_t>& edges, const std::string& reason) {
+    for (const std::size_t edge : edges) {
+      const double isovalue = histogram.low + static_cast<double>(edge) * histogram.bin_width();
+      suggestions.push_back({isovalue, reason});
+    }
+  };
+  const auto filled = std::count_if(histogram.counts.begin(), histogram.counts.end(), [](auto n) { return n > 0; });
+  add(best_edges(histogram, 2), "separates two classes (Otsu)");
+  if (filled > 2) add(best_edges(histogram, 3), "separates three classes (Otsu)");
+  return suggestions;
+}
+
+}  // namespace deliso

@@ -1,0 +1,29 @@
+// deliso schema: what a file of parameters or an experiment may hold, from the tables that parse it.
+#include <iostream>
+#include <memory>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/config.h"
+#include "experiments/runs/experiment_config.h"
+
+namespace deliso {
+
+void add_schema_command(CLI::App& app, ExitCode& exit_code) {
+  const auto markdown = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of parameters and experiments");
+  command->add_flag("--markdown", *markdown, "Print the parameters as a Markdown table instead");
+  command->callback([markdown, &exit_code] {
+    if (*markdown) {
+      std::cout << parameters_markdown();
+    } else {
+      std::cout << json_text(
+          Json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+               {"title", "DelIso"},
+               {"$ref", "#/$defs/parameters"},
+               {"$defs", Json{{"parameters", parameters_schema()}, {"experiment", experiment_schema()}}}});
+    }
+    exit_code = ExitCode::kDone;
+  });
+}
+
+}  // namespace deliso

@@ -1,0 +1,57 @@
+// deliso table: tables and plots from the records of an experiment.
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/commands/commands.h"
+#include "experiments/results/results.h"
+#include "experiments/system/parse_number.h"
+
+namespace deliso {
+namespace {
+
+struct TableCommandOptions {
+  std::vector<std::string> folders;
+  std::string output;
+  std::string experiment;
+};
+
+ExitCode run_table(const TableCommandOptions& options) {
+  const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  const std::filesystem::path target = options.output.empty() ? folders.front() : std::filesystem::path(options.output);
+  Experiment experiment = experiment_of(folders);
+  if (!options.experiment.empty()) experiment = experiment_for_records(options.experiment, experiment);
+  std::vector<std::string> notes;
+  std::cout << write_tables(experiment, folders, target, notes);
+  for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_table_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<TableCommandOptions>();
+  CLI::App* command =
+      app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) and plots (SVG) from the records of a run");
+  command->add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for table.md, table.csv, table.json and the plots (default: the first)")
+      ->type_name("DIR")
+      ->check(refuse_empty_name);
+  command
+      ->add_option("--experiment", options->experiment,
+                   "Take words, metrics and plots from this file; its runs must be those of the records")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->footer(
+      "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
+      "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");
+  command->callback([options, &exit_code] { exit_code = run_table(*options); });
+}
+
+}  // namespace deliso

@@ -1,0 +1,101 @@
+// deliso topology: the exact topology of an isosurface, without a mesh.
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "delaunay/base/stopwatch.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/text_table.h"
+#include "surface/certificate.h"
+#include "volume/exact_topology.h"
+
+namespace deliso {
+namespace {
+
+struct TopologyCommandOptions {
+  VolumeOptions volume;
+  std::string isovalue;
+  std::string report;
+  bool closed = false;
+};
+
+// What a component with this topology is called where it has a common name.
+std::string common_name(const ComponentTopology& topology) {
+  if (topology == ComponentTopology{2, 0}) return "sphere";
+  if (topology == ComponentTopology{0, 0}) return "torus";
+  if (topology == ComponentTopology{1, 1}) return "disk";
+  if (topology == ComponentTopology{0, 2}) return "annulus";
+  const std::int64_t genus = (2 - topology.euler_characteristic - topology.boundary_loops) / 2;
+  return "genus " + std::to_string(genus);
+}
+
+void print_counts(const std::vector<TopologyCount>& counts) {
+  TextTable table;
+  table.row({"surface", "count", "euler characteristic", "boundary loops"});
+  for (const TopologyCount& entry : counts) {
+    table.row({common_name(entry.topology), std::to_string(entry.count),
+               std::to_string(entry.topology.euler_characteristic), std::to_string(entry.topology.boundary_loops)});
+  }
+  const TopologySum sum = sum_of(counts);
+  table.row({"all", std::to_string(sum.components), std::to_string(sum.euler_characteristic),
+             std::to_string(sum.boundary_loops)});
+  table.print(std::cout, true);
+}
+
+ExitCode run_topology(const TopologyCommandOptions& options) {
+  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
+  const ScalarGrid grid = load_volume(options.volume);
+  check_isovalue(grid, isovalue);
+  const Stopwatch stopwatch;
+  const RegularTopology regular = regular_topology(options.closed ? padded(grid, grid.range().first) : grid, isovalue);
+  const double used = regular.isovalue;
+  const IsosurfaceTopology& topology = regular.topology;
+  const double seconds = stopwatch.seconds();
+
+  // A certificate counts equal components; it needs no mesh for that.
+  const std::vector<TopologyCount> counts = certify(TriangleMesh(), topology.components).isosurface;
+  if (!options.report.empty()) {
+    const TopologySum sum = sum_of(counts);
+    const Json report = {{"schema", "deliso-topology-1"},
+                         {"program", program_json()},
+                         {"volume", volume_json(options.volume.path, grid)},
+                         {"isovalue", isovalue},
+                         {"isovalue_used", used},
+                         {"closed", options.closed},
+                         {"components", sum.components},
+                         {"euler_characteristic", sum.euler_characteristic},
+                         {"boundary_loops", sum.boundary_loops},
+                         {"crossings", topology.crossings.size()},
+                         {"singular_cells", topology.singular_cells.size()},
+                         {"isosurface", topology_json(counts)},
+                         {"total_seconds", seconds}};
+    write_text(json_text(report), options.report);
+  }
+  print_counts(counts);
+  remark_isovalue(grid, isovalue, used);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_topology_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<TopologyCommandOptions>();
+  CLI::App* command = app.add_subcommand("topology", "Exact topology of an isosurface, without a mesh");
+  add_volume_options(*command, options->volume);
+  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
+  command->add_option("--report", options->report, "Write the result as JSON")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command->callback([options, &exit_code] { exit_code = run_topology(*options); });
+}
+
+}  // namespace deliso

@@ -1,0 +1,199 @@
+// deliso verify: judges any mesh as an image of an isosurface, ours or another tool's.
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/text_table.h"
+#include "surface/mesh_io.h"
+#include "surface/verification.h"
+
+namespace deliso {
+namespace {
+
+struct VerifyCommandOptions {
+  std::string mesh;
+  VolumeOptions volume;
+  std::string isovalue;
+  std::string report;
+  bool closed = false;
+  bool ignore_spacing = false;
+};
+
+Json place_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+
+Json distance_json(const DistanceFigure& figure) {
+  return Json{
+      {"max_voxels", figure.max_voxels}, {"mean_voxels", figure.mean_voxels}, {"worst", place_json(figure.worst)}};
+}
+
+Json places_json(const std::vector<Vec3>& places) {
+  Json list = Json::array();
+  for (const Vec3& p : places) list.push_back(place_json(p));
+  return list;
+}
+
+// Triangles by their numbers in the mesh, and where they meet.
+Json pairs_json(const std::vector<TrianglePair>& pairs) {
+  Json list = Json::array();
+  for (const TrianglePair& pair : pairs) {
+    list.push_back(Json{{"triangles", {pair.first, pair.second}}, {"position", place_json(pair.position)}});
+  }
+  return list;
+}
+
+Json manifold_json(const ManifoldCheck& check) {
+  return Json{{"pass", check.pass},
+              {"non_manifold_edges", check.non_manifold_edges},
+              {"non_manifold_vertices", check.non_manifold_vertices},
+              {"repeated_vertices", check.repeated_vertices},
+              {"duplicate_triangles", check.duplicate_triangles},
+              {"zero_area_triangles", check.zero_area_triangles},
+              {"unreferenced_vertices", check.unreferenced_vertices},
+              {"components", check.components},
+              {"euler_characteristic", check.euler_characteristic},
+              {"boundary_loops", check.boundary_loops}};
+}
+
+// Every check under its name: `pass` and its figures.
+Json checks_json(const Verification& v) {
+  Json topology = certificate_json(v.topology);
+  topology["pass"] = v.topology.verdict == Verdict::kHomeomorphic;
+  return Json{{"manifold", manifold_json(v.manifold)},
+              {"orientation",
+               {{"pass", v.orientation.pass},
+                {"misoriented_edges", v.orientation.misoriented_edges},
+                {"reversed_components", v.orientation.reversed_components},
+                {"reversed_at", places_json(v.orientation.reversed_at)}}},
+              {"boundary",
+               {{"pass", v.boundary.pass},
+                {"boundary_edges", v.boundary.boundary_edges},
+                {"off_box_edges", v.boundary.off_box_edges},
+                {"outside_vertices", v.boundary.outside_vertices}}},
+              {"topology", topology},
+              {"self_intersection",
+               {{"pass", v.self_intersection.pass},
+                {"crossing_pairs", v.self_intersection.found.crossing_pairs},
+                {"touching_pairs", v.self_intersection.found.touching_pairs},
+                {"first_crossing", pairs_json(v.self_intersection.found.crossing)},
+                {"first_touching", pairs_json(v.self_intersection.found.touching)}}},
+              {"residual", {{"pass", v.residual.pass}, {"distance", distance_json(v.residual.distance)}}},
+              {"distance",
+               {{"pass", v.distance.pass},
+                {"mesh_to_isosurface", distance_json(v.distance.mesh_to_isosurface)},
+                {"isosurface_to_mesh", distance_json(v.distance.isosurface_to_mesh)}}},
+              {"normals",
+               {{"pass", v.normals.pass},
+                {"against", v.normals.against},
+                {"fraction_against", v.normals.fraction_against},
+                {"min_cosine", v.normals.min_cosine},
+                {"mean_cosine", v.normals.mean_cosine}}},
+              {"delaunay_balls",
+               {{"pass", v.delaunay_balls.pass},
+                {"occupied", v.delaunay_balls.occupied},
+                {"without_hit", v.delaunay_balls.without_hit}}}};
+}
+
+Json verify_report(const VerifyCommandOptions& options, const ScalarGrid& grid, const Verification& v) {
+  return Json{{"schema", "deliso-verification-1"},
+              {"program", program_json()},
+              {"mesh", options.mesh},
+              {"volume", volume_json(options.volume.path, grid)},
+              {"closed", options.closed},
+              {"spacing", options.ignore_spacing ? "ignore" : "use"},
+              {"isovalue", v.isovalue},
+              {"isovalue_used", v.isovalue_used},
+              {"vertices", v.vertices},
+              {"triangles", v.triangles},
+              {"proven", v.proven},
+              {"failures", v.failures},
+              {"checks", checks_json(v)},
+              {"quality", quality_json(v.quality)},
+              {"total_seconds", v.seconds}};
+}
+
+std::string figure_text(const Json& figure) {
+  if (figure.is_number_float()) return number_text(figure.get<double>());
+  return figure.is_string() ? figure.get<std::string>() : figure.dump();
+}
+
+// A failure of these is told, but not held against the mesh.
+std::string_view result_text(std::string_view check, bool pass) {
+  if (pass) return "pass";
+  return check == "normals" || check == "delaunay_balls" ? "noted" : "fail";
+}
+
+// One row per figure of the report; lists are left to the report.
+void print_checks(const Json& report) {
+  TextTable table;
+  table.row({"check", "figure", "value", "result"});
+  for (const auto& [check, figures] : report["checks"].items()) {
+    table.row({check, "", "", std::string(result_text(check, figures["pass"].get<bool>()))});
+    for (const auto& [name, figure] : figures.items()) {
+      if (name == "pass" || figure.is_array()) continue;
+      if (!figure.is_object()) table.row({"", name, figure_text(figure), ""});
+      if (figure.is_object()) table.row({"", name + ".max_voxels", figure_text(figure["max_voxels"]), ""});
+      if (figure.is_object()) table.row({"", name + ".mean_voxels", figure_text(figure["mean_voxels"]), ""});
+    }
+  }
+  for (const auto& [name, figure] : report["quality"].items()) {
+    if (!figure.is_array()) table.row({"quality", name, figure_text(figure), ""});
+  }
+  table.print(std::cout, true);
+}
+
+// The mesh and its volume with sample (i, j, k) at (i, j, k).
+void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
+  const Vec3& s = grid.spacing();
+  for (Vec3& p : mesh.points) p = scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z});
+  grid = ScalarGrid(grid.dims(), grid.samples());
+}
+
+ExitCode run_verify(const VerifyCommandOptions& options) {
+  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  if (!options.report.empty()) check_writable(options.report, "--report");
+  check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
+  TriangleMesh mesh = read_mesh(options.mesh);
+  const ScalarGrid grid = load_volume(options.volume);
+  check_isovalue(grid, isovalue);
+  ScalarGrid judged = grid;
+  if (options.ignore_spacing) forget_spacing(mesh, judged);
+  if (options.closed) judged = padded(judged, judged.range().first);
+  const Verification verification = verify_mesh(mesh, judged, isovalue);
+
+  const Json report = verify_report(options, grid, verification);
+  if (!options.report.empty()) write_text(json_text(report), options.report);
+  print_checks(report);
+  remark_isovalue(judged, isovalue, verification.isovalue_used);
+  std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
+  for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
+  return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, ExitCode& exit_code) {
+  const auto options = std::make_shared<VerifyCommandOptions>();
+  CLI::App* command = app.add_subcommand("verify", "Check any mesh against an isosurface");
+  command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))
+      ->type_name("")
+      ->required()
+      ->check(refuse_empty_name);
+  add_volume_options(*command, options->volume);
+  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
+  command->add_option("--report", options->report, "Write every figure as JSON")
+      ->type_name("FILE")
+      ->check(refuse_empty_name);
+  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command->add_flag("--ignore-spacing", options->ignore_spacing,
+                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
+  command->callback([options, &exit_code] { exit_code = run_verify(*options); });
+}
+
+}  // namespace deliso

@@ -1,0 +1,70 @@
+#include "experiments/config/json.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "experiments/system/files.h"
+
+namespace deliso {
+namespace {
+
+// What the parser says, without its own name for the error: "[json.exception.parse_error.101] parse error at ...".
+std::string explanation(const nlohmann::json::exception& error) {
+  const std::string text = error.what();
+  const std::size_t end = text.find("] ");
+  return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+// "line 3: the number 1e999 is too large": the parser gives the number in quotes, but not its place.
+std::string too_large(const nlohmann::json::out_of_range& error, const std::string& text) {
+  const std::string message = explanation(error);
+  const std::size_t begin = message.find('\'') + 1;
+  const std::string number = message.substr(begin, message.rfind('\'') - begin);
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find(number), text.size()));
+  return "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": the number " + number + " is too large";
+}
+
+// Refuses a key that the object at the same depth already has. (The parser itself would keep the last one.)
+class DuplicateKeyCheck {
+ public:
+  explicit DuplicateKeyCheck(std::string source) : source_(std::move(source)) {}
+
+  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys_.pop_back();
+    if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second) {
+      throw InputError(source_ + ": the key '" + parsed.get<std::string>() + "' stands twice in one object");
+    }
+    return true;
+  }
+
+ private:
+  std::string source_;
+  std::vector<std::set<std::string>> keys_;  // of the objects that are still open
+};
+
+}  // namespace
+
+Json parse_json(const std::string& text, const std::string& source) {
+  DuplicateKeyCheck check(source);
+  try {
+    return Json::parse(text, [&check](int depth, Json::parse_event_t event, const Json& parsed) {
+      return check(depth, event, parsed);
+    });
+  } catch (const nlohmann::json::out_of_range& error) {
+    throw InputError(source + ": " + too_large(error, text));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(source + ": not valid JSON, " + explanation(error));
+  }
+}
+
+Json read_json(const std::filesystem::path& path) { return parse_json(read_text(path), path.string()); }
+
+std::string json_text(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace deliso

@@ -1,0 +1,23 @@
+// Draws a shape: rays find what is seen, lighting gives it colours, several rays per pixel smooth it.
+#pragma once
+
+#include <cstdint>
+
+#include "experiments/pictures/camera.h"
+#include "experiments/pictures/image.h"
+#include "experiments/pictures/shape.h"
+
+namespace deliso {
+
+struct PictureOptions {
+  std::int32_t samples = 3;  // along each side of a pixel: samples^2 rays; >= 1
+  double line_width = 1.1;   // of edges, in pixels, whatever the zoom; 0: no edges
+  std::int32_t threads = 1;  // the picture does not depend on it
+};
+
+// Draws what of `shape` is in `kept` into the camera's width x height pixels of `image` from column `left` on. Pixels
+// where nothing is seen keep their colour. Precondition: they are all in the image, and kept is a finite box.
+void draw(const Shape& shape, const Box3& kept, const Camera& camera, const PictureOptions& options, std::int32_t left,
+          Image& image);
+
+}  // namespace deliso

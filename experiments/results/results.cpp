@@ -1,0 +1,67 @@
+#include "experiments/results/results.h"
+
+#include <system_error>
+
+#include "delaunay/base/check.h"
+#include "experiments/results/plot.h"
+#include "experiments/results/table.h"
+#include "experiments/runs/experiment_config.h"
+#include "experiments/runs/record_file.h"
+#include "experiments/system/files.h"
+
+namespace deliso {
+
+namespace fs = std::filesystem;
+
+Experiment experiment_of(const std::vector<fs::path>& folders) {
+  const fs::path first = folders.front() / "experiment.json";
+  const Json document = read_json(first);
+  for (const fs::path& folder : folders) {
+    if (read_json(folder / "experiment.json") != document) {
+      throw InputError((folder / "experiment.json").string() + ": is another experiment than " + first.string());
+    }
+  }
+  return parse_experiment(document, first);
+}
+
+Experiment experiment_for_records(const fs::path& file, const Experiment& recorded) {
+  Experiment experiment = read_experiment(file);
+  if (recorded.name == experiment.name + "_builtin") experiment = builtin_form(std::move(experiment));
+  const std::string refusal = "--experiment: " + file.string() + " is not the experiment of these records: ";
+  if (experiment.name != recorded.name) {
+    const bool named = read_json(file).contains("name");
+    throw InputError(refusal + "its name is '" + experiment.name + "' (" +
+                     (named ? "its key 'name'" : "that of the file, for it has no key 'name'") + "), theirs is '" +
+                     recorded.name + "'");
+  }
+  // What shows and what is only shown may differ, what was run may not.
+  Json now = experiment_to_json(experiment);
+  Json then = experiment_to_json(recorded);
+  for (const char* key : {"title", "question", "notes", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {
+    now.erase(key);
+    then.erase(key);
+  }
+  for (const auto& [key, value] : then.items()) {
+    if (now[key] != value) {
+      throw InputError(std::string(refusal).append("its key '").append(key).append("' differs"));
+    }
+  }
+  return experiment;
+}
+
+std::string write_tables(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
+                         std::vector<std::string>& notes) {
+  const std::vector<Json> records = merge_records(experiment, folders, notes);
+  const Table table = make_table(experiment, records);
+  std::string markdown = table_markdown(experiment, table);
+  std::error_code error;
+  fs::create_directories(target, error);
+  if (error) throw InputError("cannot make the folder " + target.string() + ": " + error.message());
+  write_text(markdown, target / "table.md");
+  write_text(table_csv(experiment, table), target / "table.csv");
+  write_text(json_text(table_json(experiment, table)), target / "table.json");
+  for (const PlotFile& plot : draw_plots(experiment, table, records)) write_text(plot.svg, target / plot.name);
+  return markdown;
+}
+
+}  // namespace deliso

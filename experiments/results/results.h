@@ -1,0 +1,25 @@
+// The results of an experiment in folders: records in, tables out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/runs/experiment.h"
+
+namespace deliso {
+
+// The experiment of which these folders hold records. Throws InputError when a folder has no experiment.json, or
+// another experiment's.
+Experiment experiment_of(const std::vector<std::filesystem::path>& folders);
+
+// The experiment in `file`, for records of `recorded`: with other words, metrics, plots and published figures. Throws
+// InputError when its runs are others.
+Experiment experiment_for_records(const std::filesystem::path& file, const Experiment& recorded);
+
+// Merges the records of the folders, writes table.md, table.csv, table.json and the plots (SVG) into `target` and
+// returns the Markdown. What a reader should know about the merging is added to `notes`.
+std::string write_tables(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
+                         const std::filesystem::path& target, std::vector<std::string>& notes);
+
+}  // namespace deliso

@@ -1,0 +1,68 @@
+// The table of an experiment, from its records.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/config/json.h"
+#include "experiments/runs/experiment.h"
+
+namespace deliso {
+
+// One figure over the repeats of a run: numbers, or texts.
+struct Figure {
+  std::vector<double> numbers;  // ascending
+  std::string text;             // of figures that are no numbers: the text, or each with how often it came
+
+  [[nodiscard]] bool empty() const { return numbers.empty() && text.empty(); }
+  // The middle one, or the mean of the two in the middle. Precondition: numbers is not empty.
+  [[nodiscard]] double median() const;
+};
+
+// Moving nlohmann's JSON is not declared noexcept. NOLINTNEXTLINE(bugprone-exception-escape)
+struct TableCell {
+  Figure ours;
+  Json reference;               // a number or a text; null: none
+  std::optional<double> ratio;  // our median over the reference
+};
+
+enum class RowState { kDone, kFailed, kAbsent, kNotRun };
+
+struct TableRow {
+  std::string dataset;
+  std::string variant;  // empty where a row is a data set
+  RowState state = RowState::kNotRun;
+  std::vector<TableCell> cells;  // one for each metric
+};
+
+struct Table {
+  std::vector<TableRow> rows;
+  // What a reader must know: absent data sets and the way to get them, failed runs, missing runs.
+  std::vector<std::string> remarks;
+  // Of the programs and machines that made the records, each once.
+  std::vector<std::string> programs;
+};
+
+// The records must be of this experiment (other ones are an InputError), at most one for each run, in any order.
+Table make_table(const Experiment& experiment, const std::vector<Json>& records);
+
+// With title, question, how to read it, remarks.
+std::string table_markdown(const Experiment& experiment, const Table& table);
+
+// One line for each row and metric: dataset, variant, metric, runs, median, min, max, text, reference.
+std::string table_csv(const Experiment& experiment, const Table& table);
+
+Json table_json(const Experiment& experiment, const Table& table);
+
+// "done", "failed", "absent", "not run".
+std::string state_name(RowState state);
+
+// Stands where there is no figure.
+inline constexpr std::string_view kNoFigure = "–";
+
+// Integers and numbers from 1000 on without a fraction, others with four significant digits, small ones as "1.54e-3".
+std::string figure_text(double value);
+
+}  // namespace deliso

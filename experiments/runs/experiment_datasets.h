@@ -1,0 +1,33 @@
+// The data sets of an experiment: from JSON, and from a data folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "experiments/config/strict_object.h"
+#include "experiments/runs/experiment.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// Reads `datasets` and `builtin_datasets`, with the help of `manifest` (a file relative to `folder`). Throws
+// InputError.
+void parse_datasets(const StrictObject& object, const std::filesystem::path& folder, Experiment& experiment);
+
+Json datasets_to_json(const std::vector<Dataset>& datasets);
+
+// The default data folder: $DELISO_DATA, else data/ in the checkout that holds the experiment's file, else data/ here.
+std::filesystem::path default_data_folder(const std::filesystem::path& experiment_file);
+
+// Whether the data set is a built-in field or its file lies in the folder.
+bool is_present(const Dataset& dataset, const std::filesystem::path& data_folder);
+
+// The file, or what stands for it in a record ("field:sphere").
+std::filesystem::path dataset_path(const Dataset& dataset, const std::filesystem::path& data_folder);
+
+// Precondition: is_present. Throws InputError when the file is bad, its samples have another hash than the experiment
+// says, or the isosurface has no point.
+ScalarGrid load_dataset(const Dataset& dataset, const std::filesystem::path& data_folder);
+
+}  // namespace deliso

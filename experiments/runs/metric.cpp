@@ -1,0 +1,38 @@
+#include "experiments/runs/metric.h"
+
+#include "experiments/runs/run_record.h"
+
+namespace deliso {
+namespace {
+
+void collect(const Json& value, const std::string& path, std::vector<std::string>& paths) {
+  if (!value.is_object()) {
+    paths.push_back(path);
+    return;
+  }
+  for (const auto& [key, held] : value.items()) {
+    collect(held, path.empty() ? key : std::string(path).append(1, '.').append(key), paths);
+  }
+}
+
+}  // namespace
+
+Json value_at(const Json& record, const std::string& path) {
+  const Json* value = &record;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string key = path.substr(begin, end - begin);
+    if (!value->is_object() || !value->contains(key)) return nullptr;
+    value = &value->at(key);
+    begin = end + 1;
+  }
+  return *value;
+}
+
+std::vector<std::string> record_paths(Task task, bool distances) {
+  std::vector<std::string> paths;
+  collect(empty_record(task, distances), "", paths);
+  return paths;
+}
+
+}  // namespace deliso

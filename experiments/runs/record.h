@@ -1,0 +1,68 @@
+// The record of one run (`--report`): everything needed to repeat it and what came out of it, as one JSON object.
+//
+// Times are wall-clock seconds on the steady clock. `total_seconds` is the mesher's own time, from the volume in memory
+// to the certified mesh; reading the volume, hashing it and writing files is outside it. `stages.*.seconds` add up to
+// it. A quotient without a denominator (seconds per insertion without insertions) is null.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/config/json.h"
+#include "surface/certificate.h"
+#include "surface/deliso.h"
+#include "surface/mesh_quality.h"
+#include "surface/triangle_mesh.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// The layout of the report; a new name whenever a key changes its meaning.
+inline constexpr const char* kReportSchema = "deliso-report-1";
+
+// version, commit, compiler, flags, cpu.
+Json program_json();
+
+// path, dims, samples (their number), spacing, origin, type, range, sha256 (of the raw samples, little endian).
+Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid);
+
+// [{euler_characteristic, boundary_loops, count}].
+Json topology_json(const std::vector<TopologyCount>& counts);
+
+// verdict, manifold, oriented, mesh, isosurface, differences.
+Json certificate_json(const Certificate& certificate);
+
+// min_angle_histogram: triangles by their smallest angle, in bins of 5 degrees.
+Json quality_json(const MeshQuality& quality);
+
+// The name of a verdict in JSON.
+std::string verdict_name(Verdict verdict);
+
+// Euler characteristic, boundary loops and number of components of a whole surface.
+struct TopologySum {
+  std::int64_t components = 0;
+  std::int64_t euler_characteristic = 0;
+  std::int64_t boundary_loops = 0;
+};
+TopologySum sum_of(const std::vector<TopologyCount>& counts);
+
+// The topology of the mesh of a result, certified or not. (The mesher's meshes are manifold.)
+std::vector<TopologyCount> mesh_topology(const MeshingResult& result);
+
+// What a run of the mesher was given.
+struct MeshRun {
+  std::filesystem::path volume_path;
+  const ScalarGrid& grid;
+  double isovalue = 0;
+  const MeshingOptions& options;
+};
+
+// What a run that stopped early left undone, one sentence each; empty when it ran to its end.
+std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result);
+
+// The report of `deliso mesh`.
+Json mesh_report(const MeshRun& run, const MeshingResult& result);
+
+}  // namespace deliso

@@ -1,0 +1,44 @@
+#include "experiments/runs/run_lock.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs) {
+  // A folder that cannot be written into is refused when the records are.
+  file_ = open((folder / ".run.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) return;
+  try {
+    if (shard.count == 1) {
+      lock_bytes(folder, 0, runs);
+    } else {
+      for (std::size_t run = shard.index - 1; run < runs; run += shard.count) lock_bytes(folder, run, 1);
+    }
+  } catch (...) {
+    close(file_);
+    throw;
+  }
+}
+
+RunLock::~RunLock() {
+  if (file_ >= 0) close(file_);  // which takes the lock away
+}
+
+void RunLock::lock_bytes(const std::filesystem::path& folder, std::size_t first, std::size_t count) {
+  struct flock range {};
+  range.l_type = F_WRLCK;
+  range.l_whence = SEEK_SET;
+  range.l_start = static_cast<off_t>(first);
+  range.l_len = static_cast<off_t>(count);
+  // A lock of the open file, not of the process: reading records elsewhere in the program cannot undo it.
+  if (fcntl(file_, F_OFD_SETLK, &range) == 0 || (errno != EAGAIN && errno != EACCES)) return;
+  throw InputError("--out: another process is making these runs in " + folder.string() +
+                   " at this moment; wait for its end or name another folder");
+}
+
+}  // namespace deliso

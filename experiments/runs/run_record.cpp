@@ -1,0 +1,198 @@
+#include "experiments/runs/run_record.h"
+
+#include <algorithm>
+
+#include "delaunay/base/nearest_name.h"
+#include "delaunay/base/stopwatch.h"
+#include "experiments/runs/isosurface_samples.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/program_info.h"
+#include "surface/deliso.h"
+#include "surface/exact_tests.h"
+#include "surface/surface_distance.h"
+#include "surface/verification.h"
+#include "volume/exact_topology.h"
+#include "volume/marching_cubes.h"
+
+namespace deliso {
+namespace {
+
+constexpr const char* kRecordSchema = "deliso-record-1";
+
+// `samples`: points of the isosurface within cells to the mesh. The verification takes grid-edge crossings, which are
+// the vertices of marching cubes.
+Json distances_json(const Verification& check, const DistanceFigure& samples) {
+  return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
+              {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
+              {"isosurface_to_mesh_max_voxels", check.distance.isosurface_to_mesh.max_voxels},
+              {"isosurface_to_mesh_mean_voxels", check.distance.isosurface_to_mesh.mean_voxels},
+              {"isosurface_samples_to_mesh_max_voxels", samples.max_voxels},
+              {"isosurface_samples_to_mesh_mean_voxels", samples.mean_voxels},
+              {"vertex_residual_max_voxels", check.residual.distance.max_voxels},
+              {"crossing_pairs", check.self_intersection.found.crossing_pairs},
+              {"fraction_normals_against", check.normals.fraction_against}};
+}
+
+Json measured_distances(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  const Verification check = verify_mesh(mesh, grid, isovalue);
+  const std::vector<Vec3> samples = isosurface_samples(grid, check.isovalue_used);
+  DistanceFigure figure = points_to_mesh(samples, mesh, norm(grid.box().high - grid.box().low));
+  const Vec3& step = grid.spacing();
+  const double voxel = std::min({step.x, step.y, step.z});
+  figure.max_voxels /= voxel;
+  figure.mean_voxels /= voxel;
+  return distances_json(check, figure);
+}
+
+// One entry for each kind of component.
+std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& components) {
+  return certify(TriangleMesh{}, components).isosurface;
+}
+
+Json topology_report(const RunInput& input, double isovalue) {
+  const Stopwatch stopwatch;
+  const double used = regular_isovalue(input.grid, isovalue);
+  const std::vector<TopologyCount> counts = counted(exact_topology(input.grid, used).components);
+  const double seconds = stopwatch.seconds();
+  const TopologySum sum = sum_of(counts);
+  return Json{{"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", used},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"isosurface", topology_json(counts)},
+              {"total_seconds", seconds},
+              {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+// The volume whose isosurface is meshed: padded, where the surface shall close; `closed` holds it then.
+const ScalarGrid& meshed_grid(const RunInput& input, const Parameters& parameters, std::optional<ScalarGrid>& closed) {
+  if (parameters.boundary == Boundary::kOpen) return input.grid;
+  return closed.emplace(padded(input.grid, input.grid.range().first));
+}
+
+// The part of the mesher's report that marching cubes has too.
+Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
+  const Stopwatch stopwatch;
+  std::optional<ScalarGrid> closed;
+  const ScalarGrid& grid = meshed_grid(input, parameters, closed);
+  const double used = regular_isovalue(grid, isovalue);
+  MarchingCubesMesh cubes = marching_cubes(grid, used, &kExactTests);
+  mesh = {std::move(cubes.points), std::move(cubes.triangles)};
+  Certificate certificate;
+  if (parameters.certify) certificate = certify(mesh, exact_topology(grid, used));
+  const double seconds = stopwatch.seconds();
+  const TopologySum sum = sum_of(certify(mesh, std::vector<ComponentTopology>()).mesh);
+  return Json{{"mesher", "marching_cubes"},
+              {"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", used},
+              {"vertices", mesh.points.size()},
+              {"triangles", mesh.triangles.size()},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"total_seconds", seconds},
+              {"peak_memory_bytes", peak_memory_bytes()},
+              {"certificate", certificate_json(certificate)},
+              {"quality", quality_json(measure_quality(mesh))}};
+}
+
+// The report's own schema is not the record's.
+void append_report(const Json& report, Json& record) {
+  for (const auto& [key, value] : report.items()) {
+    if (key != "schema") record[key] = value;
+  }
+}
+
+Json header(const std::string& experiment, const std::string& dataset, const std::string& variant, std::int32_t repeat,
+            const std::string& status) {
+  return Json{{"schema", kRecordSchema}, {"experiment", experiment}, {"dataset", dataset},
+              {"variant", variant},      {"repeat", repeat},         {"status", status}};
+}
+
+}  // namespace
+
+Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status) {
+  return header(experiment.name, experiment.datasets[run.dataset].name, experiment.variants[run.variant].name,
+                run.repeat, status);
+}
+
+std::string run_key(const Json& record) {
+  return Json::array({record.at("dataset"), record.at("variant"), record.at("repeat")}).dump();
+}
+
+std::string run_key(const Experiment& experiment, const PlannedRun& run) {
+  return run_key(run_header(experiment, run, kStatusDone));
+}
+
+std::string foreign_part(const Experiment& experiment, const Json& record) {
+  const std::string owner = " of the experiment " + experiment.name;
+  const Json& name = record.at("experiment");
+  if (name != experiment.name) return "it is of the experiment " + name.dump() + ", not" + owner;
+  const auto part = [&](const std::string& key, const std::string& what, const auto& list) {
+    const auto value = record.at(key).template get<std::string>();
+    std::vector<std::string> known;
+    known.reserve(list.size());
+    for (const auto& item : list) known.push_back(item.name);
+    if (std::find(known.begin(), known.end(), value) != known.end()) return std::string();
+    return "its " + what + " '" + value + "' is none" + owner + nearest_name_hint(value, known);
+  };
+  if (std::string text = part("dataset", "data set", experiment.datasets); !text.empty()) return text;
+  if (std::string text = part("variant", "variant", experiment.variants); !text.empty()) return text;
+  const Json& repeat = record.at("repeat");
+  if (repeat >= 1 && repeat <= experiment.repeats) return "";
+  return "its repeat " + repeat.dump() + " is none" + owner + ", whose repeats are 1 to " +
+         std::to_string(experiment.repeats);
+}
+
+std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {
+  Json record = run_header(experiment, run, kStatusDone);
+  reset_peak_memory();  // of the run, not of those before it
+  const double isovalue = experiment.datasets[run.dataset].isovalue;
+  if (experiment.task == Task::kTopology) {
+    append_report(topology_report(input, isovalue), record);
+    return record;
+  }
+  const Variant& variant = experiment.variants[run.variant];
+  TriangleMesh mesh;
+  if (variant.mesher == Mesher::kMarchingCubes) {
+    append_report(marching_cubes_report(input, isovalue, variant.parameters, mesh), record);
+  } else {
+    // Mesh as `deliso mesh` does.
+    MeshingOptions options;
+    options.parameters = variant.parameters;
+    options.seed = seed_of(experiment, run.repeat);
+    options.threads = input.threads;
+    options.stop = input.stop;
+    options.progress = input.progress;
+    MeshingResult result = mesh_isosurface(input.grid, isovalue, options);
+    if (input.stop != nullptr && input.stop->load()) return std::nullopt;
+    append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
+    mesh = std::move(result.mesh);
+  }
+  if (experiment.distances) {
+    std::optional<ScalarGrid> closed;
+    record["distances"] = measured_distances(mesh, meshed_grid(input, variant.parameters, closed), isovalue);
+  }
+  return record;
+}
+
+Json empty_record(Task task, bool distances) {
+  const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
+  const RunInput input{"", grid, 1, nullptr, {}};
+  Json record = header("", "", "", 1, kStatusDone);
+  if (task == Task::kTopology) {
+    append_report(topology_report(input, 0.5), record);
+    return record;
+  }
+  const MeshingOptions options;
+  append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
+  if (distances) record["distances"] = distances_json(Verification{}, {});
+  return record;
+}
+
+}  // namespace deliso

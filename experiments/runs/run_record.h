@@ -1,0 +1,46 @@
+// The record of one run of an experiment: the report of the mesher, and which run it was.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiments/config/json.h"
+#include "experiments/runs/experiment.h"
+#include "surface/controls.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// How a run went; the key "status" of its record.
+inline constexpr const char* kStatusDone = "done";
+inline constexpr const char* kStatusFailed = "failed";  // "error" says why
+inline constexpr const char* kStatusAbsent = "absent";  // the file of the data set is missing; "get" says how to get it
+
+// The beginning of a run's record: schema, experiment, dataset, variant, repeat, status.
+Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status);
+
+// Tells runs of one experiment apart.
+std::string run_key(const Experiment& experiment, const PlannedRun& run);
+std::string run_key(const Json& record);
+
+// What makes a record one of another experiment: "its repeat 99 is none of ..."; empty when it is of this one.
+std::string foreign_part(const Experiment& experiment, const Json& record);
+
+struct RunInput {
+  std::filesystem::path path;  // of the volume
+  const ScalarGrid& grid;
+  std::int32_t threads = 1;
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const Progress&)> progress;
+};
+
+// Does the run. Nothing when it was stopped from outside. Throws what the mesher throws.
+std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input);
+
+// A record with all its keys and no run behind it.
+Json empty_record(Task task, bool distances);
+
+}  // namespace deliso

@@ -1,0 +1,108 @@
+#include "experiments/system/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+
+#include "delaunay/base/check.h"
+#include "experiments/system/stop_signal.h"
+#include "volume/io/atomic_file.h"
+#include "volume/io/input_file.h"
+
+namespace deliso {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Opens for writing; a pipe that nobody reads is refused, where waiting for a reader could take forever.
+int open_special(const fs::path& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) {
+    throw InputError(path.string() + ": " + (errno == ENXIO ? "no program reads this pipe" : std::strerror(errno)));
+  }
+  fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+  return file;
+}
+
+void write_special(std::string_view text, const fs::path& path) {
+  const int file = open_special(path);
+  bool written = true;
+  while (!text.empty() && written) {
+    const ssize_t count = write(file, text.data(), text.size());
+    written = count >= 0 || errno == EINTR;
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  const int reason = errno;
+  close(file);
+  if (!written) throw InputError(path.string() + ": writing failed: " + std::strerror(reason));
+}
+
+}  // namespace
+
+bool is_special(const fs::path& path) {
+  if (path.parent_path() == "/dev" || path.parent_path() == "/dev/fd") return true;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+std::string read_text(const fs::path& path) {
+  InputFile file(path);
+  std::string text(file.remaining(), '\0');
+  text.resize(file.read(std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
+void write_text(const std::string& text, const fs::path& path) {
+  if (is_special(path)) {
+    write_special(text, path);
+    return;
+  }
+  StopHold hold;
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+  hold.finish();
+}
+
+void check_writable(const fs::path& path, const std::string& option) {
+  std::error_code error;
+  if (path.empty()) throw InputError(option + ": expected the name of a file, found an empty one");
+  if (fs::is_directory(path, error)) {
+    throw InputError(option + ": " + path.string() + " is a directory, expected the name of a file");
+  }
+  if (is_special(path)) {
+    try {
+      // A pipe stays open to the end of the program: closing it would tell its reader that nothing more comes.
+      const int file = open_special(path);
+      if (!fs::is_fifo(path, error)) close(file);
+    } catch (const InputError& refusal) {
+      throw InputError(option + ": " + refusal.what());
+    }
+    return;
+  }
+  const fs::path folder = path.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw InputError(option + ": the folder of " + path.string() + " does not exist");
+  }
+  const StopHold hold;
+  try {
+    const AtomicFile probe(path);  // never committed, so nothing stays
+  } catch (const InputError& refusal) {
+    throw InputError(option + ": " + refusal.what());
+  }
+  hold.check();
+}
+
+void check_replaceable(const fs::path& path, const std::string& option) {
+  if (is_special(path)) {
+    throw InputError(option + ": " + path.string() + " is not a regular file, expected the name of one");
+  }
+  check_writable(path, option);
+}
+
+}  // namespace deliso

@@ -1,0 +1,40 @@
+#include "experiments/system/output_names.h"
+
+#include <span>
+#include <system_error>
+
+#include "delaunay/base/check.h"
+#include "experiments/system/files.h"
+
+namespace deliso {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool are_same(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  // At least one of them is not there yet.
+  const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !error && whole_a == whole_b;
+}
+
+void check_apart_from(const NamedFile& output, std::span<const NamedFile> others) {
+  for (const NamedFile& other : others) {
+    if (other.path.empty() || !are_same(output.path, other.path)) continue;
+    throw InputError(output.option + ": names the same file as " + other.option + ", '" + output.path.string() + "'");
+  }
+}
+
+}  // namespace
+
+void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].path.empty() || is_special(outputs[i].path)) continue;
+    check_apart_from(outputs[i], inputs);
+    check_apart_from(outputs[i], std::span(outputs).first(i));
+  }
+}
+
+}  // namespace deliso

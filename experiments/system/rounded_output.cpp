@@ -1,0 +1,58 @@
+#include "experiments/system/rounded_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "delaunay/base/counted.h"
+#include "delaunay/base/shortest_text.h"
+#include "surface/mesh_io.h"
+#include "surface/self_intersection.h"
+
+namespace deliso {
+namespace {
+
+std::int64_t coinciding(std::vector<Vec3> points) {
+  const auto coordinates = [](const Vec3& p) { return std::tie(p.x, p.y, p.z); };
+  std::sort(points.begin(), points.end(),
+            [&](const Vec3& a, const Vec3& b) { return coordinates(a) < coordinates(b); });
+  std::int64_t count = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) count += points[i] == points[i - 1] ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+void judge_rounding(const TriangleMesh& mesh, double voxel, const std::filesystem::path& path,
+                    Certificate& certificate) {
+  if (!keeps_floats(path)) return;
+  // Verification wants vertices within 1e-3 voxel of the isosurface; before rounding ours are within 3e-4.
+  constexpr double kFarthest = 5e-4;
+  TriangleMesh rounded = mesh;
+  double moved = 0;
+  for (Vec3& p : rounded.points) {
+    const Vec3 exact = p;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::abs(p[axis]) > static_cast<double>(std::numeric_limits<float>::max())) return;
+      p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+    }
+    moved = std::max(moved, distance(p, exact) / voxel);
+  }
+  const std::int64_t together = coinciding(rounded.points);
+  const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
+  const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
+  if (together == 0 && !crosses && moved <= kFarthest) return;
+  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
+  certificate.differences.push_back(
+      path.string() + ": STL rounds coordinates to single precision; here vertices move by up to " +
+      shortest_text(moved) + " voxels, " +
+      counted(together, "vertex coincides with another", "vertices coincide with others") + " and " +
+      counted(crossing, "pair of triangles crosses", "pairs of triangles cross") +
+      ". PLY, OFF and OBJ keep the mesh as it is.");
+}
+
+}  // namespace deliso

@@ -1,0 +1,199 @@
+// What a command writes takes the place of nothing else, and holds what the program says of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/config/json.h"
+#include "experiments/system/output_names.h"
+#include "tests/support/program_runner.h"
+
+namespace deliso::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Sample>
+std::string bytes_of(const std::vector<Sample>& samples) {
+  std::string bytes(sizeof(Sample) * samples.size(), '\0');
+  std::memcpy(bytes.data(), samples.data(), bytes.size());
+  return bytes;
+}
+
+// A ball of 8 x 8 x 8 samples: values above 0 within 2.3 samples of the middle.
+std::string ball(const std::string& fields) {
+  std::vector<float> samples;
+  for (int n = 0; n < 512; ++n) {
+    samples.push_back(2.3f - std::hypot(static_cast<float>(n % 8) - 3.4f, static_cast<float>(n / 8 % 8) - 3.5f,
+                                        static_cast<float>(n / 64) - 3.6f));
+  }
+  return "NRRD0004\ntype: float\ndimension: 3\nsizes: 8 8 8\nendian: little\nencoding: raw\n" + fields + "\n" +
+         bytes_of(samples);
+}
+
+class Output : public ::testing::Test {
+ protected:
+  Output() {
+    write_file(volume_, ball(""));
+    write_file(config_, "{}");
+    write_file(mesh_, "ply\n");
+    fs::create_symlink(volume_, folder_ / "link.json");
+    fs::create_hard_link(config_, folder_ / "hard.json");
+  }
+  // Refused with exit code 2 and one line; every file is as it was.
+  void expect_clash(const std::vector<std::string>& arguments, const std::string& first, const std::string& second) {
+    SCOPED_TRACE(arguments.back());
+    const std::vector<std::string> names = folder_.names();
+    const ProgramResult result = run_deliso(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(first + ": names the same file as " + second), std::string::npos) << result.err;
+    EXPECT_EQ(folder_.names(), names);
+    EXPECT_EQ(read_file(volume_), ball(""));
+    EXPECT_EQ(read_file(config_), "{}");
+    EXPECT_EQ(read_file(mesh_), "ply\n");
+  }
+  [[nodiscard]] std::vector<std::string> mesh(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"mesh", volume_, "--isovalue", "0", "--config", config_};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  TemporaryFolder folder_;
+  std::string volume_ = folder_ / "v.nrrd";
+  std::string config_ = folder_ / "c.json";
+  std::string mesh_ = folder_ / "m.ply";
+};
+
+TEST_F(Output, TakesThePlaceOfNoOtherOutput) {
+  const std::string again = folder_ / "./m.ply";
+  expect_clash(mesh({"-o", mesh_, "--report", mesh_}), "--report", "-o");
+  expect_clash(mesh({"-o", mesh_, "--report", again}), "--report", "-o");
+  expect_clash(mesh({"-o", mesh_, "--stage1-out", again}), "--stage1-out", "-o");
+  // Neither is there yet.
+  expect_clash(mesh({"-o", folder_ / "new.ply", "--stage1-out", folder_ / "././new.ply"}), "--stage1-out", "-o");
+  expect_clash(mesh({"-o", mesh_, "--stage1-out", folder_ / "s.ply", "--report", folder_ / "s.ply"}), "--report",
+               "--stage1-out");
+}
+
+TEST_F(Output, TakesThePlaceOfNoInput) {
+  const std::string link = folder_ / "link.json", hard = folder_ / "hard.json";
+  for (const std::string& report : {volume_, link}) {
+    expect_clash(mesh({"-o", folder_ / "new.ply", "--report", report}), "--report", "VOLUME");
+    expect_clash({"info", volume_, "--report", report}, "--report", "VOLUME");
+    expect_clash({"topology", volume_, "--isovalue", "0", "--report", report}, "--report", "VOLUME");
+    expect_clash({"verify", mesh_, volume_, "--isovalue", "0", "--report", report}, "--report", "VOLUME");
+  }
+  for (const std::string& report : {config_, hard}) {
+    expect_clash(mesh({"-o", folder_ / "new.ply", "--report", report}), "--report", "--config");
+  }
+  expect_clash({"verify", mesh_, volume_, "--isovalue", "0", "--report", mesh_}, "--report", "MESH");
+}
+
+TEST(OutputNames, DevicesAndEmptyNamesAreNoFiles) {
+  check_distinct({{"in", "/dev/null"}, {"none", ""}}, {{"a", "/dev/null"}, {"b", "/dev/null"}, {"c", ""}, {"d", ""}});
+}
+
+// A report that cannot be written leaves no mesh that lacks it.
+TEST_F(Output, NoMeshWithoutItsReport) {
+  const std::string out = folder_ / "new.ply";
+  const ProgramResult result = run_deliso(mesh({"-o", out, "--report", "/dev/full"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("/dev/full"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(out));
+}
+
+// Half a voxel is less than a float can tell there: PLY holds the mesh, STL does not, and verify agrees on both.
+TEST_F(Output, MeshesThatRoundingSpoilsAreNotCalledProven) {
+  write_file(volume_, ball("spacings: 0.1 0.1 0.1\naxis mins: 500000 4000000 0\n"));
+  const std::string report = folder_ / "r.json";
+  for (const std::string name : {"far.ply", "far.stl"}) {
+    SCOPED_TRACE(name);
+    const bool is_kept = name.ends_with(".ply");
+    const ProgramResult result = run_deliso(mesh({"-o", folder_ / name, "--report", report}));
+    EXPECT_EQ(result.exit_code, is_kept ? 0 : 1) << result.err;
+    EXPECT_EQ(result.err.find("STL rounds coordinates") == std::string::npos, is_kept) << result.err;
+    const Json json = Json::parse(read_file(report));
+    EXPECT_EQ(json["certificate"]["verdict"], is_kept ? "homeomorphic" : "different");
+    EXPECT_EQ(run_deliso({"verify", folder_ / name, volume_, "--isovalue", "0"}).exit_code, is_kept ? 0 : 1);
+  }
+}
+
+// A float is off by half a hundredth of a voxel there, which keeps the triangles apart but is more than verify allows.
+TEST_F(Output, StlOfVerticesThatRoundingMovesFarIsNotCalledProven) {
+  write_file(volume_, ball("axis mins: 100000 100000 100000\n"));
+  const std::string out = folder_ / "far.stl";
+  const ProgramResult result = run_deliso(mesh({"-o", out}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("vertices move by up to 0.00"), std::string::npos) << result.err;
+  EXPECT_EQ(run_deliso({"verify", out, volume_, "--isovalue", "0"}).exit_code, 1);
+}
+
+TEST_F(Output, StlBeyondTheRangeOfFloatsIsRefusedByName) {
+  write_file(volume_, ball("spacings: 1e39 1e39 1e39\n"));
+  for (const std::string certify : {"true", "false"}) {
+    const std::string out = folder_ / "huge.stl";
+    const ProgramResult result = run_deliso(mesh({"-o", out, "--set", "certify=" + certify}));
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find("huge.stl: STL holds floats"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
+// A process inherits the peak of the one that starts it.
+TEST_F(Output, PeakMemoryIsThatOfTheProgramAlone) {
+  constexpr std::size_t kBytes = std::size_t{800} << 20;
+  const std::string ballast(kBytes, 'x');
+  const std::string report = folder_ / "r.json";
+  ASSERT_EQ(run_deliso(mesh({"-o", folder_ / "m.ply", "--report", report})).exit_code, 0);
+  EXPECT_LT(Json::parse(read_file(report))["peak_memory_bytes"].get<std::size_t>(), kBytes / 2) << ballast.size();
+}
+
+TEST_F(Output, StlOfMeshesNearTheOriginIsProven) {
+  const std::string out = folder_ / "near.stl";
+  EXPECT_EQ(run_deliso(mesh({"-o", out})).exit_code, 0);
+  EXPECT_EQ(run_deliso({"verify", out, volume_, "--isovalue", "0"}).exit_code, 0);
+}
+
+TEST_F(Output, VolumesThatCoordinatesCannotTellApartAreRefused) {
+  for (const std::string fields : {"axis mins: 1e17 0 0\n", "spacings: 1e140 1e140 1e140\n"}) {
+    write_file(volume_, ball(fields));
+    const ProgramResult result = run_deliso(mesh({"-o", folder_ / "new.ply"}));
+    EXPECT_EQ(result.exit_code, 2) << fields;
+    EXPECT_NE(result.err.find("v.nrrd"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("spacing"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(Output, SpacingsTooUnequalAreRefusedUnlessIgnored) {
+  write_file(volume_, ball("spacings: 1 1 1001\n"));
+  const ProgramResult refused = run_deliso(mesh({"-o", folder_ / "new.ply"}));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("1 1 1001"), std::string::npos) << refused.err;
+  EXPECT_EQ(run_deliso(mesh({"-o", folder_ / "new.ply", "--set", "spacing=ignore"})).exit_code, 0);
+}
+
+// A face with 0 and 2 at its corners, crosswise, has a saddle of value 1.
+TEST_F(Output, ASaddleOnTheIsovalueIsToldApartFromASample) {
+  std::vector<unsigned char> samples(64, 0);
+  samples[21] = samples[26] = 2;  // (1, 1, 1) and (2, 2, 1): diagonal on a face
+  write_file(volume_, "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n" + bytes_of(samples));
+  const std::string report = folder_ / "r.json";
+  for (const std::string command : {"topology", "mesh", "verify"}) {
+    std::vector<std::string> arguments = {command, volume_, "--isovalue", "1", "--report", report};
+    if (command == "verify") arguments.insert(arguments.begin() + 1, folder_ / "s.ply");
+    if (command == "mesh") arguments.insert(arguments.end(), {"-o", folder_ / "s.ply"});
+    const ProgramResult result = run_deliso(arguments);
+    EXPECT_EQ(result.exit_code, 0) << command << ": " << result.err << result.out;
+    EXPECT_NE(result.err.find("a saddle of the interpolant equals the isovalue 1"), std::string::npos) << result.err;
+    const Json json = Json::parse(read_file(report));
+    EXPECT_LT(json["isovalue_used"].get<double>(), 1);
+    EXPECT_GT(json["isovalue_used"].get<double>(), 0.9);
+  }
+}
+
+}  // namespace
+}  // namespace deliso::testing

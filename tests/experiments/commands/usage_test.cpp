@@ -1,0 +1,241 @@
+// What the commands print and write when all is well.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "delaunay/base/shortest_text.h"
+#include "experiments/commands/sample_histogram.h"
+#include "experiments/config/json.h"
+#include "tests/support/program_runner.h"
+#include "volume/analytic_fields.h"
+#include "volume/field_slices.h"
+#include "volume/io/volume_file.h"
+
+namespace deliso::testing {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Usage, VersionNamesVersionCommitCompilerAndFlags) {
+  const ProgramResult result = run_deliso({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(result.out.starts_with("deliso 0.1.0\ncommit   ")) << result.out;
+  EXPECT_TRUE(contains(result.out, "\ncompiler "));
+  EXPECT_TRUE(contains(result.out, "-ffp-contract=off"));
+}
+
+TEST(Usage, HelpNamesEveryCommandAndParameter) {
+  const ProgramResult help = run_deliso({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const std::string command : {"mesh", "verify", "topology", "info", "generate", "schema"}) {
+    EXPECT_TRUE(contains(help.out, "  " + command + " ")) << command;
+    EXPECT_EQ(run_deliso({command, "--help"}).exit_code, 0) << command;
+  }
+  EXPECT_TRUE(contains(run_deliso({"mesh", "--help"}).out, "stage2.epsilon1 = 0.1"));
+}
+
+TEST(Usage, GenerateListsAndWritesEveryField) {
+  const TemporaryFolder folder;
+  const ProgramResult list = run_deliso({"generate", "--list"});
+  EXPECT_EQ(list.exit_code, 0);
+  for (const AnalyticField& field : analytic_fields()) {
+    EXPECT_TRUE(contains(list.out, field.name));
+    const ProgramResult result =
+        run_deliso({"generate", field.name, "-o", folder / (field.name + ".nrrd"), "--size", "12"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  EXPECT_EQ(folder.names().size(), analytic_fields().size());
+}
+
+TEST(Usage, GenerateWritesRawAndCompressedVolumesOfTheSameSamples) {
+  const TemporaryFolder folder;
+  const auto generate = [&](const std::string& file, const std::string& encoding) {
+    return run_deliso({"generate", "blobs", "-o", folder / file, "--size", "9", "--encoding", encoding});
+  };
+  EXPECT_EQ(generate("a.nrrd", "raw").exit_code, 0);
+  EXPECT_EQ(generate("b.nrrd", "gzip").exit_code, 0);
+  EXPECT_NE(read_file(folder / "a.nrrd"), read_file(folder / "b.nrrd"));
+  EXPECT_EQ(read_volume(folder / "a.nrrd").samples(), generate_field("blobs", 9).samples());
+  EXPECT_EQ(read_volume(folder / "b.nrrd").samples(), generate_field("blobs", 9).samples());
+  const ProgramResult refused = generate("c.nrrd", "zip");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "\"zip\""));
+  EXPECT_EQ(folder.names().size(), 2u);
+}
+
+TEST(Usage, GenerateIsReproducibleAndSeeded) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a", "b", "c"}) {
+    const std::string seed = name == "c" ? "2" : "1";
+    ASSERT_EQ(
+        run_deliso({"generate", "noise", "-o", folder / (name + ".nrrd"), "--size", "9", "--seed", seed}).exit_code, 0);
+  }
+  EXPECT_EQ(read_file(folder / "a.nrrd"), read_file(folder / "b.nrrd"));
+  EXPECT_NE(read_file(folder / "a.nrrd"), read_file(folder / "c.nrrd"));
+}
+
+TEST(Usage, InfoTellsWhatTheFileHolds) {
+  const TemporaryFolder folder;
+  // Two values far apart: every threshold between them separates the classes.
+  std::string bytes(64, '\12');
+  bytes.replace(0, 16, std::string(16, '\144'));
+  write_file(folder / "v.nrrd",
+             "NRRD0004\ndimension: 3\ntype: uint8\nsizes: 4 4 4\nspacings: 1 2 3\nencoding: raw\n\n" + bytes);
+  const ProgramResult result = run_deliso({"info", folder / "v.nrrd", "--json", "--report", folder / "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json report = parse_json(result.out, "stdout");
+  EXPECT_EQ(report, read_json(folder / "r.json"));
+  EXPECT_EQ(report["volume"]["dims"], Json::array({4, 4, 4}));
+  EXPECT_EQ(report["volume"]["type"], "u8");
+  EXPECT_EQ(report["volume"]["spacing"], Json::array({1, 2, 3}));
+  EXPECT_EQ(report["volume"]["range"], Json::array({10, 100}));
+  EXPECT_EQ(report["volume"]["sha256"].get<std::string>().size(), 64u);
+  std::uint64_t count = 0;
+  for (const Json& bin : report["histogram"]["counts"]) count += bin.get<std::uint64_t>();
+  EXPECT_EQ(count, 64u);
+  ASSERT_FALSE(report["suggested_isovalues"].empty());
+  const double isovalue = report["suggested_isovalues"][0]["isovalue"].get<double>();
+  EXPECT_GT(isovalue, 10);
+  EXPECT_LT(isovalue, 100);
+  EXPECT_TRUE(contains(run_deliso({"info", folder / "v.nrrd"}).out, "suggested isovalue"));
+}
+
+// A row of the histogram for each value there can be, no row twice, and no table without a row.
+TEST(Usage, InfoOfFewValuesHasFewRows) {
+  const TemporaryFolder folder;
+  const std::string header = "NRRD0004\ndimension: 3\ntype: uint8\nsizes: 4 4 4\nencoding: raw\n\n";
+  const auto rows = [&](const std::string& bytes) {
+    write_file(folder / "v.nrrd", header + bytes);
+    const std::string out = run_deliso({"info", folder / "v.nrrd"}).out + "\n";
+    const std::string histogram = out.substr(out.find("\n\n") + 2);
+    const std::string table = histogram.substr(0, histogram.find("\n\n") + 1);
+    EXPECT_EQ(contains(out, "suggested isovalue"), bytes != std::string(64, '\12'));
+    return std::count(table.begin(), table.end(), '\n') - 2;  // without the two lines of the head
+  };
+  EXPECT_EQ(rows(std::string(64, '\12')), 1);
+  EXPECT_EQ(rows(std::string(32, '\12') + std::string(32, '\14')), 3);
+  EXPECT_EQ(rows(std::string(32, '\12') + std::string(32, '\144')), 16);
+}
+
+// A reader that waits at a pipe gets the whole report and nothing before it.
+TEST(Usage, GenerateSuggestsNoIsovalueThatHasNoPoint) {
+  const TemporaryFolder folder;
+  for (const AnalyticField& field : analytic_fields()) {
+    for (const std::string size : {"2", "3", "5"}) {
+      const ProgramResult made = run_deliso({"generate", field.name, "--size", size, "-o", folder / "v.nrrd"});
+      const bool has_points =
+          run_deliso({"topology", folder / "v.nrrd", "--isovalue", shortest_text(field.isovalue)}).exit_code == 0;
+      EXPECT_EQ(made.out.find("no point") == std::string::npos, has_points) << field.name << " " << size;
+    }
+  }
+}
+
+TEST(Usage, MisspeltOptionsAreNamedBeforeMissingOnes) {
+  const ProgramResult result = run_deliso({"mesh", "v.nrrd", "--iso", "0.3", "-o", "x.ply"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("'--iso'"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nearest is '--isovalue'"), std::string::npos) << result.err;
+  EXPECT_EQ(run_deliso({"info", "v.raw", "--dims", ""}).exit_code, 2);
+}
+
+TEST(Usage, ReportsGoIntoAPipeThatIsRead) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_deliso({"generate", "sphere", "--size", "8", "-o", folder / "v.nrrd"}).exit_code, 0);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const int pipe = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(pipe, 0);
+  const ProgramResult result = run_deliso({"info", folder / "v.nrrd", "--json", "--report", folder / "pipe"});
+  std::string report(result.out.size() + 1, '\0');
+  const ssize_t size = ::read(pipe, report.data(), report.size());
+  ::close(pipe);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report.substr(0, static_cast<std::size_t>(size)), result.out);
+}
+
+TEST(Usage, InfoReadsRawFilesAsDescribed) {
+  const TemporaryFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 60; ++i) bytes += {'\1', static_cast<char>(i)};
+  write_file(folder / "v.raw", bytes);
+  const ProgramResult result = run_deliso({"info", folder / "v.raw", "--dims", "3,4,5", "--type", "u16", "--endian",
+                                           "big", "--spacing", "1,1,2.5", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json volume = parse_json(result.out, "stdout")["volume"];
+  EXPECT_EQ(volume["dims"], Json::array({3, 4, 5}));
+  EXPECT_EQ(volume["range"], Json::array({256, 315}));
+  EXPECT_EQ(volume["spacing"], Json::array({1, 1, 2.5}));
+}
+
+TEST(Usage, TopologyOfKnownFieldsIsTheKnownOne) {
+  const TemporaryFolder folder;
+  for (const AnalyticField& field : analytic_fields()) {
+    const auto known = field.known_topology(field.default_size);
+    if (!known || field.default_size > 64) continue;
+    SCOPED_TRACE(field.name);
+    ASSERT_EQ(run_deliso({"generate", field.name, "-o", folder / "v.nrrd"}).exit_code, 0);
+    const ProgramResult result = run_deliso(
+        {"topology", folder / "v.nrrd", "--isovalue", std::to_string(field.isovalue), "--report", folder / "r.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json report = read_json(folder / "r.json");
+    std::vector<KnownComponents> found;
+    for (const Json& entry : report["isosurface"]) {
+      found.push_back({entry["euler_characteristic"], entry["boundary_loops"], entry["count"]});
+    }
+    EXPECT_TRUE(std::is_permutation(found.begin(), found.end(), known->begin(), known->end())) << report["isosurface"];
+    EXPECT_TRUE(contains(result.out, "euler characteristic"));
+  }
+}
+
+// Otsu's threshold by its definition: the largest variance between the classes, by trying all.
+TEST(Histogram, SuggestedIsovalueHasTheLargestVarianceBetweenClasses) {
+  const ScalarGrid grid = generate_field("shells", 24);
+  const SampleHistogram histogram = sample_histogram(grid);
+  const auto variance_between = [&](double threshold) {
+    double count[2] = {0, 0};
+    double sum[2] = {0, 0};
+    visit_samples(grid.samples(), [&](const auto& samples) {
+      for (const auto sample : samples) {
+        const int side = static_cast<double>(sample) < threshold ? 0 : 1;
+        count[side] += 1;
+        sum[side] += static_cast<double>(sample);
+      }
+    });
+    if (count[0] == 0 || count[1] == 0) return 0.0;
+    const double difference = sum[0] / count[0] - sum[1] / count[1];
+    return count[0] * count[1] * difference * difference;
+  };
+  double best = 0;
+  for (double threshold = 0.5; threshold < 255; ++threshold) best = std::max(best, variance_between(threshold));
+  const auto suggestions = suggested_isovalues(histogram);
+  ASSERT_EQ(suggestions.size(), 3u);
+  EXPECT_NEAR(variance_between(suggestions[0].isovalue) / best, 1, 1e-9);
+  EXPECT_LT(suggestions[1].isovalue, suggestions[2].isovalue);
+}
+
+TEST(Histogram, CountsEverySampleAtTheEndsOfTheDoubles) {
+  const double huge = std::numeric_limits<double>::max();
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  for (const std::vector<double>& ends : {std::vector<double>{-huge, huge}, {0.0, tiny}, {3.0, 3.0}}) {
+    const ScalarGrid grid({2, 2, 2},
+                          std::vector<double>{ends[0], ends[1], ends[0], ends[0], ends[1], ends[1], ends[1], ends[1]});
+    std::uint64_t count = 0;
+    for (const std::uint64_t bin : sample_histogram(grid).counts) count += bin;
+    EXPECT_EQ(count, 8u);
+  }
+  const ScalarGrid wide({2, 2, 2}, std::vector<std::int32_t>{std::numeric_limits<std::int32_t>::min(), 0, 0, 0, 0, 0, 0,
+                                                             std::numeric_limits<std::int32_t>::max()});
+  const SampleHistogram histogram = sample_histogram(wide);
+  EXPECT_LE(histogram.counts.size(), 256u);
+  EXPECT_EQ(histogram.counts.front(), 1u);
+  EXPECT_EQ(histogram.counts.back(), 1u);
+}
+
+}  // namespace
+}  // namespace deliso::testing
