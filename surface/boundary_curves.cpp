@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "volume/exact_topology_crossings.h"
+#include "volume/topology/exact_topology_crossings.h"
 
 namespace deliso {
 

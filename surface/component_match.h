@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "surface/surface_mesh.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -10,8 +10,8 @@
 
 #include "surface/certificate.h"
 #include "surface/surface_mesh.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

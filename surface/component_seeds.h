@@ -7,7 +7,7 @@
 #include "delaunay/base/rng.h"
 #include "raycast/isosurface.h"
 #include "surface/controls.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "surface/blocks.h"
-#include "volume/critical_points.h"
+#include "volume/topology/critical_points.h"
 
 namespace deliso {
 

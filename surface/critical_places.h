@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "surface/signed_delaunay.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

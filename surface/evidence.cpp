@@ -9,8 +9,8 @@
 #include "surface/blocks.h"
 #include "surface/passage.h"
 #include "surface/sample_locator.h"
-#include "volume/critical_points.h"
-#include "volume/exact_topology_cell.h"
+#include "volume/topology/critical_points.h"
+#include "volume/topology/exact_topology_cell.h"
 
 namespace deliso {
 

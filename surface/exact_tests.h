@@ -3,7 +3,7 @@
 
 #include "delaunay/predicates.h"
 #include "delaunay/triangle_contact.h"
-#include "volume/exact_tests.h"
+#include "volume/marching_cubes/exact_tests.h"
 
 namespace deliso {
 

@@ -5,8 +5,8 @@
 #include "surface/certificate.h"
 #include "surface/component_places.h"
 #include "surface/triangle_mesh.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

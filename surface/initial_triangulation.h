@@ -8,7 +8,7 @@
 #include "surface/controls.h"
 #include "surface/parameters.h"
 #include "surface/restricted_delaunay.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -11,8 +11,8 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/base/vec3.h"
 #include "surface/box_tree.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -11,8 +11,8 @@
 #include "delaunay/base/box3.h"
 #include "surface/raised_cells.h"
 #include "surface/surface_mesh.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "volume/exact_topology_crossings.h"
+#include "volume/topology/exact_topology_crossings.h"
 
 namespace deliso {
 

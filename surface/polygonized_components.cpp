@@ -7,7 +7,7 @@
 
 #include "surface/exact_tests.h"
 #include "surface/link_sides.h"
-#include "volume/marching_cubes.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -24,7 +24,7 @@
 #include "surface/sign_rules.h"
 #include "surface/signed_delaunay.h"
 #include "surface/specks.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

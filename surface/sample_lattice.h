@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

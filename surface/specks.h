@@ -6,8 +6,8 @@
 
 #include "delaunay/base/vec3.h"
 #include "surface/matched_mesh.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

@@ -7,8 +7,8 @@
 #include "raycast/isosurface.h"
 #include "surface/polygonized_components.h"
 #include "surface/surface_sweeps.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

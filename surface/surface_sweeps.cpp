@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "volume/cell_crossings.h"
-#include "volume/exact_topology_cell.h"
+#include "volume/topology/cell_crossings.h"
+#include "volume/topology/exact_topology_cell.h"
 
 namespace deliso {
 

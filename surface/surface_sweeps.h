@@ -9,8 +9,8 @@
 
 #include "surface/places.h"
 #include "surface/sweep_difference.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

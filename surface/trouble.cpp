@@ -6,8 +6,8 @@
 
 #include "surface/evidence.h"
 #include "surface/matched_mesh.h"
-#include "volume/cell_crossings.h"
-#include "volume/exact_topology_cell.h"
+#include "volume/topology/cell_crossings.h"
+#include "volume/topology/exact_topology_cell.h"
 
 namespace deliso {
 

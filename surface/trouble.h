@@ -10,7 +10,7 @@
 #include "surface/places.h"
 #include "surface/raised_cells.h"
 #include "surface/signed_delaunay.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

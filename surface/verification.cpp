@@ -14,7 +14,7 @@
 #include "surface/delaunay_balls.h"
 #include "surface/isosurface_probe.h"
 #include "surface/mesh_topology.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 

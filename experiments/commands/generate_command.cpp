@@ -10,8 +10,8 @@
 #include "experiments/system/parse_number.h"
 #include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
-#include "volume/analytic_fields.h"
-#include "volume/field_slices.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
 

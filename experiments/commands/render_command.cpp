@@ -20,7 +20,7 @@
 #include "experiments/system/text_table.h"
 #include "surface/exact_tests.h"
 #include "surface/mesh_io.h"
-#include "volume/marching_cubes.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
 namespace {

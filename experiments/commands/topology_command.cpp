@@ -13,7 +13,7 @@
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
 #include "surface/certificate.h"
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 namespace {

@@ -22,7 +22,7 @@ struct Dataset {
   std::string also;        // another name under which the file is taken; may be empty
   std::string sha256;      // of the samples; empty: not checked
   std::string get;         // how a user gets the file, one sentence
-  std::string field;       // of volume/analytic_fields.h; empty for a file
+  std::string field;       // of volume/fields/analytic_fields.h; empty for a file
   std::int32_t size = 0;   // samples along each axis of the field
   std::uint64_t seed = 1;  // of the field
 };

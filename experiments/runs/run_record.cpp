@@ -11,8 +11,8 @@
 #include "surface/exact_tests.h"
 #include "surface/surface_distance.h"
 #include "surface/verification.h"
-#include "volume/exact_topology.h"
-#include "volume/marching_cubes.h"
+#include "volume/marching_cubes/marching_cubes.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 namespace {

@@ -20,10 +20,10 @@
 #include "surface/poles.h"
 #include "surface/recover.h"
 #include "surface/refine.h"
-#include "volume/analytic_fields.h"
-#include "volume/exact_topology.h"
-#include "volume/field_slices.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/volume_file.h"
+#include "volume/topology/exact_topology.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "surface/isosurface_probe.h"
 #include "surface/triangle_mesh.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso::testing {
 

@@ -14,10 +14,10 @@
 #include "surface/component_seeds.h"
 #include "surface/signed_delaunay.h"
 #include "tests/support/raycast_fields.h"
-#include "volume/analytic_fields.h"
-#include "volume/exact_topology.h"
-#include "volume/field_slices.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso::testing {
 

@@ -12,8 +12,8 @@
 #include "delaunay/base/rng.h"
 #include "delaunay/base/vec3.h"
 #include "tests/support/topology_oracle.h"
-#include "volume/exact_topology.h"
 #include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso::test {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso::test {
 

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-#include "volume/exact_topology.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso::test {
 

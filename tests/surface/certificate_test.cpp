@@ -13,7 +13,7 @@
 #include "tests/support/mesh_examples.h"
 #include "tests/support/topology_grids.h"
 #include "tests/support/topology_mesh_check.h"
-#include "volume/marching_cubes.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
 namespace {

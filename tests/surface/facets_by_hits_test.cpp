@@ -6,8 +6,8 @@
 
 #include "delaunay/base/check.h"
 #include "surface/deliso.h"
-#include "volume/analytic_fields.h"
-#include "volume/field_slices.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
 
 namespace deliso {
 namespace {

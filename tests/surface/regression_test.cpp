@@ -17,8 +17,8 @@
 #include "surface/self_intersection.h"
 #include "surface/verification.h"
 #include "tests/support/surface_fields.h"
-#include "volume/critical_points.h"
 #include "volume/io/volume_file.h"
+#include "volume/topology/critical_points.h"
 
 namespace deliso {
 namespace {

@@ -7,7 +7,7 @@
 #include "surface/component_match.h"
 #include "surface/link_sides.h"
 #include "surface/matched_mesh.h"
-#include "volume/marching_cubes.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
 namespace {

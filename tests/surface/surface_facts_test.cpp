@@ -10,7 +10,7 @@
 #include "surface/blocks.h"
 #include "surface/critical_places.h"
 #include "tests/support/surface_fields.h"
-#include "volume/critical_points.h"
+#include "volume/topology/critical_points.h"
 
 namespace deliso {
 namespace {

@@ -11,7 +11,7 @@
 #include "surface/certificate.h"
 #include "surface/mesh_io.h"
 #include "tests/support/program_runner.h"
-#include "volume/field_slices.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/nrrd.h"
 
 namespace deliso::testing {

@@ -8,7 +8,7 @@
 
 #include "experiments/runs/record_file.h"
 #include "tests/support/run_examples.h"
-#include "volume/field_slices.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/sha256.h"
 #include "volume/io/volume_file.h"
 

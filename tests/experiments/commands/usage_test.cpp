@@ -13,8 +13,8 @@
 #include "experiments/commands/sample_histogram.h"
 #include "experiments/config/json.h"
 #include "tests/support/program_runner.h"
-#include "volume/analytic_fields.h"
-#include "volume/field_slices.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso::testing {

@@ -16,7 +16,7 @@
 #include "experiments/pictures/mesh_shape.h"
 #include "experiments/pictures/picture.h"
 #include "tests/support/sphere_pictures.h"
-#include "volume/field_slices.h"
+#include "volume/fields/field_slices.h"
 
 namespace deliso::testing {
 namespace {

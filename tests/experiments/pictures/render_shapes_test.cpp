@@ -13,8 +13,8 @@
 #include "experiments/pictures/mesh_shape.h"
 #include "raycast/isosurface.h"
 #include "tests/support/sphere_pictures.h"
-#include "volume/field_slices.h"
-#include "volume/marching_cubes.h"
+#include "volume/fields/field_slices.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso::testing {
 namespace {

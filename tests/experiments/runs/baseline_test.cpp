@@ -8,9 +8,9 @@
 #include "experiments/runs/isosurface_samples.h"
 #include "experiments/runs/record_file.h"
 #include "tests/support/run_examples.h"
-#include "volume/analytic_fields.h"
-#include "volume/field_slices.h"
-#include "volume/marching_cubes.h"
+#include "volume/fields/analytic_fields.h"
+#include "volume/fields/field_slices.h"
+#include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso::testing {
 namespace {
