@@ -7,13 +7,13 @@
 #include <optional>
 #include <string_view>
 
-#include "surface/certificate.h"
-#include "surface/controls.h"
-#include "surface/parameters.h"
-#include "surface/recover.h"
-#include "surface/refine.h"
-#include "surface/repair.h"
-#include "surface/triangle_mesh.h"
+#include "surface/base/controls.h"
+#include "surface/base/parameters.h"
+#include "surface/certificate/certificate.h"
+#include "surface/mesh/triangle_mesh.h"
+#include "surface/recover/recover.h"
+#include "surface/refine/refine.h"
+#include "surface/repair/repair.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

@@ -21,8 +21,8 @@
 #include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
 #include "surface/deliso.h"
-#include "surface/mesh_io.h"
-#include "surface/mesh_quality.h"
+#include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/mesh_quality.h"
 
 namespace deliso {
 namespace {

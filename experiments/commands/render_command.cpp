@@ -18,8 +18,8 @@
 #include "experiments/system/files.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
-#include "surface/exact_tests.h"
-#include "surface/mesh_io.h"
+#include "surface/intersection/exact_tests.h"
+#include "surface/mesh/io/mesh_io.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {

@@ -12,7 +12,7 @@
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
-#include "surface/certificate.h"
+#include "surface/certificate/certificate.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {

@@ -11,8 +11,8 @@
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
-#include "surface/mesh_io.h"
-#include "surface/verification.h"
+#include "surface/mesh/io/mesh_io.h"
+#include "surface/verification/verification.h"
 
 namespace deliso {
 namespace {

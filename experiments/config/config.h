@@ -8,7 +8,7 @@
 
 #include "experiments/config/json.h"
 #include "experiments/config/parameter_table.h"
-#include "surface/parameters.h"
+#include "surface/base/parameters.h"
 
 namespace deliso {
 

@@ -1,5 +1,5 @@
 // The one table of the mesher's parameters. JSON files, --set, the help text, the schema and the README's table are all
-// made from it; defaults are those of surface/parameters.h.
+// made from it; defaults are those of surface/base/parameters.h.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <variant>
 
-#include "surface/parameters.h"
+#include "surface/base/parameters.h"
 
 namespace deliso {
 

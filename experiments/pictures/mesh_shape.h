@@ -2,8 +2,8 @@
 #pragma once
 
 #include "experiments/pictures/shape.h"
-#include "surface/box_tree.h"
-#include "surface/triangle_mesh.h"
+#include "surface/mesh/triangle_mesh.h"
+#include "surface/search/box_tree.h"
 
 namespace deliso {
 

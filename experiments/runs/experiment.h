@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/config/json.h"
-#include "surface/parameters.h"
+#include "surface/base/parameters.h"
 
 namespace deliso {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "experiments/config/json.h"
-#include "surface/certificate.h"
+#include "surface/certificate/certificate.h"
 #include "surface/deliso.h"
-#include "surface/mesh_quality.h"
-#include "surface/triangle_mesh.h"
+#include "surface/mesh/mesh_quality.h"
+#include "surface/mesh/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

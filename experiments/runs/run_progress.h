@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/stopwatch.h"
-#include "surface/controls.h"
+#include "surface/base/controls.h"
 
 namespace deliso {
 

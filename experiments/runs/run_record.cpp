@@ -8,9 +8,9 @@
 #include "experiments/runs/record.h"
 #include "experiments/system/program_info.h"
 #include "surface/deliso.h"
-#include "surface/exact_tests.h"
-#include "surface/surface_distance.h"
-#include "surface/verification.h"
+#include "surface/intersection/exact_tests.h"
+#include "surface/verification/surface_distance.h"
+#include "surface/verification/verification.h"
 #include "volume/marching_cubes/marching_cubes.h"
 #include "volume/topology/exact_topology.h"
 

@@ -9,7 +9,7 @@
 
 #include "experiments/config/json.h"
 #include "experiments/runs/experiment.h"
-#include "surface/controls.h"
+#include "surface/base/controls.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

@@ -10,8 +10,8 @@
 
 #include "delaunay/base/counted.h"
 #include "delaunay/base/shortest_text.h"
-#include "surface/mesh_io.h"
-#include "surface/self_intersection.h"
+#include "surface/intersection/self_intersection.h"
+#include "surface/mesh/io/mesh_io.h"
 
 namespace deliso {
 namespace {

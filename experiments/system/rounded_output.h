@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "surface/certificate.h"
-#include "surface/triangle_mesh.h"
+#include "surface/certificate/certificate.h"
+#include "surface/mesh/triangle_mesh.h"
 
 namespace deliso {
 

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
-#include "surface/boundary_curves.h"
-#include "surface/build_triangle_mesh.h"
-#include "surface/component_seeds.h"
-#include "surface/poles.h"
-#include "surface/recover.h"
-#include "surface/refine.h"
+#include "surface/extract/build_triangle_mesh.h"
+#include "surface/recover/boundary_curves.h"
+#include "surface/recover/component_seeds.h"
+#include "surface/recover/recover.h"
+#include "surface/refine/refine.h"
+#include "surface/restricted/poles.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
 #include "volume/io/volume_file.h"

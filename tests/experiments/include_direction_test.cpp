@@ -66,7 +66,7 @@ TEST(IncludeDirection, WrongArrowsWouldBeSeen) {
   EXPECT_FALSE(may_include("delaunay", "volume/scalar_grid.h"));
   EXPECT_FALSE(may_include("raycast", "delaunay/predicates.h"));
   EXPECT_FALSE(may_include("delaunay/base", "delaunay/ids.h"));
-  EXPECT_FALSE(may_include("raycast", "surface/parameters.h"));
+  EXPECT_FALSE(may_include("raycast", "surface/base/parameters.h"));
   EXPECT_FALSE(may_include("surface", "experiments/config/json.h"));
   EXPECT_FALSE(may_include("experiments", "tests/support/program_runner.h"));
   EXPECT_TRUE(may_include("raycast", "volume/scalar_grid.h"));

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "surface/restricted_delaunay.h"
+#include "surface/restricted/restricted_delaunay.h"
 #include "tests/support/surface_oracle.h"
 
 namespace deliso::testing {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "delaunay/base/rng.h"
-#include "surface/triangle_mesh.h"
+#include "surface/mesh/triangle_mesh.h"
 
 namespace deliso::testing {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "surface/isosurface_probe.h"
-#include "surface/triangle_mesh.h"
+#include "surface/mesh/triangle_mesh.h"
+#include "surface/verification/isosurface_probe.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "delaunay/base/check.h"
-#include "surface/mesh_io.h"
+#include "surface/mesh/io/mesh_io.h"
 
 namespace deliso::testing {
 

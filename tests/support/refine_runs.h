@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "surface/build_triangle_mesh.h"
-#include "surface/poles.h"
-#include "surface/recover.h"
-#include "surface/refine.h"
+#include "surface/extract/build_triangle_mesh.h"
+#include "surface/recover/recover.h"
+#include "surface/refine/refine.h"
+#include "surface/restricted/poles.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso::testing {

@@ -10,9 +10,9 @@
 
 #include "delaunay/base/rng.h"
 #include "raycast/isosurface.h"
-#include "surface/boundary_curves.h"
-#include "surface/component_seeds.h"
-#include "surface/signed_delaunay.h"
+#include "surface/recover/boundary_curves.h"
+#include "surface/recover/component_seeds.h"
+#include "surface/restricted/signed_delaunay.h"
 #include "tests/support/raycast_fields.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "surface/signed_delaunay.h"
-#include "surface/surface_mesh.h"
-#include "surface/umbrella.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/restricted/signed_delaunay.h"
+#include "surface/restricted/umbrella.h"
 #include "tests/support/topology_mesh_check.h"
 
 namespace deliso::testing {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "surface/surface_mesh.h"
+#include "surface/mesh/surface_mesh.h"
 
 namespace deliso::testing {
 

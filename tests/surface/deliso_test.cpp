@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
-#include "surface/verification.h"
+#include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/topology_mesh_check.h"
 

@@ -6,7 +6,7 @@
 
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
-#include "surface/self_intersection.h"
+#include "surface/intersection/self_intersection.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

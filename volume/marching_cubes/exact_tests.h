@@ -1,5 +1,5 @@
 // Exact tests of places that volume asks for but does not have: whoever wants what depends on them hands them in
-// (surface/exact_tests.h).
+// (surface/intersection/exact_tests.h).
 #pragma once
 
 #include <array>

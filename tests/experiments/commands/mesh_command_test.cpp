@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "experiments/config/json.h"
-#include "surface/certificate.h"
-#include "surface/mesh_io.h"
+#include "surface/certificate/certificate.h"
+#include "surface/mesh/io/mesh_io.h"
 #include "tests/support/program_runner.h"
 #include "volume/fields/field_slices.h"
 #include "volume/io/nrrd.h"

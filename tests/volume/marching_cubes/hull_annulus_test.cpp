@@ -9,7 +9,7 @@
 
 #include "delaunay/base/rng.h"
 #include "delaunay/predicates.h"
-#include "surface/exact_tests.h"
+#include "surface/intersection/exact_tests.h"
 #include "tests/support/cell_mesh_check.h"
 #include "tests/support/topology_mesh_check.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "surface/exact_tests.h"
+#include "surface/intersection/exact_tests.h"
 #include "tests/support/cell_mesh_check.h"
 #include "tests/support/topology_grids.h"
 #include "tests/support/topology_mesh_check.h"

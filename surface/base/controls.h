@@ -1,0 +1,95 @@
+// How a caller watches and stops a run: the limits of the budget, the stop flag and the progress callback in one place.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "delaunay/base/stopwatch.h"
+#include "surface/base/parameters.h"
+
+namespace deliso {
+
+// What a caller may watch. Called now and then from the mesher's own thread.
+struct Progress {
+  std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "certify"
+  std::int64_t vertices = 0;  // so far, of the whole mesh or of the part at hand
+  std::int64_t queued = 0;    // violations still waiting
+};
+
+class Controls {
+ public:
+  Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
+      : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
+
+  // A stage begins.
+  void enter(std::string_view stage) {
+    stage_ = stage;
+    report(stage, 0, 0);
+  }
+  // The stage in which the run had to stop; empty when it had not.
+  [[nodiscard]] std::string_view stopped_in() const { return stopped_in_; }
+
+  // To be called before each insertion that is tried. True when the run must end now; it stays true.
+  bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {
+    if (stopped_) return true;
+    if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stop();
+    if ((calls_++ & 255u) != 0) return false;
+    if (poll()) return true;
+    report(stage, vertices, queued);
+    return false;
+  }
+  // The same between larger pieces of work, which insert nothing: looks at the clock and the stop flag.
+  bool poll() {
+    if (stopped_) return true;
+    const bool is_over = (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
+                         (budget_.seconds && watch_.seconds() > *budget_.seconds);
+    return is_over && stop();
+  }
+  void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
+    if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});
+  }
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+  // For a part of the work, on any thread: the same limits, but `share` of the vertices left beyond `vertices`; the
+  // part tells how many it begins with. Reports only from the thread this is called on.
+  [[nodiscard]] Controls for_part(double share, std::size_t vertices) const {
+    Controls part = *this;
+    part.calls_ = 0;
+    if (budget_.max_vertices) {
+      const double left = std::max(static_cast<double>(*budget_.max_vertices) - static_cast<double>(vertices), 0.0);
+      part.budget_.max_vertices = static_cast<std::int64_t>(share * left);
+    }
+    if (part.progress_) {
+      part.progress_ = [report = progress_, thread = std::this_thread::get_id()](const Progress& progress) {
+        if (std::this_thread::get_id() == thread) report(progress);
+      };
+    }
+    return part;
+  }
+  // To be called once, of what for_part gave.
+  void part_begins_with(std::size_t vertices) {
+    if (budget_.max_vertices) *budget_.max_vertices += static_cast<std::int64_t>(vertices);
+  }
+
+ private:
+  bool stop() {
+    stopped_in_ = stage_;
+    return stopped_ = true;
+  }
+
+  BudgetParameters budget_;
+  const std::atomic<bool>* stop_;
+  std::function<void(const Progress&)> progress_;
+  Stopwatch watch_;
+  std::uint32_t calls_ = 0;
+  std::string_view stage_, stopped_in_;
+  bool stopped_ = false;
+};
+
+}  // namespace deliso

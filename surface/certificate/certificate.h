@@ -1,0 +1,41 @@
+// The certificate: the mesh compared, component by component, with the exact topology of the isosurface.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "surface/mesh/triangle_mesh.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+enum class Verdict { kHomeomorphic, kDifferent, kSingularIsovalue, kNotChecked };
+
+struct TopologyCount {
+  ComponentTopology topology;
+  std::int64_t count = 0;
+};
+
+struct Certificate {
+  Verdict verdict = Verdict::kNotChecked;
+  bool manifold = false;                  // every edge has one or two triangles, every vertex one umbrella
+  bool oriented = false;                  // neighbours agree in orientation
+  std::vector<TopologyCount> mesh;        // sorted by (euler_characteristic, boundary_loops)
+  std::vector<TopologyCount> isosurface;  // the same for the exact topology
+  std::vector<std::string> differences;   // one sentence each
+};
+
+// The components of a mesh with their topology; sorted. Vertices without a triangle belong to none. Preconditions: the
+// mesh is manifold, its indices are in range.
+std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh);
+
+// kHomeomorphic when the mesh is an oriented manifold and its components match the isosurface's one to one: orientable
+// surfaces with equal Euler characteristics and equal numbers of boundary loops are homeomorphic. Else kDifferent, and
+// `differences` says why. The counts of a mesh that is no manifold are V - E + F all the same; those of a mesh with an
+// index out of range are left empty. The same for any number of threads.
+Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads = 1);
+
+// The same; kSingularIsovalue when the isosurface has singular points (IsosurfaceTopology::singular_cells).
+Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface, int threads = 1);
+
+}  // namespace deliso

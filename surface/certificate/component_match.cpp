@@ -1,0 +1,144 @@
+#include "surface/certificate/component_match.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "surface/certificate/mesh_pieces.h"
+
+namespace deliso {
+
+namespace {
+
+// Numbers the pieces; returns how many.
+std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t>& piece_of_triangle) {
+  piece_of_triangle.assign(mesh.triangles.size(), kNoPiece);
+  std::vector<bool> is_labelled(mesh.triangles.size(), false);
+  std::uint32_t pieces = 0;
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (is_labelled[seed]) continue;
+    for (const std::uint32_t t : flood(mesh, seed, is_labelled)) piece_of_triangle[t] = pieces;
+    ++pieces;
+  }
+  return pieces;
+}
+
+// Boundary loops of each piece: on a manifold every boundary vertex is left by one boundary edge, so loops are cycles.
+void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
+  const auto is_open = [](const auto& sides) { return std::find(sides.begin(), sides.end(), kNoSide) != sides.end(); };
+  if (std::none_of(mesh.neighbours.begin(), mesh.neighbours.end(), is_open)) return;
+  std::vector<std::uint32_t> next(mesh.points.size(), kNoPiece);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (mesh.neighbours[t][i] != kNoSide) continue;
+      next[mesh.triangles[t][(i + 1) % 3]] = mesh.triangles[t][(i + 2) % 3];
+    }
+  }
+  for (std::uint32_t start = 0; start < next.size(); ++start) {
+    if (next[start] == kNoPiece) continue;
+    ++match.pieces[match.piece_of[start]].topology.boundary_loops;
+    for (std::uint32_t v = start; next[v] != kNoPiece;) {
+      const std::uint32_t after = next[v];
+      next[v] = kNoPiece;
+      v = after;
+    }
+  }
+}
+
+// The component that most vertices of each piece lie on, the first of equals: nearly all lie on that of its first
+// vertex, so the votes of the others are counted.
+void find_components(const std::vector<std::uint32_t>& component_of, ComponentMatch& match) {
+  std::vector<bool> has_first(match.pieces.size(), false);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> others;  // (piece, component) of each vertex off the first one's
+  for (std::size_t v = 0; v < component_of.size(); ++v) {
+    const std::uint32_t i = match.piece_of[v];
+    if (i == kNoPiece) continue;
+    if (!has_first[i]) match.pieces[i].component = component_of[v];
+    has_first[i] = true;
+    if (component_of[v] != match.pieces[i].component) others.emplace_back(i, component_of[v]);
+  }
+  std::sort(others.begin(), others.end());
+  std::vector<std::int64_t> most(match.pieces.size());
+  for (std::size_t i = 0; i < most.size(); ++i) most[i] = match.pieces[i].vertices;
+  for (const auto& [i, component] : others) {
+    match.pieces[i].mixed = true;
+    --most[i];
+  }
+  for (auto first = others.begin(); first != others.end();) {
+    const auto [i, component] = *first;
+    const auto last = std::upper_bound(first, others.end(), *first);
+    const std::int64_t votes = last - first;
+    MeshPiece& piece = match.pieces[i];
+    if (votes > most[i] || (votes == most[i] && component < piece.component)) {
+      most[i] = votes;
+      piece.component = component;
+    }
+    first = last;
+  }
+}
+
+void find_agreements(const std::vector<ComponentTopology>& components, const std::vector<std::uint32_t>& component_of,
+                     ComponentMatch& match) {
+  match.main_piece.assign(components.size(), kNoPiece);
+  match.agreement.assign(components.size(), Agreement::kNone);
+  std::vector<bool> is_mixed(components.size(), false);
+  for (std::size_t v = 0; v < component_of.size(); ++v) {
+    if (match.piece_of[v] != kNoPiece && match.pieces[match.piece_of[v]].mixed) is_mixed[component_of[v]] = true;
+  }
+  std::vector<std::int64_t> pieces_on(components.size(), 0);
+  for (std::uint32_t i = 0; i < match.pieces.size(); ++i) {
+    const MeshPiece& piece = match.pieces[i];
+    std::uint32_t& main = match.main_piece[piece.component];
+    if (main == kNoPiece || piece.vertices > match.pieces[main].vertices) main = i;
+    ++pieces_on[piece.component];
+  }
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const std::uint32_t main = match.main_piece[c];
+    ComponentTopology topology;
+    if (main != kNoPiece) topology = match.pieces[main].topology;
+    if (main != kNoPiece && topology == components[c]) {
+      match.agreement[c] = is_mixed[c]        ? Agreement::kMixed
+                           : pieces_on[c] > 1 ? Agreement::kWithStrays
+                                              : Agreement::kExact;
+    }
+    if (match.agreement[c] == Agreement::kExact) continue;
+    match.error += 1 + std::max<std::int64_t>(0, pieces_on[c] - 1);
+    match.error += std::abs(topology.euler_characteristic - components[c].euler_characteristic);
+  }
+}
+
+}  // namespace
+
+ComponentMatch find_pieces(const SurfaceMesh& mesh) {
+  ComponentMatch match;
+  std::vector<std::uint32_t> piece_of_triangle;
+  match.pieces.resize(label_triangles(mesh, piece_of_triangle));
+  match.piece_of.assign(mesh.points.size(), kNoPiece);
+
+  // Euler characteristic: vertices - edges + triangles; an edge with two triangles is counted from the larger side.
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    MeshPiece& piece = match.pieces[piece_of_triangle[t]];
+    ++piece.topology.euler_characteristic;
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide across = mesh.neighbours[t][i];
+      if (across == kNoSide || across < 4 * t + i) --piece.topology.euler_characteristic;
+      const std::uint32_t v = mesh.triangles[t][i];
+      if (match.piece_of[v] != kNoPiece) continue;
+      match.piece_of[v] = piece_of_triangle[t];
+      ++piece.vertices;
+      ++piece.topology.euler_characteristic;
+    }
+  }
+  count_loops(mesh, match);
+  return match;
+}
+
+ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
+                                const std::vector<ComponentTopology>& components) {
+  ComponentMatch match = find_pieces(mesh);
+  find_components(component_of, match);
+  find_agreements(components, component_of, match);
+  return match;
+}
+
+}  // namespace deliso

@@ -1,0 +1,49 @@
+// The pieces of a mesh matched with the exact components of the isosurface, by position and by topology.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/mesh/surface_mesh.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+inline constexpr std::uint32_t kNoPiece = 0xFFFFFFFFu;
+
+// A connected piece of a mesh.
+struct MeshPiece {
+  ComponentTopology topology;
+  std::int64_t vertices = 0;
+  std::uint32_t component = 0;  // the exact component that most of its vertices lie on
+  bool mixed = false;           // it has vertices of other components, too
+};
+
+// How a component and its main piece, the largest that lies on it, agree. kPartial is for callers that know the
+// surface; match_components never says so.
+enum class Agreement {
+  kNone,        // no piece, or one of another topology
+  kPartial,     // the same (Euler characteristic, boundary loops), but a part of the component lies far from it
+  kMixed,       // the same, but vertices are mixed with another component's
+  kWithStrays,  // the same, and there are smaller pieces on the component beside it
+  kExact,       // the same, and there is no other piece
+};
+
+struct ComponentMatch {
+  std::vector<MeshPiece> pieces;
+  std::vector<std::uint32_t> piece_of;    // of each mesh vertex; kNoPiece for one without triangles
+  std::vector<std::uint32_t> main_piece;  // of each exact component; kNoPiece when it has none
+  std::vector<Agreement> agreement;       // of each exact component
+  // Components that do not agree exactly + strays + what their main pieces lack or have too much in Euler
+  // characteristic: the smaller the better, 0 when the mesh is right.
+  std::int64_t error = 0;
+};
+
+// The pieces and their topology alone: which components they lie on is left open.
+ComponentMatch find_pieces(const SurfaceMesh& mesh);
+
+// `component_of`: the exact component of each mesh vertex.
+ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
+                                const std::vector<ComponentTopology>& components);
+
+}  // namespace deliso

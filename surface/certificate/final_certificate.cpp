@@ -1,0 +1,47 @@
+#include "surface/certificate/final_certificate.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "delaunay/base/counted.h"
+#include "surface/intersection/self_intersection.h"
+
+namespace deliso {
+
+namespace {
+
+bool is_exact_in_world(const ScalarGrid& grid, const Vec3& step) {
+  bool is_exact = grid.origin() == Vec3();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    int exponent = 0;
+    is_exact = is_exact && std::frexp(grid.spacing()[axis] / step[axis], &exponent) == 0.5;
+  }
+  return is_exact;
+}
+
+}  // namespace
+
+Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology, const PlaceFaults& faults,
+                              bool bounds_a_solid, int threads) {
+  Certificate certificate = certify(mesh, topology, threads);
+  add_place_faults(faults, certificate);
+  if (bounds_a_solid) return certificate;
+  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
+  certificate.differences.insert(
+      certificate.differences.begin(),
+      "The restricted facets bound no set of tetrahedra: they are given as they are, without stage 2.");
+  return certificate;
+}
+
+void refute_crossing(const TriangleMesh& mesh, const ScalarGrid& grid, const Vec3& step, int threads,
+                     Certificate& certificate) {
+  if (is_exact_in_world(grid, step)) return;
+  const std::int64_t crossing = self_intersections(mesh.points, mesh.triangles, 0, threads).crossing_pairs;
+  if (crossing == 0) return;
+  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
+  certificate.differences.push_back(counted(crossing, "pair of triangles crosses", "pairs of triangles cross") +
+                                    " in the volume's own coordinates, which are rounded.");
+}
+
+}  // namespace deliso

@@ -1,0 +1,73 @@
+#include "surface/certificate/mesh_pieces.h"
+
+#include <algorithm>
+#include <map>
+
+namespace deliso {
+
+namespace {
+
+// Vertices of fewer triangles than one for so many vertices of the mesh are sorted, not marked.
+constexpr std::size_t kFewTriangles = 64;
+
+}  // namespace
+
+std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked) {
+  std::vector<std::uint32_t> piece = {seed};
+  is_marked[seed] = true;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    for (const TriangleSide side : mesh.neighbours[piece[i]]) {
+      if (side == kNoSide || is_marked[side >> 2]) continue;
+      is_marked[side >> 2] = true;
+      piece.push_back(side >> 2);
+    }
+  }
+  return piece;
+}
+
+std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> vertices;
+  if (triangles.size() > mesh.points.size() / kFewTriangles) {
+    std::vector<bool> is_met(mesh.points.size(), false);
+    for (const std::uint32_t t : triangles) {
+      for (const std::uint32_t v : mesh.triangles[t]) is_met[v] = true;
+    }
+    for (std::uint32_t v = 0; v < is_met.size(); ++v) {
+      if (is_met[v]) vertices.push_back(v);
+    }
+    return vertices;
+  }
+  vertices.reserve(3 * triangles.size());
+  for (const std::uint32_t t : triangles) {
+    vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<const std::uint32_t> vertices,
+                                         const ScalarGrid& grid, const Isosurface& isosurface,
+                                         const IsosurfaceTopology& topology) {
+  std::vector<std::uint32_t> components;
+  components.reserve(vertices.size());
+  const Vec3& step = isosurface.step();
+  for (const std::uint32_t v : vertices) {
+    const Vec3& p = mesh.points[v];
+    components.push_back(component_of(grid, isosurface.isovalue(), topology, {p.x / step.x, p.y / step.y, p.z / step.z})
+                             .value_or(kNoComponent));
+  }
+  return components;
+}
+
+std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> components) {
+  std::map<std::uint32_t, std::size_t> votes;
+  for (const std::uint32_t component : components) {
+    if (component != kNoComponent) ++votes[component];
+  }
+  if (votes.empty()) return std::nullopt;
+  return std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+}  // namespace deliso

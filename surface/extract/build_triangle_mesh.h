@@ -1,0 +1,29 @@
+// BuildTriMesh (Dey and Levine, section 3.2): from restricted facets to a manifold mesh.
+#pragma once
+
+#include <vector>
+
+#include "surface/extract/facet_pairing.h"
+#include "surface/extract/separate_copies.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/restricted/signed_delaunay.h"
+
+namespace deliso {
+
+struct BuiltMesh {
+  SurfaceMesh mesh;                   // without balls and pole heights
+  std::vector<VertexId> vertex_of;    // of each mesh vertex; for a vertex put on a subdivided edge, an end of that edge
+  std::vector<std::uint32_t> copies;  // mesh vertices that share their vertex with another one, ascending
+  std::vector<CopyGroup> groups;      // of copies, and of vertices on the same subdivided edge
+};
+
+// From the paired facets (facet_pairing.h). A vertex is given once for each fan of paired triangles. An edge that two
+// pairs still share afterwards is subdivided in each of them. The result is a manifold with boundary, oriented, by
+// construction. Vertices without triangles are left out. It touches itself at the copies until separate_copies has
+// moved them apart.
+BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
+// The same from triangles taken before; whatever signs `restricted` has by now.
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, PairedTriangles paired);
+BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads = 1);
+
+}  // namespace deliso

@@ -1,0 +1,98 @@
+// FacetPairing: what changes of it when signs change or points are exchanged.
+#include <algorithm>
+#include <utility>
+
+#include "surface/extract/facet_pairing.h"
+
+namespace deliso {
+
+// A facet may come or go at a tetrahedron that has another sign or is new, and at its neighbours.
+void FacetPairing::touch(TetId t) {
+  touched_.push_back(t);
+  if (!delaunay_.is_live(t)) return;
+  for (unsigned face = 0; face < 4; ++face) touched_.push_back(delaunay_.neighbour(t, face));
+  for (const VertexId v : delaunay_.vertices(t)) {
+    if (v != kInfiniteVertex) touched_vertices_.push_back(v);
+  }
+}
+
+void FacetPairing::renew(const ExchangedPoints& exchanged) {
+  signs_.resize(delaunay_.tet_slots(), 0);
+  for (PairedFacet& facet : facets_) {
+    for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
+  }
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < exchanged.renamed.size(); ++v) {
+    if (!exchanged.renamed[v].is_none()) is_split_[kept++] = is_split_[v];
+  }
+  is_split_.resize(kept);
+  is_split_.resize(delaunay_.vertex_count(), false);
+  // The vertices of a tetrahedron that has gone are those of new ones, if they are left.
+  for (const TetId t : exchanged.renewed) {
+    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
+    touch(t);
+  }
+}
+
+bool FacetPairing::update(const TetSigns& signs) {
+  for_each_difference(signs_, signs, [&](TetId t) {
+    signs_[t.index()] = signs[t.index()];
+    touch(t);
+  });
+  if (touched_.empty()) return false;
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  renew_facets(touched_);
+  std::vector<bool> has_changed(delaunay_.vertex_count(), false);  // of each vertex: the sign of a tetrahedron at it
+  for (const VertexId v : touched_vertices_) has_changed[v.index()] = true;
+  touched_.clear();
+  touched_vertices_.clear();
+  forget_sides_between(has_changed);
+  constexpr int kThread = 1;  // few sides are left
+  pair_sides(kThread);
+  find_split_vertices(has_changed, kThread);
+  return true;
+}
+
+// The tetrahedra around an edge are at both its ends.
+void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
+  for (PairedFacet& facet : facets_) {
+    std::array<bool, 3> changed{};
+    for (unsigned i = 0; i < 3; ++i) changed[i] = has_changed[facet.vertices[i].index()];
+    for (unsigned i = 0; i < 3; ++i) facet.known[i] = facet.known[i] && !(changed[(i + 1) % 3] && changed[(i + 2) % 3]);
+  }
+}
+
+// The facets of some tetrahedra (ascending) anew, the others as they are.
+void FacetPairing::renew_facets(std::span<const TetId> tets) {
+  std::vector<PairedFacet> facets = std::move(spare_);
+  facets.clear();
+  facets.reserve(facets_.size() + tets.size());
+  std::vector<std::uint32_t> place(facets_.size(), kNoPlace);  // of each old facet that stays: its new place
+  std::uint32_t old = 0;
+  const auto keep_those_before = [&](TetId t) {
+    for (; old < facets_.size() && facets_[old].facet.tet() < t; ++old) {
+      place[old] = static_cast<std::uint32_t>(facets.size());
+      facets.push_back(facets_[old]);
+    }
+  };
+  for (const TetId t : tets) {
+    keep_those_before(t);
+    while (old < facets_.size() && facets_[old].facet.tet() == t) ++old;
+    append_facets_of(t, facets);
+  }
+  keep_those_before(TetId(delaunay_.tet_slots()));
+  // What was paired with a facet that has gone, or come anew, is going to be paired again.
+  for (PairedFacet& facet : facets) {
+    for (unsigned side = 0; side < 3; ++side) {
+      TriangleSide& across = facet.across[side];
+      if (!facet.known[side] || across == kNoSide) continue;
+      const std::uint32_t there = place[across >> 2];
+      across = there == kNoPlace ? kNoSide : 4 * there + (across & 3u);
+    }
+  }
+  spare_ = std::exchange(facets_, std::move(facets));
+  find_places();
+}
+
+}  // namespace deliso

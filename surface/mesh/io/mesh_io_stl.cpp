@@ -1,0 +1,178 @@
+// STL: triangles without connectivity. Corners with equal coordinates become one vertex, numbered as they first appear.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
+#include "surface/mesh/io/mesh_io_bytes.h"
+#include "surface/mesh/io/mesh_io_formats.h"
+#include "surface/mesh/io/mesh_io_text.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr std::size_t kHeaderSize = 84;  // 80 bytes of text and the number of triangles
+constexpr std::size_t kRecordSize = 50;  // normal, three corners (floats), two bytes of attributes
+
+struct PointHash {
+  std::size_t operator()(const Vec3& p) const noexcept {
+    std::uint64_t h = 0;
+    for (const double c : {p.x, p.y, p.z}) {
+      h = (h ^ std::bit_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ull;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+};
+
+// Gathers corners into an indexed mesh.
+class CornerMerger {
+ public:
+  void reserve(std::size_t triangles) {
+    mesh_.triangles.reserve(triangles);
+    vertex_at_.reserve(triangles / 2);
+  }
+  void add(const std::array<Vec3, 3>& corners) {
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = corners[i] + Vec3{0, 0, 0};  // -0 becomes 0, so that equal points have equal bits
+      const auto [place, is_new] = vertex_at_.try_emplace(p, static_cast<std::uint32_t>(mesh_.points.size()));
+      if (is_new) mesh_.points.push_back(p);
+      triangle[i] = place->second;
+    }
+    mesh_.triangles.push_back(triangle);
+  }
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  TriangleMesh mesh_;
+  std::unordered_map<Vec3, std::uint32_t, PointHash> vertex_at_;
+};
+
+Vec3 normal_of(const std::array<Vec3, 3>& corners) {
+  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double length = norm(n);
+  return length > 0 && std::isfinite(length) ? n / length : Vec3{0, 0, 0};
+}
+
+std::string ascii_bytes(const TriangleMesh& mesh) {
+  std::string text = "solid deliso\n";
+  const auto append = [&](const char* keyword, const Vec3& p) {
+    text += keyword;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      text += ' ';
+      append_number(text, static_cast<float>(p[axis]));
+    }
+    text += '\n';
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    append("facet normal", normal_of(corners));
+    text += "outer loop\n";
+    for (const Vec3& p : corners) append("vertex", p);
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid deliso\n";
+}
+
+TriangleMesh parse_binary(std::string_view bytes, const std::string& file) {
+  ByteReader in(bytes, file, std::endian::little);
+  in.skip(kHeaderSize - 4, "the header");
+  const auto count = in.read<std::uint32_t>("the number of triangles");
+  if (bytes.size() != kHeaderSize + kRecordSize * count) {
+    throw InputError(file + ": expected " + std::to_string(kHeaderSize + kRecordSize * count) + " bytes for " +
+                     std::to_string(count) + " triangles, found " + std::to_string(bytes.size()));
+  }
+  CornerMerger merger;
+  merger.reserve(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    in.skip(12, "a normal");
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
+      for (std::size_t axis = 0; axis < 3; ++axis) corner[axis] = static_cast<double>(in.read<float>("a coordinate"));
+      if (!is_finite(corner)) in.fail("finite coordinates");
+    }
+    in.skip(2, "the attributes");
+    merger.add(corners);
+  }
+  return merger.take();
+}
+
+TriangleMesh parse_ascii(std::string_view bytes, const std::string& file) {
+  TextScanner in(bytes, file);
+  const auto expect = [&](const char* keyword) {
+    const std::string_view found = in.word();
+    if (found != keyword) in.fail(keyword, found);
+  };
+  CornerMerger merger;
+  // Facets; several solids may follow each other. The first line is "solid" and a name.
+  bool inside = false;
+  for (std::string_view keyword = in.word(); !keyword.empty(); keyword = in.word()) {
+    if (keyword == (inside ? "endsolid" : "solid")) {
+      inside = !inside;
+      in.next_line();
+      continue;
+    }
+    if (!inside || keyword != "facet") in.fail(inside ? "facet or endsolid" : "solid", keyword);
+    in.next_line();  // the normal
+    expect("outer");
+    expect("loop");
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
+      expect("vertex");
+      corner = in.point();
+    }
+    expect("endloop");
+    expect("endfacet");
+    merger.add(corners);
+  }
+  if (inside) in.fail("endsolid", "");
+  return merger.take();
+}
+
+}  // namespace
+
+std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::abs(mesh.points[v][axis]) <= static_cast<double>(std::numeric_limits<float>::max())) continue;
+      throw InputError(name + ": STL holds floats, and a coordinate of vertex " + std::to_string(v) +
+                       " is beyond their range: " + shortest_text(mesh.points[v][axis]));
+    }
+  }
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError(name + ": STL holds fewer than 2^32 triangles, found " + std::to_string(mesh.triangles.size()));
+  }
+  if (ascii) return ascii_bytes(mesh);
+
+  std::string bytes = "DelIso";  // must not begin with "solid"
+  bytes.reserve(kHeaderSize + kRecordSize * mesh.triangles.size());
+  bytes.resize(kHeaderSize - 4, ' ');
+  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    for (const Vec3& p : {normal_of(corners), corners[0], corners[1], corners[2]}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) append_little_endian(bytes, static_cast<float>(p[axis]));
+    }
+    append_little_endian(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+TriangleMesh parse_stl(std::string_view bytes, const std::string& file) {
+  // A binary file may begin with "solid" too; only its size tells for sure.
+  if (bytes.size() >= kHeaderSize) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + kHeaderSize - 4, 4);
+    if constexpr (std::endian::native == std::endian::big) count = byte_swapped(count);
+    if (bytes.size() == kHeaderSize + kRecordSize * count) return parse_binary(bytes, file);
+  }
+  return bytes.substr(0, 5) == "solid" ? parse_ascii(bytes, file) : parse_binary(bytes, file);
+}
+
+}  // namespace deliso

@@ -1,0 +1,95 @@
+#include "surface/mesh/io/mesh_io_text.h"
+
+#include <cmath>
+#include <system_error>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+template <class Number>
+bool parse_whole(std::string_view word, Number& value) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+}  // namespace
+
+bool parse_number(std::string_view word, double& value) { return parse_whole(word, value); }
+bool parse_integer(std::string_view word, std::int64_t& value) { return parse_whole(word, value); }
+
+void TextScanner::skip_blanks() {
+  while (position_ < text_.size() && is_blank(text_[position_])) ++position_;
+  if (comment_ == 0 || position_ == text_.size() || text_[position_] != comment_) return;
+  while (position_ < text_.size() && text_[position_] != '\n') ++position_;
+}
+
+std::string_view TextScanner::word_on_line() {
+  skip_blanks();
+  const std::size_t begin = position_;
+  while (position_ < text_.size() && text_[position_] != '\n' && !is_blank(text_[position_])) ++position_;
+  return text_.substr(begin, position_ - begin);
+}
+
+std::string_view TextScanner::word() {
+  while (true) {
+    const std::string_view found = word_on_line();
+    if (!found.empty() || !next_line()) return found;
+  }
+}
+
+bool TextScanner::next_line() {
+  while (position_ < text_.size() && text_[position_] != '\n') ++position_;
+  if (position_ == text_.size()) return false;
+  ++position_;
+  ++line_;
+  return true;
+}
+
+double TextScanner::number(const char* what) {
+  const std::string_view found = word();
+  double value = 0;
+  if (!parse_number(found, value) || !std::isfinite(value)) fail(std::string(what) + " (a finite number)", found);
+  return value;
+}
+
+std::int64_t TextScanner::integer(const char* what, std::int64_t low) {
+  const std::string_view found = word();
+  std::int64_t value = 0;
+  if (!parse_integer(found, value) || value < low) fail(what, found);
+  return value;
+}
+
+Vec3 TextScanner::point() {
+  const double x = number("an x coordinate");
+  const double y = number("a y coordinate");
+  const double z = number("a z coordinate");
+  return {x, y, z};
+}
+
+void TextScanner::fail(const std::string& what, std::string_view found) const {
+  constexpr std::size_t kLongest = 40;  // of a culprit quoted in a message
+  std::string message = file_ + ", line " + std::to_string(line_) + ": expected " + what + ", found ";
+  if (found.empty()) {
+    message += "nothing";
+  } else {
+    message.append(1, '\'').append(found.substr(0, kLongest)).append(1, '\'');
+  }
+  throw InputError(message);
+}
+
+void append_point(std::string& text, const Vec3& p) {
+  append_number(text, p.x);
+  text += ' ';
+  append_number(text, p.y);
+  text += ' ';
+  append_number(text, p.z);
+  text += '\n';
+}
+
+}  // namespace deliso

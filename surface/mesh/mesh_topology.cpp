@@ -1,0 +1,265 @@
+#include "surface/mesh/mesh_topology.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/huge_pages.h"
+#include "surface/base/blocks.h"
+
+namespace deliso {
+
+namespace {
+
+// Disjoint sets whose representative is always the smallest member, so that results do not depend on the order of
+// joins (Tarjan 1975; path halving).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { reset(count); }
+  void reset(std::size_t count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  // Whether a glance tells; most members stand right below their representative.
+  [[nodiscard]] bool are_known_as_one(std::uint32_t i, std::uint32_t j) const { return parent_[i] == parent_[j]; }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// A triangle at one of its vertices: the other two.
+struct Corner {
+  std::uint32_t next = 0, previous = 0;
+};
+
+// The corners at each vertex, vertex by vertex.
+class CornersOfVertices {
+ public:
+  // So many places from any corner on may be read.
+  static constexpr std::size_t kReadable = 8;
+
+  explicit CornersOfVertices(const TriangleMesh& mesh)
+      : first_(mesh.points.size() + 1, 0), corners_(3 * mesh.triangles.size() + kReadable) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) ++first_[v];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    for (const auto& [a, b, c] : mesh.triangles) {
+      corners_[--first_[a]] = {b, c};
+      corners_[--first_[b]] = {c, a};
+      corners_[--first_[c]] = {a, b};
+    }
+  }
+  [[nodiscard]] std::span<const Corner> at(std::size_t v) const {
+    return std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
+
+ private:
+  LargeArray<std::uint32_t> first_;  // of each vertex: the place of its first corner
+  LargeArray<Corner> corners_;
+};
+
+// Looks at vertices one by one: at the half-edges that leave and reach them, and at the umbrellas these make.
+class StarCensus {
+ public:
+  StarCensus(const CornersOfVertices& corners, const MeshTopology& components)
+      : corners_(corners), components_(components), edges_(components.components.size(), 0) {}
+
+  void look_at(std::uint32_t v) {
+    at_ = corners_.at(v);
+    if (at_.empty()) return;
+    if (is_closed_fan(v)) {
+      add_edges(v, std::count_if(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next > v; }));
+    } else {
+      look_closely_at(v);
+    }
+  }
+  // Edges belong to their lower vertex. To be called in the order of the vertices looked at.
+  void add_to(MeshTopology& sum) const;
+
+ private:
+  // A half-edge at the vertex looked at; of one from the vertex to itself, each end counts.
+  struct Spoke {
+    std::uint32_t other = 0;   // end
+    std::uint32_t corner = 0;  // in at_: of its triangle at the vertex
+    bool leaves = false;
+    [[nodiscard]] auto rank() const { return std::tuple(other, !leaves, corner); }
+  };
+  static constexpr std::size_t kMostOfShortFan = 16;
+
+  [[nodiscard]] std::uint32_t corners_after(std::uint32_t v) const;
+  [[nodiscard]] bool is_closed_fan(std::uint32_t v) const;
+  void look_closely_at(std::uint32_t v);
+  void count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges);
+  void add_edges(std::uint32_t v, std::int64_t count) { edges_[components_.component_of_vertex[v]] += count; }
+
+  const CornersOfVertices& corners_;
+  const MeshTopology& components_;
+  std::span<const Corner> at_;  // the vertex looked at
+  std::vector<Spoke> spokes_;
+  DisjointSets fans_{0};  // of at_
+  MeshTopology counts_;
+  std::vector<std::int64_t> edges_;  // of each component
+};
+
+// Those whose triangles follow the edge to vertex v, by bits. Which one does cannot be foretold, so eight are always
+// compared: beyond the last of few there are others, whose bits are taken away.
+std::uint32_t StarCensus::corners_after(std::uint32_t v) const {
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < CornersOfVertices::kReadable; ++k)
+    found |= std::uint32_t{at_.data()[k].previous == v} << k;
+  for (std::uint32_t k = CornersOfVertices::kReadable; k < at_.size(); ++k)
+    found |= std::uint32_t{at_[k].previous == v} << k;
+  return found & ((1u << at_.size()) - 1);
+}
+
+// The rule: the triangles form one closed umbrella, all turned the same way. Then a walk around the vertex visits each
+// of them once. Of two that come after the same edge the first is always found, so the walk cannot visit both. A long
+// fan may be denied.
+bool StarCensus::is_closed_fan(std::uint32_t v) const {
+  if (at_.size() > kMostOfShortFan) return false;
+  std::uint32_t visited = 1, next = at_[0].next;
+  for (std::size_t count = 1; count < at_.size(); ++count) {
+    const std::uint32_t after = corners_after(next);
+    if (after == 0) return false;
+    visited |= after & -after;
+    next = at_[static_cast<std::size_t>(std::countr_zero(after))].next;
+  }
+  return visited == (1u << at_.size()) - 1 && next == at_[0].previous &&
+         std::none_of(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next == v; });
+}
+
+// Half-edges to the same vertex form an edge, and their triangles belong to one umbrella.
+void StarCensus::look_closely_at(std::uint32_t v) {
+  spokes_.clear();
+  fans_.reset(at_.size());
+  for (std::uint32_t k = 0; k < at_.size(); ++k) {
+    spokes_.push_back({at_[k].next, k, true});
+    spokes_.push_back({at_[k].previous, k, false});
+  }
+  std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) { return a.rank() < b.rank(); });
+  for (auto first = spokes_.cbegin(); first != spokes_.cend();) {
+    const bool is_loop = first->other == v;
+    auto last = first;
+    for (; last != spokes_.cend() && last->other == first->other && (!is_loop || last->leaves == first->leaves);
+         ++last) {
+      fans_.join(first->corner, last->corner);
+    }
+    // The ends of loops that reach v have been counted with those that leave it.
+    if (first->other > v || (is_loop && first->leaves)) count_edge(v, first, last - first);
+    first = last;
+  }
+  std::int64_t umbrellas = 0;
+  for (std::uint32_t k = 0; k < at_.size(); ++k) umbrellas += fans_.find(k) == k ? 1 : 0;
+  counts_.non_manifold_vertices += umbrellas > 1 ? 1 : 0;
+}
+
+void StarCensus::count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges) {
+  add_edges(v, 1);
+  if (half_edges == 1) {
+    counts_.boundary_edges.push_back({v, first->other});
+  } else if (half_edges == 2) {
+    counts_.misoriented_edges += first->leaves == first[1].leaves ? 1 : 0;
+  } else {
+    ++counts_.non_manifold_edges;
+  }
+}
+
+void StarCensus::add_to(MeshTopology& sum) const {
+  sum.boundary_edges.insert(sum.boundary_edges.end(), counts_.boundary_edges.begin(), counts_.boundary_edges.end());
+  sum.non_manifold_edges += counts_.non_manifold_edges;
+  sum.non_manifold_vertices += counts_.non_manifold_vertices;
+  sum.misoriented_edges += counts_.misoriented_edges;
+  for (std::size_t c = 0; c < edges_.size(); ++c) sum.components[c].edges += edges_[c];
+}
+
+// Numbers the pieces and counts their vertices and triangles.
+void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
+  DisjointSets sets(mesh.points.size());
+  std::vector<std::uint8_t> referenced(mesh.points.size(), 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (!sets.are_known_as_one(a, b)) sets.join(a, b);
+    if (!sets.are_known_as_one(b, c)) sets.join(b, c);
+    referenced[a] = referenced[b] = referenced[c] = 1;
+  }
+  topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    if (referenced[v] == 0) {
+      ++topology.unreferenced_vertices;
+      continue;
+    }
+    // The representative is the lowest vertex, so it has been numbered before the others of its piece.
+    const std::uint32_t lowest = sets.find(v);
+    if (lowest == v) {
+      topology.component_of_vertex[v] = static_cast<std::uint32_t>(topology.components.size());
+      topology.components.emplace_back();
+    }
+    topology.component_of_vertex[v] = topology.component_of_vertex[lowest];
+    ++topology.components[topology.component_of_vertex[v]].vertices;
+  }
+  for (const auto& triangle : mesh.triangles) {
+    ++topology.components[topology.component_of_vertex[triangle[0]]].triangles;
+  }
+}
+
+void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
+  if (topology.boundary_edges.empty()) return;
+  DisjointSets loops(vertex_count);
+  std::vector<bool> on_boundary(vertex_count, false);
+  for (const MeshEdge& edge : topology.boundary_edges) {
+    loops.join(edge.low, edge.high);
+    on_boundary[edge.low] = on_boundary[edge.high] = true;
+  }
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    if (on_boundary[v] && loops.find(v) == v) ++topology.components[topology.component_of_vertex[v]].boundary_loops;
+  }
+}
+
+}  // namespace
+
+MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
+  DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
+  MeshTopology topology;
+  std::optional<CornersOfVertices> corners;
+  run_tasks(2, threads, [&](std::size_t task) {
+    if (task == 0) return find_components(mesh, topology);
+    corners.emplace(mesh);
+  });
+  constexpr int kSharesPerThread = 4;  // some take longer than others: the oldest vertices are far from each other
+  const Shares vertices(mesh.points.size(), kSharesPerThread * threads);
+  std::vector<StarCensus> parts(vertices.count(), StarCensus(*corners, topology));
+  vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) parts[share].look_at(static_cast<std::uint32_t>(v));
+  });
+  for (const StarCensus& part : parts) part.add_to(topology);
+  count_boundary_loops(mesh.points.size(), topology);
+  topology.repeated_vertices = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [](const auto& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  return topology;
+}
+
+std::size_t first_bad_triangle(const TriangleMesh& mesh) {
+  const auto bad = [&](const auto& t) { return std::max({t[0], t[1], t[2]}) >= mesh.points.size(); };
+  return static_cast<std::size_t>(std::find_if(mesh.triangles.begin(), mesh.triangles.end(), bad) -
+                                  mesh.triangles.begin());
+}
+
+}  // namespace deliso

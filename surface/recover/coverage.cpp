@@ -1,0 +1,101 @@
+#include "surface/recover/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "surface/base/blocks.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/restricted/sides_of_facets.h"
+#include "surface/search/covering_triangles.h"
+#include "surface/search/mesh_cover.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
+// Crossings are asked about brick by brick of so many samples.
+constexpr std::int32_t kBrick = 8;
+
+// Of crossings those that a triangle covers by themselves.
+void drop_covered(std::vector<std::uint32_t>& crossings, const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                  int threads) {
+  const auto any = [](std::uint32_t) { return true; };
+  const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, threads);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    if (covering[i] == kNoTriangle) crossings[left++] = crossings[i];
+  }
+  crossings.resize(left);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads) {
+  const auto& all = topology.crossings;
+  std::array<std::size_t, 3> bricks{};  // along each axis
+  for (std::size_t axis = 0; axis < 3; ++axis) bricks[axis] = static_cast<std::size_t>(grid.dims()[axis] / kBrick) + 1;
+  std::vector<std::uint32_t> brick_of(all.size());
+  const auto brick = [](std::int32_t place) { return static_cast<std::size_t>(place / kBrick); };
+  for_each_block(all.size(), threads, [&](std::size_t first, std::size_t last) {
+    // They come row by row of samples, so where a row lies is found once.
+    const auto length = static_cast<std::uint64_t>(grid.dims()[0]);
+    std::uint64_t row = 0, row_end = 0;  // its samples
+    std::size_t row_brick = 0;           // the first one that it passes
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint64_t sample = all[i].sample;
+      if (sample >= row_end) {
+        const CellIndex at = sample_of(all[i], grid.dims());
+        row = sample - static_cast<std::uint64_t>(at[0]);
+        row_end = row + length;
+        row_brick = bricks[0] * (brick(at[1]) + bricks[1] * brick(at[2]));
+      }
+      brick_of[i] = static_cast<std::uint32_t>((sample - row) / kBrick + row_brick);
+    }
+  });
+  // Sorted by counting; those of one brick stay in order.
+  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // place of each brick's next crossing
+  for (const std::uint32_t own : brick_of) ++next[own + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> crossings(all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) crossings[next[brick_of[i]]++] = i;
+  return crossings;
+}
+
+std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
+                                   const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
+                                   int threads, std::vector<Vec3>* landmarks) {
+  // The facets as they are: how they make up a manifold does not matter here.
+  const SurfaceMesh mesh = facets_alone(restricted, threads);
+  const auto position = [&](std::uint32_t crossing) {
+    return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
+  };
+  const auto positions = [&](std::span<const std::uint32_t> crossings) {
+    std::vector<Vec3> points;
+    points.reserve(crossings.size());
+    for (const std::uint32_t crossing : crossings) points.push_back(position(crossing));
+    return points;
+  };
+  // Where few are asked about most have a triangle near by now, and a tree of all triangles is worth it for others
+  // only.
+  const bool are_few = suspects.size() <= mesh.triangles.size() / kFewSuspects;
+  if (landmarks == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
+  if (suspects.empty()) return {};
+  const MeshCover cover(mesh, threads);
+  const std::vector<std::uint32_t> asked = std::move(suspects);
+  std::vector<MeshCover::Cover> covers(asked.size());
+  for_each_block(asked.size(), threads, [&](std::size_t first, std::size_t last) {
+    const std::vector<Vec3> points = positions(std::span(asked).subspan(first, last - first));
+    cover.look_at_all(points, std::span(covers).subspan(first, last - first));
+  });
+  suspects.clear();
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (covers[i] == MeshCover::Cover::kNone) suspects.push_back(asked[i]);
+    if (landmarks != nullptr && covers[i] != MeshCover::Cover::kClose) landmarks->push_back(position(asked[i]));
+  }
+  return positions(suspects);
+}
+
+}  // namespace deliso

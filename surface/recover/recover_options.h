@@ -1,0 +1,56 @@
+// What stage 1 is asked for, and what it tells of its work.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "raycast/isosurface.h"
+#include "surface/base/parameters.h"
+#include "surface/base/stage_stats.h"
+
+namespace deliso {
+
+// When a restricted triangle larger than r_min is too coarse. Lengths in mesh-space units.
+struct GeometryCriterion {
+  double epsilon = 0.2;  // largest h / r
+  double rho = 2;        // largest r / l
+  double r_min = 0;
+  double max_distance = std::numeric_limits<double>::infinity();  // largest h
+  double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / mean pole height; needs pole heights
+  Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / mean pole height
+  NewPole new_pole = NewPole::kMean;
+};
+
+struct RecoverOptions {
+  GeometryCriterion geometry;
+  double size_bound = 0;  // no insertion nearer than this to a vertex
+  QueueOrder order = QueueOrder::kWorstFirst;
+  int threads = 1;  // the result is the same for any number
+};
+
+struct RecoverStats : StageStats {
+  std::int64_t insertions = 0;
+  std::int64_t multi_intersect = 0;  // insertions by each of the three steps
+  std::int64_t extract_manifold = 0;
+  std::int64_t approximate_geometry = 0;
+  std::int64_t uncovered = 0;              // crossings far from the mesh
+  std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
+  std::int64_t in_slabs = 0;               // insertions in parts of the volume that several threads refine
+  std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point
+  std::int64_t hits_against_signs = 0;     // dual edges whose hits contradicted the signs at their ends
+  SearchCounters search;
+  double restricted_seconds = 0;  // time spent deciding which facets are restricted
+
+  // Adds what a part has done.
+  void add(const RecoverStats& part) {
+    insertions += part.insertions;
+    multi_intersect += part.multi_intersect;
+    extract_manifold += part.extract_manifold;
+    approximate_geometry += part.approximate_geometry;
+    boundary_splits += part.boundary_splits;
+    refused_by_size_bound += part.refused_by_size_bound;
+    search += part.search;
+  }
+};
+
+}  // namespace deliso

@@ -1,0 +1,160 @@
+// The points that stage 1 inserts: what mends a violation.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "surface/recover/recovery.h"
+
+namespace deliso {
+
+namespace {
+
+// A refinement point farther than this from the isosurface (mesh-space units) is moved onto it, or dropped.
+constexpr double kOnSurface = 1e-7;
+
+}  // namespace
+
+// A point on a dual edge lies in the circumball of the tetrahedron at that end which is on its side of the facet.
+RefinementPoint Recovery::point_at(const DualEdge& edge, double t) const {
+  const FacetId f = t > 0 ? delaunay_.mirror(edge.facet) : edge.facet;
+  return {edge.dual.at(t), f.tet()};
+}
+
+// MultiIntersect: a dual edge with several hits gives the one farthest from its facet.
+std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
+  const DualEdge& edge = restricted_.dual_edge(e);
+  if (edge.hits.size() < 2) return std::nullopt;
+  const double first = edge.hits.front().t;
+  const double last = edge.hits.back().t;
+  return point_at(edge, std::abs(first) > std::abs(last) ? first : last);
+}
+
+// ExtractManifold: an umbrella that is no disk gives its x_sigma farthest from the vertex. On the box a half disk will
+// do.
+std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
+  const auto will_do = [&](UmbrellaShape shape) {
+    return shape == UmbrellaShape::kDisk || (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q));
+  };
+  if (will_do(restricted_.quick_umbrella_shape(q)) || will_do(umbrella_.inspect(q))) return std::nullopt;
+  if (auto candidate = farthest_of_umbrella(q)) return candidate;
+  return farthest_in_voronoi_cell(q);
+}
+
+std::optional<RefinementPoint> Recovery::farthest_of_umbrella(VertexId q) const {
+  std::optional<RefinementPoint> farthest;
+  double longest = 0;
+  for (const FacetId f : umbrella_.facets()) {
+    const DualEdgeId e = restricted_.dual_edge_of(f);
+    if (e.is_none()) continue;
+    const DualEdge& edge = restricted_.dual_edge(e);
+    for (const Hit& hit : edge.hits) {
+      const Vec3 x = edge.dual.at(hit.t);
+      const double length = squared_distance(x, delaunay_.point(q));
+      if (length <= longest) continue;
+      longest = length;
+      farthest = point_at(edge, hit.t);
+    }
+  }
+  return farthest;
+}
+
+// A vertex without restricted triangles: its Voronoi cell swallows a piece of the surface. Rays from the vertex along
+// the gradient and in a dozen other directions look for the farthest point of that piece.
+std::optional<RefinementPoint> Recovery::farthest_in_voronoi_cell(VertexId q) {
+  constexpr double kGolden = 1.618033988749895;
+  const Vec3 from = delaunay_.point(q);
+  const Vec3 gradient = isosurface_.gradient(from);
+  const std::array<Vec3, 7> axes = {gradient / std::max(norm_of_any_size(gradient), 1e-300),
+                                    Vec3{0, 1, kGolden},
+                                    Vec3{0, 1, -kGolden},
+                                    Vec3{1, kGolden, 0},
+                                    Vec3{1, -kGolden, 0},
+                                    Vec3{kGolden, 0, 1},
+                                    Vec3{kGolden, 0, -1}};
+  std::optional<RefinementPoint> farthest;
+  double longest = 0;
+  for (const Vec3& axis : axes) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 direction = side * axis / std::max(norm(axis), 1e-300);
+      // The cell ends where the ray meets the nearest bisector.
+      double end = isosurface_.box().diagonal();
+      for (const TetId t : umbrella_.star()) {
+        for (const VertexId v : delaunay_.vertices(t)) {
+          if (v == q || v == kInfiniteVertex) continue;
+          const Vec3 d = delaunay_.point(v) - from;
+          if (dot(direction, d) > 0) end = std::min(end, squared_norm(d) / (2 * dot(direction, d)));
+        }
+      }
+      if (end <= options_.size_bound) continue;
+      const Line ray{from, direction};
+      isosurface_.all_hits(ray, 1e-6, end, hits_, stats_.search);
+      for (const Hit& hit : hits_) {
+        const Vec3 x = ray.at(hit.t);
+        if (hit.t <= longest || !isosurface_.box().contains(x)) continue;
+        longest = hit.t;
+        farthest = RefinementPoint{x, umbrella_.star().front()};
+      }
+    }
+  }
+  // It lies in the Voronoi cell, so one of the tetrahedra around the vertex is in conflict with it.
+  if (farthest) {
+    const auto star = umbrella_.star();
+    const auto start =
+        std::find_if(star.begin(), star.end(), [&](TetId t) { return restricted_.in_conflict(t, farthest->point); });
+    if (start != star.end()) farthest->start = *start;
+  }
+  return farthest;
+}
+
+// ApproximateGeom: a triangle too coarse gives its x_sigma.
+std::optional<RefinementPoint> Recovery::approximate_geometry(DualEdgeId e) const {
+  const DualEdge& edge = restricted_.dual_edge(e);
+  if (geometric_badness(edge) <= 1) return std::nullopt;
+  return point_at(edge, surface_hit(edge));
+}
+
+// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
+double Recovery::geometric_badness(const DualEdge& edge) const {
+  const GeometryCriterion& limit = options_.geometry;
+  if (!restricted_.is_dual_to_surface(edge.facet) || edge.radius <= limit.r_min) return 0;
+  const double h = std::abs(surface_hit(edge));
+  // Squares tell, but for near ties.
+  const double squared_bound = options_.size_bound * options_.size_bound;
+  const bool may_be_small = h * h + edge.radius * edge.radius <= 1.001 * squared_bound;
+  if (may_be_small && std::hypot(h, edge.radius) < options_.size_bound) return 0;
+  const Vec3& a = delaunay_.point(edge.vertices[0]);
+  const Vec3& b = delaunay_.point(edge.vertices[1]);
+  const Vec3& c = delaunay_.point(edge.vertices[2]);
+  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+  double badness = std::max(h / (edge.radius * limit.epsilon), edge.radius / (shortest * limit.rho));
+  badness = std::max(badness, h / limit.max_distance);
+  if (std::isfinite(limit.epsilon2)) {
+    const double size = limit.criterion2 == Criterion2::kCircumradius ? edge.radius : shortest;
+    badness = std::max(badness, size / (mean_pole_height(edge) * limit.epsilon2));
+  }
+  return badness;
+}
+
+double Recovery::mean_pole_height(const DualEdge& edge) const {
+  double sum = 0;
+  for (const VertexId v : edge.vertices) sum += (*pole_heights_)[v.index()];
+  return sum / 3;
+}
+
+// A hit outside the box stands for the point of the boundary curve that it is clamped to. A hit that the signs alone
+// forced may lie off the surface; it is moved onto it along the gradient.
+std::optional<Vec3> Recovery::onto_surface(const Vec3& p) const {
+  const Vec3 inside = isosurface_.box().clamp(p);
+  const Vec3 gradient = isosurface_.gradient(inside);
+  const double steepness = norm_of_any_size(gradient);
+  if (std::abs(isosurface_.value(inside)) <= kOnSurface * steepness) return inside;
+  if (!(steepness > 0)) return std::nullopt;
+  const Line down{inside, -gradient / steepness};
+  const auto t = isosurface_.nearest_falling_hit(down, options_.size_bound, stats_.search);
+  if (!t || !isosurface_.box().contains(down.at(*t))) return std::nullopt;
+  return down.at(*t);
+}
+
+}  // namespace deliso

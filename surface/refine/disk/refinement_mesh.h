@@ -1,0 +1,101 @@
+// The mesh that stage 2 works on: what an insertion needs of a triangle lies in one cache line.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "delaunay/base/huge_pages.h"
+#include "delaunay/base/vec3.h"
+#include "surface/mesh/surface_mesh.h"
+
+namespace deliso {
+
+// B_sigma: centred at x_sigma on the isosurface, through the triangle's three vertices.
+struct SurfaceDelaunayBall {
+  Vec3 center;
+  double squared_radius = 0;
+};
+
+struct RefinementMesh {
+  struct Vertex {
+    Vec3 point;
+    double pole_height = 0;
+    float clearance = 0;          // a bound of the distance to other sheets (clearances.h)
+    std::uint32_t attempt = 0;    // whose rim passes here,
+    std::uint32_t rim_place = 0;  // and the place in it of the edge that leaves here
+    bool is_suspect = false;      // a corner of a triangle that lies far off the surface (crossing_guard.h)
+  };
+  // Side i of a triangle runs from corner i + 1 to corner i + 2; a neighbour is that same edge as the triangle across
+  // knows it.
+  struct alignas(64) Triangle {
+    std::array<std::uint32_t, 3> corners{};
+    std::array<TriangleSide, 3> neighbours{};
+    SurfaceDelaunayBall ball;
+    std::uint32_t state = 0;    // the flags below, and above them the generation of the slot
+    std::uint32_t attempt = 0;  // that took the triangle into its disk E
+
+    static constexpr std::uint32_t kRefused = 1;   // waits for a change around it
+    static constexpr std::uint32_t kNoHit = 2;     // its dual line has no falling hit: it stays as it is
+    static constexpr std::uint32_t kTooSmall = 4;  // r_min alone keeps it as it is
+    static constexpr std::uint32_t kCoarse = 8;    // it is to be refined
+    static constexpr std::uint32_t kFlags = kRefused | kNoHit | kTooSmall | kCoarse;
+    [[nodiscard]] bool is_refused() const { return (state & kRefused) != 0; }
+    [[nodiscard]] bool has_hit() const { return (state & kNoHit) == 0; }
+    [[nodiscard]] bool is_too_small() const { return (state & kTooSmall) != 0; }
+    [[nodiscard]] bool is_coarse() const { return (state & kCoarse) != 0; }
+    void set(std::uint32_t flag, bool is_so) { state = is_so ? state | flag : state & ~flag; }
+    // Whether the slot has been taken anew since the mesh was made or joined.
+    [[nodiscard]] bool is_renewed() const { return state > kFlags; }
+    // The slot is taken anew.
+    void renew() { state = (state | kFlags) + 1; }
+  };
+  static_assert(sizeof(Triangle) == 64);
+
+  LargeArray<Vertex> vertices;
+  LargeArray<Triangle> triangles;
+
+  RefinementMesh() = default;
+  explicit RefinementMesh(const SurfaceMesh& mesh, int threads = 1);
+
+  [[nodiscard]] const Vec3& corner(std::uint32_t triangle, unsigned i) const {
+    return vertices[triangles[triangle].corners[i % 3]].point;
+  }
+  [[nodiscard]] std::array<Vec3, 3> corner_points(const std::array<std::uint32_t, 3>& corners) const {
+    return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
+  }
+
+  // From where to where a triangle reaches along an axis.
+  struct Extent {
+    double low = 0, high = 0;
+    [[nodiscard]] bool holds(double x) const { return low <= x && x <= high; }
+  };
+  [[nodiscard]] Extent extent_of(std::uint32_t triangle, std::size_t axis) const {
+    const auto [a, b, c] = corner_points(triangles[triangle].corners);
+    return {std::min({a[axis], b[axis], c[axis]}), std::max({a[axis], b[axis], c[axis]})};
+  }
+
+  [[nodiscard]] Box3 box_of(std::uint32_t triangle) const {
+    Box3 box;
+    for (const std::uint32_t v : triangles[triangle].corners) box.extend(vertices[v].point);
+    return box;
+  }
+
+  // Fetches the neighbours of a triangle ahead.
+  void prefetch_around(std::uint32_t triangle) const {
+    for (const TriangleSide side : triangles[triangle].neighbours) {
+      if (side != kNoSide) __builtin_prefetch(&triangles[side >> 2]);
+    }
+  }
+
+  // Clears what a refinement that is over has noted: attempts and generations.
+  void forget_attempts(int threads = 1);
+  // Writes points and triangles to `mesh`, and pole heights and neighbours, if they are to be kept; this mesh is empty
+  // afterwards.
+  void move_to(SurfaceMesh& mesh, int threads = 1, bool keep_neighbours = true);
+};
+
+}  // namespace deliso

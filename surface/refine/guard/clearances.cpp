@@ -1,0 +1,136 @@
+#include "surface/refine/guard/clearances.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+
+namespace deliso {
+
+namespace {
+
+// Vertices nearer than this (mesh-space units) lie on top of each other.
+constexpr double kOnTop = 2e-3;
+// No clearance is trusted at the corners of a triangle whose box is this near to a suspect (mesh-space units).
+constexpr double kSuspectReach = 3;
+// Side of the cells in which doubled vertices are sought: small beside edges, and few of its multiples are integers,
+// where samples are. Cells are counted up to so many from the origin.
+constexpr double kCellSide = 0.26;
+constexpr double kFarthestPlace = 1e15;
+
+// A number for a cell; that two cells get the same one does no harm.
+std::uint64_t cell_number(const std::array<std::int64_t, 3>& cell) {
+  std::uint64_t number = 0;
+  for (const std::int64_t place : cell) {
+    number = (number ^ static_cast<std::uint64_t>(place)) * 0x9E3779B97F4A7C15u;
+    number ^= number >> 32;
+  }
+  return number;
+}
+
+// Calls visit(number) for the cells around p within half of kOnTop: two points that near have one in common.
+template <class Visit>
+void for_each_cell_around(const Vec3& p, Visit&& visit) {
+  const auto place = [](double x) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(x / kCellSide), -kFarthestPlace, kFarthestPlace));
+  };
+  const Vec3 half{kOnTop / 2, kOnTop / 2, kOnTop / 2};
+  const Vec3 low = p - half, high = p + half;
+  for (std::int64_t z = place(low.z); z <= place(high.z); ++z) {
+    for (std::int64_t y = place(low.y); y <= place(high.y); ++y) {
+      for (std::int64_t x = place(low.x); x <= place(high.x); ++x) visit(cell_number({x, y, z}));
+    }
+  }
+}
+
+// Vertices with another one on top of them.
+std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
+  const auto& vertices = mesh.vertices;
+  // By cell, then by x, so that crowds in a cell are looked at in short stretches.
+  using InCell = std::tuple<std::uint64_t, double, std::uint32_t>;
+  std::vector<InCell> in_cells;
+  in_cells.reserve(vertices.size() + vertices.size() / 4);
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    const Vec3& p = vertices[v].point;
+    for_each_cell_around(p, [&](std::uint64_t cell) { in_cells.emplace_back(cell, p.x, v); });
+  }
+  std::sort(in_cells.begin(), in_cells.end());
+  std::vector<std::uint32_t> doubled;
+  for (std::size_t i = 0; i < in_cells.size(); ++i) {
+    const auto& [cell, x, v] = in_cells[i];
+    for (std::size_t j = i + 1; j < in_cells.size(); ++j) {
+      const auto& [other_cell, other_x, w] = in_cells[j];
+      if (other_cell != cell || other_x - x >= kOnTop) break;
+      if (v == w || squared_distance(vertices[v].point, vertices[w].point) >= kOnTop * kOnTop) continue;
+      doubled.push_back(v);
+      doubled.push_back(w);
+    }
+  }
+  return doubled;
+}
+
+// No clearance at the reached vertices; from there on the bound falls off by distance along edges.
+void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) {
+  if (reached.empty()) return;
+  auto& vertices = mesh.vertices;
+  for (const std::uint32_t v : reached) vertices[v].clearance = 0;
+  // The vertices that come after v in its triangles: after[first[v]] to after[first[v + 1]].
+  std::vector<std::uint32_t> first(vertices.size() + 1, 0);
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t.corners) ++first[v];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> after(3 * mesh.triangles.size());
+  for (const RefinementMesh::Triangle& t : mesh.triangles) {
+    for (unsigned i = 0; i < 3; ++i) after[--first[t.corners[i]]] = t.corners[(i + 1) % 3];
+  }
+  for (std::size_t at = 0; at < reached.size(); ++at) {
+    const std::uint32_t v = reached[at];
+    for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
+      const std::uint32_t w = after[i];
+      const float bound = vertices[v].clearance + static_cast<float>(distance(vertices[v].point, vertices[w].point));
+      if (bound >= vertices[w].clearance) continue;
+      vertices[w].clearance = bound;
+      reached.push_back(w);
+    }
+  }
+}
+
+}  // namespace
+
+void set_clearances(RefinementMesh& mesh) {
+  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = static_cast<float>(v.pole_height);
+  bound_clearances(mesh, doubled_vertices(mesh));
+}
+
+void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+  if (suspects.empty()) return;
+  // Mostly all of them are in one place.
+  Box3 around;
+  for (const Vec3& p : suspects) around.extend(p);
+  around.extend(around.low - Vec3{kSuspectReach, kSuspectReach, kSuspectReach});
+  around.extend(around.high + Vec3{kSuspectReach, kSuspectReach, kSuspectReach});
+  std::vector<std::uint32_t> reached;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Box3 box = mesh.box_of(t);
+    if (!box.meets(around)) continue;
+    if (std::any_of(suspects.begin(), suspects.end(),
+                    [&](const Vec3& p) { return squared_distance(p, box.clamp(p)) < kSuspectReach * kSuspectReach; })) {
+      const auto& corners = mesh.triangles[t].corners;
+      reached.insert(reached.end(), corners.begin(), corners.end());
+    }
+  }
+  bound_clearances(mesh, std::move(reached));
+}
+
+void distrust_all(RefinementMesh& mesh) {
+  for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = 0;
+}
+
+}  // namespace deliso

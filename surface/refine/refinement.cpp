@@ -1,0 +1,286 @@
+#include "surface/refine/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace deliso {
+
+namespace {
+
+// A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
+constexpr double kNearestVertex = 0.5;
+// A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
+constexpr double kFarthestMove = 0.8;
+// Landmarks are inserted so often, what follows from it being refined in between.
+constexpr int kLandmarkRounds = 4;
+
+}  // namespace
+
+void Refinement::run(Controls& controls, int threads) {
+  start_.emplace(mesh_);
+  if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
+  queue_coarse_triangles();
+  if (queue_.size() > 0) {
+    guard_.emplace(mesh_, threads);
+    refine_queued(controls);
+  }
+  for (int i = 0; i < kLandmarkRounds && insert_landmarks(controls, threads); ++i) refine_queued(controls);
+  guard_.reset();
+}
+
+void Refinement::refine_queued(Controls& controls) {
+  while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
+    const auto popped = queue_.pop();
+    if (!popped && !retry_crossed()) break;
+    // What pops cost is waiting for the triangle they name; its neighbours are known once it has come.
+    const auto next = queue_.next();
+    if (next) __builtin_prefetch(&mesh_.triangles[*next]);
+    if (!popped || mesh_.triangles[popped->queued.element].state != popped->queued.generation) continue;
+    if (treat(popped->queued.element)) wake_neighbours();
+    if (next) mesh_.prefetch_around(*next);
+  }
+}
+
+RefinementChange Refinement::take_back() {
+  RefinementChange change = start_->restore(mesh_);
+  start_.reset();
+  return change;
+}
+
+void Refinement::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
+  if (t >= is_kept_.size() || is_kept_[t]) return;
+  is_kept_[t] = true;
+  places_.push_back(t);
+  triangles_.push_back(mesh.triangles[t]);
+}
+
+RefinementChange Refinement::Start::restore(RefinementMesh& mesh) {
+  RefinementChange change;
+  change.new_triangles.assign(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(is_kept_.size()),
+                              mesh.triangles.end());
+  change.new_vertices.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(vertex_count_), mesh.vertices.end());
+  for (std::size_t i = 0; i < places_.size(); ++i) std::swap(mesh.triangles[places_[i]], triangles_[i]);
+  change.places = std::move(places_);
+  change.triangles = std::move(triangles_);
+  mesh.triangles.resize(is_kept_.size());
+  mesh.vertices.resize(vertex_count_);
+  mesh.forget_attempts();
+  return change;
+}
+
+void RefinementChange::redo(RefinementMesh& mesh) const {
+  for (std::size_t i = 0; i < places.size(); ++i) mesh.triangles[places[i]] = triangles[i];
+  mesh.triangles.insert(mesh.triangles.end(), new_triangles.begin(), new_triangles.end());
+  mesh.vertices.insert(mesh.vertices.end(), new_vertices.begin(), new_vertices.end());
+}
+
+// Whether a coarse triangle is to be refined here.
+bool Refinement::is_wanted(std::uint32_t triangle) const {
+  return !part_.plane || mesh_.extent_of(triangle, part_.slab.axis).holds(*part_.plane);
+}
+
+// What another part left coarse is to be tried again; frozen triangles stay as they are.
+void Refinement::queue_coarse_triangles() {
+  for (std::uint32_t t = part_.frozen; t < mesh_.triangles.size(); ++t) {
+    if (mesh_.triangles[t].is_coarse() && is_wanted(t)) requeue(t);
+  }
+}
+
+void Refinement::queue(std::uint32_t triangle, const NewTriangle& measured) {
+  const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
+  if (options_.order == QueueOrder::kFirstInFirstOut) {
+    queue_.push_by_age(queued);
+  } else {
+    const double key = options_.order == QueueOrder::kWorstFirst ? measured.badness : measured.radius;
+    queue_.push(block_rank(key, measured.ball.center), queued);
+  }
+}
+
+// Inserts x_sigma of one triangle, or a point of the boundary curve where x_sigma would come too near to a boundary
+// edge.
+bool Refinement::treat(std::uint32_t triangle) {
+  const SurfaceDelaunayBall ball = ball_of(triangle);
+  const double radius = std::sqrt(ball.squared_radius);
+  const Candidate candidate{ball.center, radius, kNearestVertex * radius, triangle, kNoSide};
+  const std::uint32_t state = mesh_.triangles[triangle].state;
+  TriangleSide encroached = kNoSide;
+  is_blocked_ = false;
+  std::optional<Refusal> refusal = insert(candidate, &encroached);
+  if (encroached != kNoSide) {
+    const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
+    refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
+    if (!refusal) ++stats_.boundary_splits;
+    const bool is_inside = isosurface_.box().contains(candidate.point);
+    if (refusal && !is_blocked_ && is_inside) refusal = insert(candidate, nullptr);
+  }
+  if (refusal && !is_blocked_) {
+    const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
+    if (halving && !insert(*halving, nullptr)) {
+      ++stats_.halvings;
+      refusal.reset();
+    }
+  }
+  if (refusal) {
+    // In another part it may be refined; or else it stays as it is.
+    start_->keep(triangle, mesh_);
+    mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
+    mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
+    if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
+    guard_->distrust(triangle);
+    if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
+    return false;
+  }
+  ++stats_.insertions;
+  // A point on the boundary may have left the triangle as it was.
+  if (mesh_.triangles[triangle].state == state) requeue(triangle);
+  return true;
+}
+
+// Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
+// reported and nothing is inserted.
+std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
+  disk_.grow(candidate, [this](std::uint32_t t) {
+    // A ball that is not kept is not searched again where it is not asked for.
+    return options_.store_hits || !disk_.holds(t) ? ball_of(t) : SurfaceDelaunayBall{};
+  });
+  if (disk_.is_blocked() || !part_.slab.contains(candidate.point)) {
+    is_blocked_ = true;
+    return Refusal::kNotADisk;
+  }
+  if (encroached_edge != nullptr) {
+    if (const auto side = disk_.encroached_boundary_edge(candidate, isosurface_.box())) {
+      *encroached_edge = *side;
+      return std::nullopt;
+    }
+    if (!isosurface_.box().contains(candidate.point)) return Refusal::kNoHit;
+  }
+  const RefinementDisk::Shape shape = disk_.order_rim(candidate);
+  if (shape == RefinementDisk::Shape::kNotADisk) return Refusal::kNotADisk;
+  if (shape == RefinementDisk::Shape::kRepeatedVertex) return Refusal::kRepeatedVertex;
+  if (const auto failed = plan_star(candidate)) return failed;
+  replace_disk(candidate);
+  return std::nullopt;
+}
+
+// Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
+// gradient, or a vertex is too near.
+std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
+  const Vec3& p = candidate.point;
+  const double nearest = candidate.nearest * candidate.nearest;
+  const Vec3 gradient = upwards(candidate);
+  for (const RimEdge& edge : disk_.rim()) {
+    const Vec3& a = mesh_.vertices[edge.from].point;
+    const Vec3& b = mesh_.vertices[edge.to].point;
+    if (squared_distance(p, a) < nearest || squared_distance(p, b) < nearest) return Refusal::kTooClose;
+    if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
+  }
+  const bool closed = candidate.split == kNoSide;
+  const double moved = disk_.distance_to(p);
+  if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
+  if (guard_->crosses(p, -gradient, moved, disk_)) return Refusal::kCrossingTriangle;
+  star_pole_height_ = inherited_pole_height(p, closed);
+  shapes_.clear();
+  for (const RimEdge& edge : disk_.rim()) {
+    const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
+    shapes_.push_back({{p, a.point, b.point}, (star_pole_height_ + a.pole_height + b.pole_height) / 3});
+  }
+  star_.resize(shapes_.size());
+  measure(shapes_, star_);
+  return std::nullopt;
+}
+
+// The pole height of a new vertex, from its neighbours: the corners of the rim.
+double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
+  std::uint32_t nearest = disk_.rim().front().from;
+  double sum = 0;
+  double count = 0;
+  const auto visit = [&](std::uint32_t v) {
+    sum += mesh_.vertices[v].pole_height;
+    count += 1;
+    if (squared_distance(p, mesh_.vertices[v].point) < squared_distance(p, mesh_.vertices[nearest].point)) nearest = v;
+  };
+  for (const RimEdge& edge : disk_.rim()) visit(edge.from);
+  if (!closed) visit(disk_.rim().back().to);
+  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
+}
+
+// Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
+void Refinement::replace_disk(const Candidate& candidate) {
+  const bool closed = candidate.split == kNoSide;
+  const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const std::span<const std::uint32_t> old = disk_.triangles();
+  const std::span<const RimEdge> rim = disk_.rim();
+  for (const std::uint32_t t : old) {
+    start_->keep(t, mesh_);
+    guard_->forget(t);
+  }
+  mesh_.vertices.push_back({candidate.point, star_pole_height_, guard_->new_clearance()});
+  const std::size_t count = rim.size();
+  slots_.assign(old.begin(), old.end());
+  check_triangle_count(mesh_.triangles.size() + count);
+  while (slots_.size() < count) {
+    slots_.push_back(static_cast<std::uint32_t>(mesh_.triangles.size()));
+    mesh_.triangles.emplace_back();
+  }
+  std::uint32_t before = slots_.back();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t t = slots_[i], after = i + 1 < count ? slots_[i + 1] : slots_.front();
+    const RimEdge& edge = rim[i];
+    const bool first = !closed && i == 0;
+    const bool last = !closed && i + 1 == count;
+    RefinementMesh::Triangle& triangle = mesh_.triangles[t];
+    triangle.corners = {p, edge.from, edge.to};
+    triangle.neighbours = {edge.outer, last ? kNoSide : 4 * after + 2, first ? kNoSide : 4 * before + 1};
+    before = t;
+    if (edge.outer != kNoSide) {
+      start_->keep(edge.outer >> 2, mesh_);
+      mesh_.triangles[edge.outer >> 2].neighbours[edge.outer & 3u] = 4 * t;
+    }
+    triangle.renew();
+    learn(t, star_[i]);
+    guard_->learn(t, star_[i].squared_longest);
+    if (triangle.is_coarse() && is_wanted(t)) queue(t, star_[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!star_[i].has_hit) guard_->distrust(slots_[i]);
+  }
+}
+
+// The sheet in the way may be finer now. True when a triangle was queued again.
+bool Refinement::retry_crossed() {
+  if (stats_.insertions == insertions_at_retry_) return false;
+  insertions_at_retry_ = stats_.insertions;
+  bool any = false;
+  for (const std::uint32_t t : std::exchange(crossed_, {})) {
+    if (!mesh_.triangles[t].is_refused()) continue;
+    any = true;
+    requeue(t);
+  }
+  return any;
+}
+
+void Refinement::requeue(std::uint32_t triangle) {
+  start_->keep(triangle, mesh_);
+  RefinementMesh::Triangle& t = mesh_.triangles[triangle];
+  t.set(RefinementMesh::Triangle::kRefused, false);
+  t.set(RefinementMesh::Triangle::kCoarse, true);
+  queue(triangle, measured(triangle));
+}
+
+// Triangles around the new star that were refused before get another chance, frozen ones in the whole.
+void Refinement::wake_neighbours() {
+  for (const RimEdge& edge : disk_.rim()) {
+    const std::uint32_t t = edge.outer >> 2;
+    if (edge.outer == kNoSide || !mesh_.triangles[t].is_refused()) continue;
+    if (t >= part_.frozen) {
+      requeue(t);
+    } else {
+      start_->keep(t, mesh_);
+      mesh_.triangles[t].set(RefinementMesh::Triangle::kCoarse, true);
+    }
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,56 @@
+#include "surface/repair/diagnosis/polygonized_components.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "surface/intersection/exact_tests.h"
+#include "surface/mesh/link_sides.h"
+#include "volume/marching_cubes/marching_cubes.h"
+
+namespace deliso {
+
+PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
+                                       const IsosurfaceTopology& topology) {
+  MarchingCubesMesh cubes =
+      marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
+  PolygonizedSurface surface;
+
+  // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
+  std::vector<std::uint32_t>& component = surface.component;
+  component.assign(cubes.points.size(), kNoSide);
+  for (std::size_t v = 0; v < cubes.crossing_count; ++v) component[v] = topology.crossings[v].component;
+  std::vector<std::array<std::uint32_t, 3>> with_inner_point;
+  std::copy_if(cubes.triangles.begin(), cubes.triangles.end(), std::back_inserter(with_inner_point),
+               [&](const auto& v) {
+                 return std::max({v[0], v[1], v[2]}) >= cubes.crossing_count;
+               });
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& v : with_inner_point) {
+      const auto known = std::find_if(v.begin(), v.end(), [&](std::uint32_t q) { return component[q] != kNoSide; });
+      if (known == v.end()) continue;
+      for (const std::uint32_t q : v) {
+        if (component[q] != kNoSide) continue;
+        component[q] = component[*known];
+        changed = true;
+      }
+    }
+  }
+
+  // From world to mesh space, in place: there may be many.
+  const Vec3& step = isosurface.step();
+  for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
+    Vec3& p = cubes.points[v];
+    p = v < cubes.crossing_count ? scaled(crossing_position(grid, topology.crossings[v]), step)
+                                 : from_world(p, grid, step);
+  }
+  surface.mesh.points = std::move(cubes.points);
+  surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
+  surface.mesh.triangles = std::move(cubes.triangles);
+  link_sides(surface.mesh);
+  return surface;
+}
+
+}  // namespace deliso

@@ -1,0 +1,22 @@
+// The surface by marching cubes, whose topology is exact: what repair compares its meshes with, and its last resort.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/mesh/surface_mesh.h"
+#include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
+struct PolygonizedSurface {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> component;
+};
+PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
+                                       const IsosurfaceTopology& topology);
+
+}  // namespace deliso

@@ -1,0 +1,29 @@
+#include "surface/repair/diagnosis/surface_facts.h"
+
+#include <exception>
+#include <stop_token>
+
+namespace deliso {
+
+SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+                           int threads)
+    : grid_(grid),
+      topology_(topology),
+      sweeps_(
+          std::async(std::launch::deferred,
+                     [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface.isovalue(), topology); })),
+      polygonized_(std::async(std::launch::deferred, [&grid, &isosurface, &topology] {
+        return polygonized_surface(grid, isosurface, topology);
+      })) {
+  if (threads < 2) return;
+  try {
+    // Through futures of its own; what a search throws is thrown to those who ask.
+    finder_ = std::jthread([sweeps = sweeps_](const std::stop_token& stop) {
+      if (!stop.stop_requested()) sweeps.wait();  // else nobody will ask any more
+    });
+  } catch (const std::exception&) {
+    // No thread to be had: facts are found when they are asked for.
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,37 @@
+// What repair may want to know of an isosurface whatever the mesh: facts that take time to find.
+#pragma once
+
+#include <future>
+#include <thread>
+
+#include "raycast/isosurface.h"
+#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/surface_sweeps.h"
+#include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+// Each fact is found when it is first asked for; with more than one thread a thread of its own finds the sweeps
+// beforehand, while others build the mesh that they are for. The facts are the same either way.
+class SurfaceFacts {
+ public:
+  // Keeps references.
+  SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology, int threads);
+
+  [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
+  [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
+  [[nodiscard]] const SurfaceSweeps& sweeps() const { return sweeps_.get(); }
+  // Needed by few surfaces, and large: never found beforehand.
+  [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
+
+ private:
+  const ScalarGrid& grid_;
+  const IsosurfaceTopology& topology_;
+  // Deferred: whoever asks first does the work, anyone else waits for it.
+  std::shared_future<SurfaceSweeps> sweeps_;
+  std::shared_future<PolygonizedSurface> polygonized_;
+  std::jthread finder_;
+};
+
+}  // namespace deliso

@@ -1,0 +1,216 @@
+#include "surface/repair/diagnosis/surface_sweeps.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "volume/topology/cell_crossings.h"
+#include "volume/topology/exact_topology_cell.h"
+
+namespace deliso {
+
+namespace {
+
+// Calls visit(crossing, layers) for all crossings: the first sample layers that these do not lie above.
+template <class Visit>
+void for_each_crossing(const IsosurfaceTopology& topology, const Dims& dims, const Visit& visit) {
+  // Crossings come row by row, so no sample need be divided by the length of rows.
+  SampleLayers row{0, 0, 0};
+  const auto length = static_cast<std::uint64_t>(dims[0]);
+  std::uint64_t first = 0;  // sample of the row
+  for (const EdgeCrossing& crossing : topology.crossings) {
+    for (; crossing.sample >= first + length; first += length) {
+      if (++row[1] < dims[1]) continue;
+      row[1] = 0;
+      ++row[2];
+    }
+    SampleLayers layers = {static_cast<std::int32_t>(crossing.sample - first), row[1], row[2]};
+    ++layers[crossing.axis];
+    visit(crossing, layers);
+  }
+}
+
+// The surface is made of crossings, of arcs in which it meets grid faces and of pieces in cells, each with an Euler
+// characteristic of its own: 1, -1, and 1 or 0. An arc is visited with the cell that it lies below along the axis
+// across it; on the far side of the box, with the one that it lies above. `Changes` takes what is visited: add(), and
+// add_disk() for what nearly all cells are.
+template <class Changes>
+class ExactChanges {
+ public:
+  ExactChanges(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology, Changes& changes)
+      : grid_(grid), isovalue_(isovalue), topology_(topology), crossings_(topology.index), changes_(changes) {}
+
+  template <class Cells>
+  void visit(const Cells& wanted) {
+    const Dims& dims = grid_.dims();
+    for_each_crossing(topology_, dims, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
+      const CellIndex cell{std::min(at[0], dims[0] - 2), std::min(at[1], dims[1] - 2), std::min(at[2], dims[2] - 2)};
+      if (wanted.contain(cell)) changes_.add(crossing.component, at, 2);
+    });
+    wanted.for_each_active_cell(topology_.index, [&](const CellIndex& cell, std::uint8_t pattern) {
+      crossings_.move_to(cell);
+      is_simple(pattern) ? visit_simple(cell, pattern) : visit_any(cell, pattern);
+    });
+  }
+
+ private:
+  void visit_simple(const CellIndex& cell, std::uint8_t pattern) {
+    const std::uint32_t component = component_on(std::countr_zero(crossed_edges(pattern)));
+    const unsigned faces = crossed_faces(pattern);
+    changes_.add_disk(component, cell, {faces & 1u, faces >> 2 & 1u, faces >> 4 & 1u});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (is_last(cell, axis) && (faces >> (2 * axis + 1) & 1u) != 0) changes_.add(component, top_of(cell), -2);
+    }
+  }
+
+  void visit_any(const CellIndex& cell, std::uint8_t pattern) {
+    const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+    const CellSweep sweep(corners, isovalue_);
+    std::array<bool, kMaxCellPieces> is_seen{};
+    for (unsigned edges = crossed_edges(pattern); edges != 0; edges &= edges - 1) {
+      const int edge = std::countr_zero(edges);
+      const int piece = sweep.piece_of_edge(edge);
+      if (std::exchange(is_seen[static_cast<std::size_t>(piece)], true)) continue;
+      changes_.add(component_on(edge), top_of(cell), 2 * sweep.euler_characteristic(piece));
+    }
+    for (int face = 0; face < kCellFaces; ++face) {
+      const auto axis = static_cast<std::size_t>(face / 2);
+      if (face % 2 == 1 && !is_last(cell, axis)) continue;
+      const bool joined = is_ambiguous_face(pattern, face) && above_joined_on_face(corners, isovalue_, face);
+      const CellFaceArcs arcs = arcs_on_cell_face(pattern, face, joined);
+      SampleLayers at = top_of(cell);
+      at[axis] = cell[axis] + face % 2;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {
+        changes_.add(component_on(arcs.from[i]), at, -2);
+      }
+    }
+  }
+
+  static SampleLayers top_of(const CellIndex& cell) { return {cell[0] + 1, cell[1] + 1, cell[2] + 1}; }
+  [[nodiscard]] bool is_last(const CellIndex& cell, std::size_t axis) const {
+    return cell[axis] + 2 == grid_.dims()[axis];
+  }
+  [[nodiscard]] std::uint32_t component_on(int edge) const {
+    return topology_.crossings[crossings_.number(edge)].component;
+  }
+
+  const ScalarGrid& grid_;
+  double isovalue_;
+  const IsosurfaceTopology& topology_;
+  CellCrossings crossings_;  // of the present cell
+  Changes& changes_;
+};
+
+// As CellLayers, with all cells in them.
+struct AllCells {
+  [[nodiscard]] static bool contain(const CellIndex& /*cell*/) { return true; }
+  template <class Visit>
+  static void for_each_active_cell(const CrossingIndex& index, const Visit& visit) {
+    index.for_each_active_cell(visit);
+  }
+};
+
+// Hands on one by one what is visited.
+struct HandedOn {
+  const VisitChange& visit;
+
+  void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) const { visit(component, at, twice); }
+  void add_disk(std::uint32_t component, const CellIndex& cell, const std::array<unsigned, 3>& has_arc_below) const {
+    const SampleLayers top = {cell[0] + 1, cell[1] + 1, cell[2] + 1};
+    visit(component, top, 2);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SampleLayers at = top;
+      at[axis] = cell[axis];
+      if (has_arc_below[axis] != 0) visit(component, at, -2);
+    }
+  }
+};
+
+}  // namespace
+
+void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
+                           const CellLayers& wanted, const VisitChange& visit) {
+  const HandedOn changes{visit};
+  ExactChanges(grid, isovalue, topology, changes).visit(wanted);
+}
+
+// Adds up what is visited by layers.
+class SurfaceSweeps::Changes {
+ public:
+  explicit Changes(SurfaceSweeps& sweeps) : sweeps_(sweeps) {}
+
+  void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
+    for (std::size_t axis = 0; axis < 3; ++axis) *from(component, axis, at[axis]) += twice;
+  }
+  // The disk counts from the upper layers of its cell on, an arc below it along an axis from the lower one along that.
+  void add_disk(std::uint32_t component, const CellIndex& cell, const std::array<unsigned, 3>& has_arc_below) {
+    const auto arcs = static_cast<std::int32_t>(has_arc_below[0] + has_arc_below[1] + has_arc_below[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto below = static_cast<std::int32_t>(has_arc_below[axis]);
+      std::int32_t* const twice = from(component, axis, cell[axis]);
+      twice[0] -= 2 * below;
+      twice[1] += 2 - 2 * (arcs - below);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::int32_t* from(std::uint32_t component, std::size_t axis, std::int32_t layer) {
+    const Layers& layers = sweeps_.layers_[component][axis];
+    return &sweeps_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
+  }
+
+  SurfaceSweeps& sweeps_;
+};
+
+SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
+    : dims_(grid.dims()) {
+  find_layers(topology);
+  Changes changes(*this);
+  ExactChanges(grid, isovalue, topology, changes).visit(CellLayers(dims_, [](std::size_t, std::int32_t) {
+    return true;
+  }));
+}
+
+// Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.
+void SurfaceSweeps::find_layers(const IsosurfaceTopology& topology) {
+  using Reach = std::pair<std::int32_t, std::int32_t>;
+  std::vector<std::array<Reach, 3>> reach(topology.components.size());
+  for (auto& along : reach) along.fill({std::numeric_limits<std::int32_t>::max(), 0});
+  for_each_crossing(topology, dims_, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      auto& [first, last] = reach[crossing.component][axis];
+      first = std::min(first, std::max(at[axis] - 1, 0));
+      last = std::max(last, at[axis]);
+    }
+  });
+  std::size_t total = 0;
+  layers_.resize(reach.size());
+  for (std::size_t c = 0; c < reach.size(); ++c) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& [first, last] = reach[c][axis];
+      layers_[c][axis] = {total, first, last + 1 - first};
+      total += static_cast<std::size_t>(last + 1 - first);
+    }
+  }
+  twice_changes_.assign(total, 0);
+}
+
+SweptCharacteristics SurfaceSweeps::of(std::uint32_t component) const {
+  SweptCharacteristics swept;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Layers& layers = layers_[component][axis];
+    std::vector<std::int64_t>& along = swept[axis];
+    along.assign(static_cast<std::size_t>(dims_[axis]), 0);
+    const auto first = static_cast<std::size_t>(layers.first);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(layers.count); ++i) {
+      along[first + i] = twice_changes_[layers.begin + i] / 2;
+    }
+    std::partial_sum(along.begin(), along.end(), along.begin());
+  }
+  return swept;
+}
+
+}  // namespace deliso

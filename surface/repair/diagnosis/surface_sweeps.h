@@ -1,0 +1,47 @@
+// What lies of the isosurface below a plane that sweeps along an axis: the exact side of
+// surface/repair/diagnosis/sweep_difference.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "surface/repair/diagnosis/places.h"
+#include "surface/repair/diagnosis/sweep_difference.h"
+#include "volume/scalar_grid.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+// Calls visit(component, layers, twice): twice what changes in the Euler characteristic of what an exact component has
+// below three planes when all of them have come to these layers. Of the surface itself, cell by cell. Calls may be left
+// out where the layers are those of no wanted cell.
+using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
+void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
+                           const CellLayers& wanted, const VisitChange& visit);
+
+// The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
+// such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.
+class SurfaceSweeps {
+ public:
+  SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
+
+  [[nodiscard]] SweptCharacteristics of(std::uint32_t component) const;
+
+ private:
+  struct Layers {
+    std::size_t begin = 0;  // in twice_changes_
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+  };
+  class Changes;
+  void find_layers(const IsosurfaceTopology& topology);
+
+  Dims dims_;
+  std::vector<std::array<Layers, 3>> layers_;  // that each component may reach, along each axis
+  std::vector<std::int32_t> twice_changes_;    // of the Euler characteristic, when the plane comes to a layer
+};
+
+}  // namespace deliso

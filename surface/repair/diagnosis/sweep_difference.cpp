@@ -1,0 +1,90 @@
+#include "surface/repair/diagnosis/sweep_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+namespace deliso {
+
+namespace {
+
+// A difference of one that lasts for fewer layers than this is taken for one in shape.
+constexpr std::int64_t kLasting = 6;
+// Levels looked at beyond those of the start and the end.
+constexpr std::int64_t kSlack = 1;
+
+// Where the piecewise constant function from 0 to the last value that fits `gap` best jumps: dynamic programming over
+// (place, level) with the sum of the deviations plus kLasting for each jump by one as the cost.
+std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
+  const std::int64_t low = std::min<std::int64_t>(0, gap.back()) - kSlack;
+  const auto levels = static_cast<std::size_t>(std::abs(gap.back()) + 2 * kSlack + 1);
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 4;
+  std::vector<std::int64_t> cost(levels, kNever);
+  cost[static_cast<std::size_t>(-low)] = 0;
+  std::vector<std::vector<std::size_t>> from(gap.size(), std::vector<std::size_t>(levels));
+  for (std::size_t i = 0; i < gap.size(); ++i) {
+    std::vector<std::int64_t> next(levels, kNever);
+    for (std::size_t to = 0; to < levels; ++to) {
+      for (std::size_t level = 0; level < levels; ++level) {
+        const auto jump = static_cast<std::int64_t>(level > to ? level - to : to - level);
+        if (cost[level] + kLasting * jump >= next[to]) continue;
+        next[to] = cost[level] + kLasting * jump;
+        from[i][to] = level;
+      }
+      next[to] += std::abs(gap[i] - (low + static_cast<std::int64_t>(to)));
+    }
+    cost = std::move(next);
+  }
+  std::vector<std::int32_t> jumps;
+  auto level = static_cast<std::size_t>(gap.back() - low);
+  for (std::size_t i = gap.size(); i-- > 0;) {
+    if (from[i][level] != level) jumps.push_back(static_cast<std::int32_t>(i));
+    level = from[i][level];
+  }
+  std::reverse(jumps.begin(), jumps.end());
+  return jumps;
+}
+
+}  // namespace
+
+SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
+  SampleLayers layers{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    layers[axis] = static_cast<std::int32_t>(std::clamp(std::ceil(p[axis] / step[axis]), 0.0, dims[axis] - 1.0));
+  }
+  return layers;
+}
+
+std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
+                                                        const std::vector<std::uint32_t>& part_of_vertex,
+                                                        std::size_t parts, const Vec3& step,
+                                                        const std::array<std::int32_t, 3>& dims) {
+  SweptCharacteristics none;
+  for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
+  std::vector<SweptCharacteristics> changes(parts, none);
+  for_each_mesh_change(mesh, part_of_vertex, step, dims,
+                       [&](std::uint32_t part, const SampleLayers& at, std::int32_t change) {
+                         for (std::size_t axis = 0; axis < 3; ++axis) {
+                           changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
+                         }
+                       });
+  for (SweptCharacteristics& change : changes) {
+    for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
+  }
+  return changes;
+}
+
+std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristics& mesh,
+                                                       const SweptCharacteristics& exact) {
+  std::array<std::vector<std::int32_t>, 3> jumps;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<std::int64_t> gap = mesh[axis];
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= exact[axis][i];
+    jumps[axis] = lasting_jumps(gap);
+  }
+  return jumps;
+}
+
+}  // namespace deliso

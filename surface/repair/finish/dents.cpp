@@ -1,0 +1,270 @@
+#include "surface/repair/finish/dents.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "delaunay/base/box3.h"
+#include "delaunay/triangle_contact.h"
+#include "raycast/gradients_at.h"
+#include "surface/base/blocks.h"
+#include "surface/mesh/least_triangulation.h"
+#include "surface/mesh/triangle_distance.h"
+#include "surface/mesh/vertex_fans.h"
+#include "surface/search/box_tree.h"
+
+namespace deliso {
+
+namespace {
+
+// A dent has an edge longer than this (mesh-space units),
+constexpr double kLeastEdge = 1;
+// and the surface is farther than this from the middle of some triangle at it.
+constexpr double kLeastDistance = 0.5;
+// The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
+constexpr double kFarthestCover = 0.2;
+
+// So many vertices are a thread's at a time.
+constexpr std::size_t kVerticesAtOnce = 2048;
+// So many triangles share a box when they are looked for all over the mesh: most lie near those before them.
+constexpr std::size_t kTrianglesAtOnce = 32;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+class Dents {
+ public:
+  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
+
+  DentRemoval remove_all(int threads);
+
+ private:
+  // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
+  // not been replaced.
+  struct Apex {
+    std::uint32_t vertex = 0;
+    Box3 box;
+    std::vector<std::uint32_t> surroundings;
+  };
+  void find_apexes(int threads);
+  void find_surroundings();
+  std::vector<Box3> boxes_of_dents();
+  void look_around(Apex& apex, const Box3& box);
+  bool remove(Apex& apex);
+  void append_apexes(const std::vector<std::uint32_t>& link);
+  [[nodiscard]] Triangles triangles_of(const VertexFan& fan) const;
+  [[nodiscard]] Box3 box_around(std::uint32_t v, const VertexFan& fan) const;
+  [[nodiscard]] bool can_be_filled(std::uint32_t v, const VertexFan& fan) const;
+  [[nodiscard]] double far_area(const Triangles& triangles);
+  [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
+  [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
+  // Whether something holds for a triangle that may be in the way.
+  template <class Holds>
+  [[nodiscard]] bool any_around(const Apex& apex, const Holds& holds) const {
+    const auto stays_and_holds = [&](std::uint32_t i) {
+      const auto& t = mesh_.triangles[i];
+      return fans_.has_triangle(i) && std::find(t.begin(), t.end(), apex.vertex) == t.end() && holds(t);
+    };
+    return std::any_of(apex.surroundings.begin(), apex.surroundings.end(), stays_and_holds) ||
+           std::any_of(fans_.renewed().begin(), fans_.renewed().end(), stays_and_holds);
+  }
+  [[nodiscard]] bool is_against(std::uint32_t v, const Vec3& normals) const;
+
+  [[nodiscard]] Vec3 normal(const std::array<std::uint32_t, 3>& t) const {
+    return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+  }
+  [[nodiscard]] bool has_area_at(const std::array<std::uint32_t, 3>& t) const {
+    return has_area(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
+  }
+
+  SurfaceMesh& mesh_;
+  const Isosurface& isosurface_;
+  VertexFans fans_;
+  std::vector<Apex> apexes_;
+  std::vector<Box3> boxes_;  // of kTrianglesAtOnce triangles each, as the mesh was
+  SearchCounters search_;
+};
+
+DentRemoval Dents::remove_all(int threads) {
+  find_apexes(threads);
+  if (apexes_.empty()) return {};
+  find_surroundings();
+  // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
+  DentRemoval result;
+  for (std::int64_t before = -1; before != result.removed;) {
+    before = result.removed;
+    for (std::size_t a = 0; a < apexes_.size(); ++a) {
+      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++result.removed;
+    }
+  }
+  result.left = boxes_of_dents();
+  if (result.removed > 0) fans_.drop_free_slots();
+  return result;
+}
+
+// Of the apexes there are, those with triangles far from the surface.
+std::vector<Box3> Dents::boxes_of_dents() {
+  std::vector<Box3> boxes;
+  for (const Apex& apex : apexes_) {
+    VertexFan fan;
+    if (!fans_.has(apex.vertex) || !fans_.find(apex.vertex, fan)) continue;
+    if (far_area(triangles_of(fan)) > 0) boxes.push_back(box_around(apex.vertex, fan));
+  }
+  return boxes;
+}
+
+Triangles Dents::triangles_of(const VertexFan& fan) const {
+  Triangles triangles;
+  for (const std::uint32_t t : fan.triangles) triangles.push_back(mesh_.triangles[t]);
+  return triangles;
+}
+
+// Inner vertices with a long edge whose triangles face against the surface on the whole.
+void Dents::find_apexes(int threads) {
+  std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
+  std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Vec3 n = normal(mesh_.triangles[t]);
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_.triangles[t][(i + 1) % 3], w = mesh_.triangles[t][(i + 2) % 3];
+      if (mesh_.neighbours[t][i] == kNoSide) is_open[v] = is_open[w] = true;
+      if (squared_distance(mesh_.points[v], mesh_.points[w]) > kLeastEdge * kLeastEdge) is_long[v] = is_long[w] = true;
+      normals[v] += n;
+    }
+  }
+  const auto append_if_against = [&](std::size_t i, std::vector<std::uint32_t>& found) {
+    const auto v = static_cast<std::uint32_t>(i);
+    if (is_long[v] && !is_open[v] && is_against(v, normals[v])) found.push_back(v);
+  };
+  for (const std::uint32_t v :
+       collect_in_blocks<std::uint32_t>(normals.size(), threads, append_if_against, kVerticesAtOnce)) {
+    apexes_.push_back({v, {}, {}});
+  }
+}
+
+// That of any cell at the vertex tells.
+bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
+  bool is_against = false;
+  for_each_gradient_at(isosurface_, mesh_.points[v],
+                       [&](const Vec3& gradient) { is_against |= dot(normals, gradient) > 0; });
+  return is_against;
+}
+
+// For all apexes at once: what is near them or meets the box of their links.
+void Dents::find_surroundings() {
+  std::vector<Box3> boxes;
+  for (Apex& apex : apexes_) {
+    VertexFan fan;
+    fans_.find(apex.vertex, fan);
+    apex.box = box_around(apex.vertex, fan);
+    boxes.push_back(apex.box);
+  }
+  const BoxTree tree(boxes);
+  boxes_.resize((mesh_.triangles.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Box3 box = box_of(mesh_, t);
+    boxes_[t / kTrianglesAtOnce].extend(box.low);
+    boxes_[t / kTrianglesAtOnce].extend(box.high);
+    tree.for_each_meeting(box, [&](std::uint32_t a) { apexes_[a].surroundings.push_back(t); });
+  }
+}
+
+// The box in which all lies that may replace the triangles at a vertex or cover it.
+Box3 Dents::box_around(std::uint32_t v, const VertexFan& fan) const {
+  Box3 box;
+  for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
+  const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
+  box.extend(mesh_.points[v] - around);
+  box.extend(mesh_.points[v] + around);
+  return box;
+}
+
+// The same for one whose link is no longer the one it had. Triangles that are not where they were are among the renewed
+// ones, whatever the boxes say.
+void Dents::look_around(Apex& apex, const Box3& box) {
+  if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
+  apex.box = box;
+  apex.surroundings.clear();
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (!boxes_[i].meets(box)) continue;
+    const std::size_t last = std::min((i + 1) * kTrianglesAtOnce, mesh_.triangles.size());
+    for (std::size_t t = i * kTrianglesAtOnce; t < last; ++t) {
+      const auto triangle = static_cast<std::uint32_t>(t);
+      if (fans_.has_triangle(triangle) && box.meets(box_of(mesh_, triangle))) apex.surroundings.push_back(triangle);
+    }
+  }
+}
+
+bool Dents::remove(Apex& apex) {
+  VertexFan fan;
+  if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
+  const LeastTriangulation least = fans_.least_filling(fan);
+  if (!least.exists()) return false;
+  Triangles filling;
+  for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
+  if (!(far_area(filling) < far_area(triangles_of(fan)))) return false;
+  look_around(apex, box_around(apex.vertex, fan));
+  if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
+  fans_.replace(apex.vertex, fan, least);
+  append_apexes(fan.link);
+  return true;
+}
+
+// The next ones of a ridge may show only now.
+void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
+  for (const std::uint32_t v : link) {
+    const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
+    VertexFan fan;
+    if (!is_known && fans_.find(v, fan) && can_be_filled(v, fan)) apexes_.push_back({v, {}, {}});
+  }
+}
+
+// Also, what went around the vertex has not made it one that faces the right way.
+bool Dents::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
+  if (!fans_.can_be_filled(fan)) return false;
+  Vec3 sum;
+  for (const std::uint32_t t : fan.triangles) sum += normal(mesh_.triangles[t]);
+  return is_against(v, sum);
+}
+
+// The area of those of some triangles that have no surface which faces the same way near their middles.
+double Dents::far_area(const Triangles& triangles) {
+  double area = 0;
+  for (const auto& t : triangles) {
+    const Vec3 n = normal(t), middle = (mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3;
+    if (!(norm(n) > 0)) continue;
+    if (!isosurface_.nearest_falling_hit({middle, n / norm(n)}, kLeastDistance, search_)) area += 0.5 * norm(n);
+  }
+  return area;
+}
+
+// Whether the mesh without the vertex is still there where the vertex was: the surface is.
+bool Dents::is_covered(const Apex& apex, const Triangles& filling) const {
+  const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
+    return squared_distance_to_triangle(mesh_.points[apex.vertex], mesh_.points[t[0]], mesh_.points[t[1]],
+                                        mesh_.points[t[2]]) <= kFarthestCover * kFarthestCover;
+  };
+  return std::any_of(filling.begin(), filling.end(), is_near) || any_around(apex, is_near);
+}
+
+// Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
+bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
+  const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
+    return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;
+  };
+  for (std::size_t i = 0; i < filling.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (meets(filling[i], filling[j])) return false;
+    }
+  }
+  return !any_around(apex, [&](const auto& t) {
+    return std::any_of(filling.begin(), filling.end(), [&](const auto& s) { return meets(s, t); });
+  });
+}
+
+}  // namespace
+
+DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
+  return Dents(mesh, isosurface).remove_all(threads);
+}
+
+}  // namespace deliso

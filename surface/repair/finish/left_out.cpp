@@ -1,0 +1,71 @@
+#include "surface/repair/finish/left_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/search/box_tree.h"
+#include "surface/search/covering_triangles.h"
+#include "surface/search/mesh_cover.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr std::int32_t kLayers = 3;  // of cells around a crossing
+
+}  // namespace
+
+std::vector<std::uint32_t> crossings_left_out(const SurfaceMesh& mesh, std::span<const Box3> boxes,
+                                              const ScalarGrid& grid, const IsosurfaceTopology& topology,
+                                              const Vec3& step, int threads) {
+  if (boxes.empty()) return {};
+  const BoxTree tree(boxes);
+  std::vector<std::uint32_t> inside;
+  std::vector<Vec3> points;
+  for (std::uint32_t i = 0; i < topology.crossings.size(); ++i) {
+    const Vec3 p = scaled(crossing_position(grid, topology.crossings[i]), step);
+    bool is_inside = false;
+    tree.for_each_meeting({p, p}, [&](std::uint32_t) { is_inside = true; });
+    if (!is_inside) continue;
+    inside.push_back(i);
+    points.push_back(p);
+  }
+  // Most have a triangle close by; the others are worth a tree of all triangles.
+  const auto any = [](std::uint32_t) { return true; };
+  const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, threads);
+  if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};
+  const MeshCover cover(mesh, threads);
+  std::vector<std::uint32_t> left_out;
+  std::uint32_t guess = 0;
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    if (covering[k] == kNoTriangle && !cover.covers(points[k], guess)) left_out.push_back(inside[k]);
+  }
+  return left_out;
+}
+
+std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
+                                   const IsosurfaceTopology& topology, const RaisedCells& cells) {
+  std::vector<CellName> found;
+  for (const std::uint32_t crossing : crossings) {
+    const Vec3 p = crossing_position(grid, topology.crossings[crossing]);
+    CellIndex first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto place = static_cast<std::int32_t>(std::floor(p[axis]));
+      first[axis] = std::max(place - kLayers, 0);
+      last[axis] = std::min(place + kLayers, grid.dims()[axis] - 2);
+    }
+    for (std::int32_t k = first[2]; k <= last[2]; ++k) {
+      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
+        for (std::int32_t i = first[0]; i <= last[0]; ++i) {
+          const CellIndex cell{i, j, k};
+          bool is_active = false;
+          topology.index.for_each_crossing_of_cell(cell, [&](std::uint32_t) { is_active = true; });
+          if (is_active) found.push_back(cells.name(cell));
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace deliso

@@ -1,0 +1,102 @@
+#include "surface/repair/lattice/raised_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/repair/lattice/sample_lattice.h"
+
+namespace deliso {
+
+namespace {
+
+// From this level on neighbouring cells may differ by one level only.
+constexpr int kGradedLevel = 3;
+// A point this near to a side of its cell (in index space) lies on that side.
+constexpr double kOnSide = 1e-6;
+
+}  // namespace
+
+CellIndex RaisedCells::cell(CellName name) const {
+  const auto nx = static_cast<std::uint64_t>(grid_.dims()[0]);
+  const auto ny = static_cast<std::uint64_t>(grid_.dims()[1]);
+  return {static_cast<std::int32_t>(name % nx), static_cast<std::int32_t>(name / nx % ny),
+          static_cast<std::int32_t>(name / nx / ny)};
+}
+
+CellIndex RaisedCells::cell_of(const Vec3& p) const {
+  CellIndex cell{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double last = grid_.dims()[axis] - 2;
+    cell[axis] = static_cast<std::int32_t>(std::clamp(std::floor(p[axis] / isosurface_.step()[axis]), 0.0, last));
+  }
+  return cell;
+}
+
+void RaisedCells::append_cells_of(const Vec3& p, std::vector<CellName>& cells) const {
+  const Vec3 margin = kOnSide * isosurface_.step();
+  const CellIndex low = cell_of(p - margin);
+  const CellIndex high = cell_of(p + margin);
+  for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+    for (std::int32_t j = low[1]; j <= high[1]; ++j) {
+      for (std::int32_t i = low[0]; i <= high[0]; ++i) cells.push_back(name({i, j, k}));
+    }
+  }
+}
+
+void RaisedCells::raise(std::vector<CellName> cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const CellName cell : cells) {
+    int& level = level_[cell];
+    level = std::min(level + 1, kMaxLatticeLevel);
+  }
+  grade();
+}
+
+void RaisedCells::grade() {
+  std::vector<CellName> stack;
+  for (const auto& [cell, level] : level_) {
+    if (level >= kGradedLevel) stack.push_back(cell);
+  }
+  while (!stack.empty()) {
+    const CellName at = stack.back();
+    stack.pop_back();
+    const int least = level_[at] - 1;
+    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) {
+      int& level = level_[name(neighbour)];
+      if (level >= least) return;
+      level = least;
+      if (least >= kGradedLevel) stack.push_back(name(neighbour));
+    });
+  }
+}
+
+std::vector<CellName> RaisedCells::extend(Zones& zones) const {
+  std::vector<CellName> changed;
+  for (const auto& [at, level] : level_) {
+    const auto [zone, is_new] = zones.try_emplace(at, Zone::kRaised);
+    if (!is_new && zone->second == Zone::kRaised) continue;
+    zone->second = Zone::kRaised;
+    changed.push_back(at);
+    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) {
+      if (zones.try_emplace(name(neighbour), Zone::kRing).second) changed.push_back(name(neighbour));
+    });
+  }
+  return changed;
+}
+
+template <class Visit>
+void RaisedCells::for_each_neighbour(const CellIndex& cell, Visit visit) const {
+  for (std::int32_t dk = -1; dk <= 1; ++dk) {
+    for (std::int32_t dj = -1; dj <= 1; ++dj) {
+      for (std::int32_t di = -1; di <= 1; ++di) {
+        const CellIndex c{cell[0] + di, cell[1] + dj, cell[2] + dk};
+        bool inside = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) inside &= c[axis] >= 0 && c[axis] < grid_.dims()[axis] - 1;
+        if (inside && c != cell) visit(c);
+      }
+    }
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,265 @@
+#include "surface/repair/rounds/kept_meshes.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "delaunay/base/parallel.h"
+#include "surface/extract/separate_copies.h"
+#include "surface/mesh/vertex_fans.h"
+#include "surface/repair/diagnosis/matched_mesh.h"
+
+namespace deliso {
+
+namespace {
+
+// A mesh is cut down to a part when that is smaller so many times.
+constexpr std::int64_t kWorthCutting = 2;
+
+// The wanted pieces and all that hang together with them by copies of one vertex.
+std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector<bool>& wanted) {
+  const std::vector<VertexId>& vertex_of = mesh.built.vertex_of;
+  std::vector<std::uint32_t> parent(wanted.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<std::uint32_t> piece_at;  // the first one at each vertex of the triangulation
+  for (std::size_t v = 0; v < vertex_of.size(); ++v) {
+    const std::uint32_t piece = mesh.match.piece_of[v];
+    if (piece == kNoPiece) continue;
+    if (vertex_of[v].index() >= piece_at.size()) piece_at.resize(vertex_of[v].index() + 1, kNoPiece);
+    std::uint32_t& first = piece_at[vertex_of[v].index()];
+    if (first == kNoPiece) first = piece;
+    parent[find(piece)] = find(first);
+  }
+  std::vector<bool> is_touched(wanted.size(), false);
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i]) is_touched[find(i)] = true;
+  }
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) is_touched[i] = is_touched[find(i)];
+  return is_touched;
+}
+
+// Some pieces of a mesh, under their numbers.
+MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
+  MatchedMesh part;
+  const std::vector<std::uint32_t>& piece_of = whole.match.piece_of;
+  append_pieces(whole.built.mesh, piece_of, pieces, part.built.mesh);
+  part.match = {whole.match.pieces, {}, whole.match.main_piece, whole.match.agreement, whole.match.error};
+  std::vector<std::uint32_t> name(piece_of.size(), kNoPiece);
+  for (std::size_t v = 0; v < piece_of.size(); ++v) {
+    if (piece_of[v] == kNoPiece || !pieces[piece_of[v]]) continue;
+    name[v] = static_cast<std::uint32_t>(part.component.size());
+    part.component.push_back(whole.component[v]);
+    part.match.piece_of.push_back(piece_of[v]);
+    part.built.vertex_of.push_back(whole.built.vertex_of[v]);
+  }
+  const auto stays = [&](std::uint32_t v) { return name[v] != kNoPiece; };
+  for (const std::uint32_t v : whole.built.copies) {
+    if (stays(v)) part.built.copies.push_back(name[v]);
+  }
+  for (const CopyGroup& group : whole.built.groups) {
+    if (!stays(group.front().vertex)) continue;  // nor do the others
+    part.built.groups.push_back(group);
+    for (Copy& copy : part.built.groups.back()) copy.vertex = name[copy.vertex];
+  }
+  return part;
+}
+
+// The homes on the surface of the copies that have another one, too.
+class TrueHomes {
+ public:
+  // Of copies that still are at their first homes.
+  explicit TrueHomes(const BuiltMesh& built) {
+    for (const CopyGroup& group : built.groups) {
+      for (const Copy& copy : group) {
+        if (!copy.has_false_home) continue;
+        std::vector<Vec3> homes = copy.other_homes;
+        homes.insert(homes.begin(), built.mesh.points[copy.vertex]);
+        homes.pop_back();
+        homes_.emplace_back(copy.vertex, std::move(homes));
+      }
+    }
+  }
+  // The copies that were moved away from all of theirs, by more than a hair's breadth.
+  [[nodiscard]] std::vector<std::uint32_t> left_by(const std::vector<Vec3>& points) const {
+    std::vector<std::uint32_t> left;
+    for (const auto& [v, homes] : homes_) {
+      const Vec3& p = points[v];
+      const auto is_near = [&](const Vec3& home) { return squared_distance(p, home) < kHairsBreadth * kHairsBreadth; };
+      if (std::none_of(homes.begin(), homes.end(), is_near)) left.push_back(v);
+    }
+    return left;
+  }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
+};
+
+// A mesh that gives some of its pieces, with the component and the piece of each vertex.
+struct GivenMesh {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> component;
+  std::vector<std::uint32_t> piece_of;
+
+  // Pieces in which one of these has to stay are wanted no more.
+  void take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted);
+};
+
+void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted) {
+  if (vertices.empty()) return;
+  VertexFans fans(mesh);
+  fans.take_out(vertices);
+  for (const std::uint32_t v : vertices) {
+    if (fans.has(v)) wanted[piece_of[v]] = false;
+  }
+  // The others keep their order.
+  std::size_t vertex_count = 0;
+  for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
+    if (!fans.has(v)) continue;
+    component[vertex_count] = component[v];
+    piece_of[vertex_count++] = piece_of[v];
+  }
+  component.resize(vertex_count);
+  piece_of.resize(vertex_count);
+  fans.drop_free_slots();
+}
+
+}  // namespace
+
+bool KeptMeshes::would_be_done(const MatchedMesh& mesh) const {
+  for (std::size_t c = 0; c < done_.size(); ++c) {
+    if (!done_[c] && mesh.match.agreement[c] < Agreement::kWithStrays) return false;
+  }
+  return true;
+}
+
+void KeptMeshes::reopen(std::uint32_t component) {
+  done_[component] = false;
+  best_[component] = Agreement::kPartial;
+  drop_outdone();
+}
+
+// Keeps a mesh when some component agrees with it that agreed with no earlier one.
+void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
+  bool helps = false;
+  for (std::size_t c = 0; c < done_.size(); ++c) {
+    if (mesh->match.agreement[c] <= best_[c]) continue;
+    best_[c] = std::min(mesh->match.agreement[c], Agreement::kWithStrays);
+    done_[c] = best_[c] == Agreement::kWithStrays;
+    helps = true;
+  }
+  if (!helps) return;
+  kept_.push_back({std::move(mesh), std::move(signs)});
+  drop_outdone();
+}
+
+// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be, and of the
+// others all that will not.
+void KeptMeshes::drop_outdone() {
+  std::vector<bool> given(done_.size(), false);
+  for (auto kept = kept_.end(); kept != kept_.begin();) {
+    --kept;
+    std::vector<bool> gives(given.size(), false);
+    for (std::size_t c = 0; c < given.size(); ++c) {
+      if (given[c] || !may_give(*kept->mesh, c)) continue;
+      given[c] = gives[c] = true;
+    }
+    if (std::find(gives.begin(), gives.end(), true) == gives.end()) {
+      kept = kept_.erase(kept);
+    } else {
+      cut_down(*kept, gives);
+    }
+  }
+}
+
+// To the main pieces of the components that the mesh gives, and those that touch them: copies are going to be moved
+// apart.
+void KeptMeshes::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const {
+  const MatchedMesh& whole = *kept.mesh;
+  std::vector<bool> wanted(whole.match.pieces.size(), false);
+  for (std::size_t c = 0; c < gives.size(); ++c) {
+    if (gives[c]) wanted[whole.match.main_piece[c]] = true;
+  }
+  const std::vector<bool> stays = with_pieces_touched(whole, wanted);
+  std::int64_t left = 0;
+  for (std::size_t i = 0; i < stays.size(); ++i) left += stays[i] ? whole.match.pieces[i].vertices : 0;
+  if (kWorthCutting * left > static_cast<std::int64_t>(whole.built.mesh.points.size())) return;
+  kept.mesh = std::make_shared<MatchedMesh>(part_of(whole, stays));
+  for (std::size_t c = 0; c < gives.size(); ++c) {
+    if (!gives[c]) kept.mesh->match.agreement[c] = Agreement::kNone;
+  }
+}
+
+// Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
+// from them.
+void KeptMeshes::give_poles(RepairRound& round) {
+  if (std::all_of(kept_.begin(), kept_.end(), [](const KeptMesh& kept) { return kept.signs.empty(); })) return;
+  const TetSigns signs = round.restricted().signs();
+  for (KeptMesh& kept : kept_) {
+    if (kept.signs.empty()) continue;
+    round.set_signs(kept.signs);
+    kept.signs.clear();
+    BuiltMesh& built = kept.mesh->built;
+    std::vector<bool> wanted(round.restricted().delaunay().vertex_count(), false);
+    for (std::size_t v = 0; v < built.vertex_of.size(); ++v) {
+      const std::uint32_t piece = kept.mesh->match.piece_of[v];
+      if (piece != kNoPiece && may_give(*kept.mesh, kept.mesh->match.pieces[piece].component)) {
+        wanted[built.vertex_of[v].index()] = true;
+      }
+    }
+    const std::vector<double>& heights = round.pole_heights(wanted);
+    for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
+  }
+  round.set_signs(signs);
+}
+
+AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const {
+  left.assign(done_.size(), true);
+  stats.components_mixed = stats.components_stray = 0;
+  std::vector<std::vector<bool>> wanted(kept_.size());  // pieces of each mesh
+  std::vector<std::size_t> giver(done_.size(), kept_.size());
+  for (std::size_t i = kept_.size(); i-- > 0;) {
+    const ComponentMatch& match = kept_[i].mesh->match;
+    wanted[i].assign(match.pieces.size(), false);
+    for (std::size_t c = 0; c < done_.size(); ++c) {
+      if (giver[c] < kept_.size() || !may_give(*kept_[i].mesh, c)) continue;
+      giver[c] = i;
+      wanted[i][match.main_piece[c]] = true;
+    }
+  }
+  std::vector<GivenMesh> given(kept_.size());
+  run_tasks(kept_.size(), threads, [&](std::size_t i) {
+    const auto& [built, component, match] = *kept_[i].mesh;
+    if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
+    const auto is_wanted = [&wanted = wanted[i], &piece_of = match.piece_of](std::uint32_t v) {
+      return piece_of[v] != kNoPiece && wanted[piece_of[v]];
+    };
+    given[i] = {built.mesh, component, match.piece_of};
+    separate_copies(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
+    std::vector<std::uint32_t> homeless = TrueHomes(built).left_by(given[i].mesh.points);
+    std::erase_if(homeless, [&](std::uint32_t v) { return !is_wanted(v); });
+    given[i].take_out(homeless, wanted[i]);
+  });
+  for (std::size_t c = 0; c < done_.size(); ++c) {
+    if (giver[c] == kept_.size()) continue;
+    const ComponentMatch& match = kept_[giver[c]].mesh->match;
+    if (!wanted[giver[c]][match.main_piece[c]]) continue;
+    left[c] = false;
+    stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
+    stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
+  }
+  AssembledMesh all;
+  for (std::size_t i = kept_.size(); i-- > 0;) {
+    const GivenMesh from = std::exchange(given[i], {});
+    append_pieces(from.mesh, from.piece_of, wanted[i], all.mesh);
+    for (std::size_t v = 0; v < from.piece_of.size(); ++v) {
+      if (from.piece_of[v] != kNoPiece && wanted[i][from.piece_of[v]]) all.component.push_back(from.component[v]);
+    }
+  }
+  return all;
+}
+
+}  // namespace deliso

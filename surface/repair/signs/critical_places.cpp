@@ -1,0 +1,99 @@
+#include "surface/repair/signs/critical_places.h"
+
+#include <bit>
+#include <utility>
+
+#include "surface/base/blocks.h"
+#include "volume/topology/critical_points.h"
+
+namespace deliso {
+
+namespace {
+
+// Places that one thread looks for at a time.
+constexpr std::size_t kPlacesAtOnce = 4096;
+
+void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const CellIndex& cell,
+                   std::vector<CriticalPlace>& places) {
+  const auto append = [&](const Vec3& uvw, bool is_above) {
+    const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
+    places.push_back({scaled(p, isosurface.step()), cell, is_above});
+  };
+  const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
+  std::vector<CriticalPoint> saddles;
+  append_critical_points(corners, saddles);
+  for (const CriticalPoint& saddle : saddles) {
+    const int side = side_of_saddle(corners, isosurface.isovalue(), saddle);
+    if (side != 0) append(saddle.uvw, side > 0);
+  }
+  for (unsigned critical = critical_corners(grid, cell); critical != 0; critical &= critical - 1) {
+    const auto corner = static_cast<unsigned>(std::countr_zero(critical));
+    append({static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)},
+           corners[corner] > isosurface.isovalue());
+  }
+}
+
+}  // namespace
+
+void LocatedPlaces::find(std::span<const CellIndex> cells, int threads) {
+  // A cell whose places are known is left alone; one that was found to have none is asked again.
+  std::vector<CellIndex> asked;
+  auto known = places_.begin();
+  for (const CellIndex& cell : cells) {
+    while (known != places_.end() && is_before(known->cell, cell)) ++known;
+    if (known == places_.end() || known->cell != cell) asked.push_back(cell);
+  }
+  const Isosurface& isosurface = restricted_.isosurface();
+  add(collect_in_blocks<CriticalPlace>(asked.size(), threads, [&](std::size_t i, std::vector<CriticalPlace>& places) {
+    append_places(isosurface, grid_, asked[i], places);
+  }));
+}
+
+// Those of cells that had none.
+void LocatedPlaces::add(const std::vector<CriticalPlace>& found) {
+  std::vector<CriticalPlace> places;
+  std::vector<TetId> tets;
+  places.reserve(places_.size() + found.size());
+  tets.reserve(places.capacity());
+  auto next = found.begin();
+  for (std::size_t i = 0; i <= places_.size(); ++i) {
+    for (; next != found.end() && (i == places_.size() || is_before(next->cell, places_[i].cell)); ++next) {
+      places.push_back(*next);
+      tets.push_back(TetId::none());
+    }
+    if (i == places_.size()) break;
+    places.push_back(places_[i]);
+    tets.push_back(tets_[i]);
+  }
+  places_ = std::move(places);
+  tets_ = std::move(tets);
+}
+
+void LocatedPlaces::renew(const ExchangedPoints& exchanged) {
+  std::vector<bool> is_renewed(restricted_.delaunay().tet_slots(), false);
+  for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
+  for (TetId& t : tets_) {
+    if (!t.is_none() && is_renewed[t.index()]) t = TetId::none();
+  }
+}
+
+void LocatedPlaces::locate(std::span<const std::uint32_t> wanted, int threads) {
+  for_each_block(
+      wanted.size(), threads,
+      [&](std::size_t first, std::size_t last) {
+        TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
+        for (const std::uint32_t i : wanted.subspan(first, last - first)) {
+          if (tets_[i].is_none()) tets_[i] = located(places_[i], hint);
+          hint = tets_[i];
+        }
+      },
+      kPlacesAtOnce);
+}
+
+TetId LocatedPlaces::located(const CriticalPlace& place, TetId hint) const {
+  const CellIndex& cell = place.cell;
+  const Vec3 center = scaled({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}, restricted_.isosurface().step());
+  return restricted_.locate(place.point, center, hint);
+}
+
+}  // namespace deliso

@@ -1,0 +1,238 @@
+#include "surface/repair/signs/evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "delaunay/predicates.h"
+#include "surface/base/blocks.h"
+#include "surface/repair/signs/passage.h"
+#include "surface/repair/signs/sample_locator.h"
+#include "volume/topology/critical_points.h"
+#include "volume/topology/exact_topology_cell.h"
+
+namespace deliso {
+
+namespace {
+
+// Segments are followed down to this length (mesh-space units); shorter passages through a tetrahedron may be missed.
+constexpr double kShortest = 1.0 / 64;
+
+// Cells that one thread takes at a time.
+constexpr std::size_t kCellsAtOnce = 64;
+
+class Collector {
+ public:
+  Collector(const SignedDelaunay& restricted, const ScalarGrid& grid, std::vector<std::uint8_t>& sides)
+      : restricted_(restricted),
+        delaunay_(restricted.delaunay()),
+        grid_(grid),
+        locator_(restricted, grid),
+        sides_(sides),
+        hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
+
+  // Returns the tetrahedra that the evidence was found in.
+  std::vector<TetId> collect(const CellIndex& cell);
+
+ private:
+  // A point of a segment and the tetrahedron that holds it.
+  struct Stop {
+    double s = 0;
+    Vec3 point;
+    Passage passage;
+  };
+
+  void collect_edges(const CellIndex& cell, const CellCorners& corners);
+  void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
+  void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
+  void follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side);
+  [[nodiscard]] Passage passage_of(TetId t, const Segment& segment) const {
+    return delaunay_.is_ghost(t) ? Passage{t} : passage_through(delaunay_, t, segment);
+  }
+  TetId note(const Vec3& p, std::uint8_t side);
+  TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
+  void note_located(const Vec3& p, std::uint8_t side);
+  // Several collectors may note at once; what is noted does not depend on the order.
+  void note_at(TetId t, std::uint8_t side) {
+    const std::atomic_ref<std::uint8_t> noted(sides_[t.index()]);
+    if ((noted.load(std::memory_order_relaxed) & side) == 0) noted.fetch_or(side, std::memory_order_relaxed);
+  }
+  [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
+    return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
+  }
+  [[nodiscard]] std::uint8_t side_of(double value) const {
+    return value > restricted_.isosurface().isovalue() ? kAbove : kBelow;
+  }
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+  const ScalarGrid& grid_;
+  SampleLocator locator_;
+  std::vector<std::uint8_t>& sides_;  // shared
+  TetId hint_;
+  std::vector<CriticalPoint> critical_;
+  // Of the present cell:
+  Vec3 center_;
+  std::vector<TetId> trace_;
+};
+
+Vec3 corner_place(unsigned corner) {
+  return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
+}
+
+std::vector<TetId> Collector::collect(const CellIndex& cell) {
+  trace_.clear();
+  center_ = place(cell, {0.5, 0.5, 0.5});
+  const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+  collect_edges(cell, corners);
+  collect_critical_points(cell, corners);
+  std::sort(trace_.begin(), trace_.end());
+  trace_.erase(std::unique(trace_.begin(), trace_.end()), trace_.end());
+  return {trace_.begin(), trace_.end()};
+}
+
+void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    for (unsigned axis = 1; axis <= 4; axis *= 2) {
+      if ((corner & axis) != 0) continue;
+      const std::uint8_t side = side_of(corners[corner]);
+      if (side != side_of(corners[corner | axis])) continue;
+      const TetId at_a = note_corner(cell, corner, side);
+      const TetId at_b = note_corner(cell, corner | axis, side);
+      follow(place(cell, corner_place(corner)), at_a, place(cell, corner_place(corner | axis)), at_b, side);
+    }
+  }
+}
+
+// Saddles of faces, joined to the corners of their face that lie farther on their side; saddles of the body alone.
+void Collector::collect_critical_points(const CellIndex& cell, const CellCorners& corners) {
+  critical_.clear();
+  append_critical_points(corners, critical_);
+  for (const CriticalPoint& c : critical_) {
+    const int known = side_of_saddle(corners, restricted_.isosurface().isovalue(), c);
+    if (known == 0) continue;
+    const std::uint8_t side = known > 0 ? kAbove : kBelow;
+    const Vec3 p = place(cell, c.uvw);
+    note(p, side);
+    if (c.face < 0) continue;
+    for (const int corner : face_corners(c.face)) {
+      const double value = corners[static_cast<std::size_t>(corner)];
+      if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
+        const TetId at_p = note(p, side);
+        const TetId at_corner = note_corner(cell, static_cast<unsigned>(corner), side);
+        follow(p, at_p, place(cell, corner_place(static_cast<unsigned>(corner))), at_corner, side);
+      }
+    }
+  }
+}
+
+void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
+  if (at_a == at_b) return;
+  const Segment segment{a, b};
+  follow(segment, {0, a, passage_of(at_a, segment)}, {1, b, passage_of(at_b, segment)}, side);
+}
+
+// Halves the segment until both ends lie in one tetrahedron. Where the middle is surely in one of the two, that one has
+// taken note; only elsewhere is its tetrahedron looked for.
+void Collector::follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side) {
+  const double squared_length = squared_distance(from.point, to.point);
+  if (from.passage.tet == to.passage.tet || squared_length < kShortest * kShortest) return;
+  Stop middle{0.5 * (from.s + to.s), 0.5 * (from.point + to.point), {}};
+  if (from.passage.surely_holds(middle.s) || to.passage.surely_holds(middle.s)) {
+    middle.passage = from.passage.surely_holds(middle.s) ? from.passage : to.passage;
+    hint_ = middle.passage.tet;
+  } else {
+    middle.passage.tet = note(middle.point, side);
+    const bool is_last = squared_length < 4 * kShortest * kShortest;
+    if (!is_last) middle.passage = passage_of(hint_, segment);
+  }
+  follow(segment, from, middle, side);
+  follow(segment, middle, to, side);
+}
+
+TetId Collector::note(const Vec3& p, std::uint8_t side) {
+  hint_ = restricted_.locate(p, center_, hint_);
+  note_located(p, side);
+  return hint_;
+}
+
+TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
+  hint_ = locator_.locate(cell, corner, hint_);
+  note_located(place(cell, corner_place(corner)), side);
+  return hint_;
+}
+
+// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on. Other ghosts
+// do not: what lies beyond the hull says nothing about it.
+void Collector::note_located(const Vec3& p, std::uint8_t side) {
+  trace_.push_back(hint_);
+  if (delaunay_.is_ghost(hint_)) return;
+  note_at(hint_, side);
+  if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return;
+  for (unsigned face = 0; face < 4; ++face) {
+    const auto [a, b, c] = delaunay_.facet_vertices(FacetId(hint_, face));
+    if (orient3d(delaunay_.point(a), delaunay_.point(b), delaunay_.point(c), p) != 0) continue;
+    const TetId across = delaunay_.neighbour(hint_, face);
+    trace_.push_back(across);
+    if (delaunay_.is_ghost(across)) note_at(across, side);
+  }
+}
+
+}  // namespace
+
+void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  sides_.resize(delaunay.tet_slots(), kNoEvidence);
+  std::vector<bool> is_renewed(sides_.size(), false);
+  const auto forget = [&](TetId t) {
+    sides_[t.index()] = kNoEvidence;
+    is_renewed[t.index()] = true;
+  };
+  for (const TetId t : exchanged.renewed) {
+    forget(t);
+    if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
+    // What a ghost took note of came from the tetrahedron before it.
+    for (unsigned face = 0; face < 4; ++face) {
+      if (delaunay.is_ghost(delaunay.neighbour(t, face))) forget(delaunay.neighbour(t, face));
+    }
+  }
+  for (Trace& trace : traces_) {
+    if (std::any_of(trace.tets.begin(), trace.tets.end(), [&](TetId t) { return is_renewed[t.index()]; })) {
+      trace.is_stale = true;
+    }
+  }
+}
+
+void RaisedEvidence::update(const RaisedCells& raised, int threads) {
+  sides_.resize(restricted_.delaunay().tet_slots(), kNoEvidence);
+  // Cells that have been raised once stay so.
+  std::vector<Trace> traces;
+  traces.reserve(raised.levels().size());
+  std::vector<std::size_t> stale;
+  auto old = traces_.begin();
+  for (const auto& [name, level] : raised.levels()) {
+    if (old != traces_.end() && old->cell == name) {
+      traces.push_back(std::move(*old++));
+    } else {
+      traces.push_back({name, {}, true});
+    }
+    if (traces.back().is_stale) stale.push_back(traces.size() - 1);
+  }
+  traces_ = std::move(traces);
+
+  // What a cell notes in tetrahedra that are as they were has been noted before.
+  for_each_block(
+      stale.size(), threads,
+      [&](std::size_t first, std::size_t last) {
+        Collector collector(restricted_, grid_, sides_);
+        for (std::size_t i = first; i < last; ++i) {
+          Trace& trace = traces_[stale[i]];
+          trace.tets = collector.collect(raised.cell(trace.cell));
+          trace.is_stale = false;
+        }
+      },
+      kCellsAtOnce);
+}
+
+}  // namespace deliso

@@ -1,0 +1,246 @@
+#include "surface/repair/signs/local_characteristic.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "surface/extract/facet_pairing.h"
+
+namespace deliso {
+
+namespace {
+
+// A few tetrahedra, at times many: where samples lie in planes far apart, hundreds meet at a vertex.
+class TetSet {
+ public:
+  void clear() {
+    std::fill(table_.begin(), table_.end(), kFree);
+    size_ = 0;
+  }
+  // Returns whether it was not there yet.
+  bool insert(TetId t) {
+    if (2 * ++size_ > table_.size()) grow();
+    std::uint32_t& slot = slot_of(t.value);
+    if (slot == t.value) {
+      --size_;
+      return false;
+    }
+    slot = t.value;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+
+  // Where a number is, or is to go.
+  std::uint32_t& slot_of(std::uint32_t number) {
+    const std::size_t last = table_.size() - 1;
+    std::size_t at = (number * std::size_t{0x9E3779B97F4A7C15} >> 32) & last;
+    while (table_[at] != kFree && table_[at] != number) at = (at + 1) & last;
+    return table_[at];
+  }
+  void grow() {
+    const std::vector<std::uint32_t> old = std::exchange(table_, std::vector(2 * table_.size(), kFree));
+    for (const std::uint32_t number : old) {
+      if (number != kFree) slot_of(number) = number;
+    }
+  }
+
+  std::vector<std::uint32_t> table_ = std::vector(64, kFree);  // a power of two of them, half of it in use at most
+  std::size_t size_ = 0;
+};
+
+// Whether turning over the sign of a tetrahedron moves the mesh from one part of its boundary to the other and changes
+// nothing else, as at a simple point of a digital image (Kong and Rosenfeld, Digital topology, 1989). Certain only when
+// true: one, two or three of its facets are in the mesh, a disk; every edge on the rim of this disk has one facet more,
+// and no other facet is at an edge of the tetrahedron. So each edge keeps what two facets it has, or gets or loses
+// both, and each vertex keeps its umbrellas but for one of three facets that comes or goes with its three edges.
+class SimpleTet {
+ public:
+  explicit SimpleTet(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}
+
+  [[nodiscard]] bool operator()(TetId t) const {
+    const auto& v = delaunay_.vertices(t);
+    if (std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); })) return false;
+    std::array<bool, 4> in_mesh{};
+    for (unsigned face = 0; face < 4; ++face) in_mesh[face] = restricted_.is_restricted(FacetId(t, face));
+    const auto count = std::count(in_mesh.begin(), in_mesh.end(), true);
+    if (count == 0 || count == 4) return false;
+    for (unsigned i = 0; i < 4; ++i) {
+      for (unsigned j = i + 1; j < 4; ++j) {
+        if (facets_around(t, i, j) != (in_mesh[i] || in_mesh[j] ? 2 : 0)) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kMany = 3;
+
+  // How many facets of the mesh are at the edge that faces i and j of t have in common; kMany for more than two and
+  // where there are virtual vertices.
+  [[nodiscard]] int facets_around(TetId t, unsigned i, unsigned j) const {
+    int count = 0;
+    bool is_above = restricted_.is_above(t);
+    FacetId out(t, i);
+    VertexId third = delaunay_.vertices(t)[j];  // of `out`, beside the edge
+    for (;;) {
+      const FacetId in = delaunay_.mirror(out);
+      if (restricted_.is_above(in.tet()) != is_above && ++count == kMany) return kMany;
+      if (in.tet() == t) return count;
+      is_above = restricted_.is_above(in.tet());
+      out = facet_opposite(delaunay_, in.tet(), third);
+      third = delaunay_.vertices(in.tet())[in.face()];
+      if (restricted_.is_virtual(third)) return kMany;
+    }
+  }
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+};
+
+// Whether the mesh stays what it is, but for its place, when the tetrahedra are turned over one after the other.
+bool are_simple(SignedDelaunay& restricted, std::span<const TetId> tets) {
+  const SimpleTet is_simple(restricted);
+  std::size_t turned = 0;
+  while (turned < tets.size() && is_simple(tets[turned])) restricted.overturn_sign(tets[turned++]);
+  for (const TetId t : tets.first(turned)) restricted.overturn_sign(t);
+  return turned == tets.size();
+}
+
+// V - E + F of the simplices of the mesh whose vertices all belong to some tetrahedra. Signs of these change nothing
+// else: an umbrella, which is a vertex of the mesh, lies in the star of its vertex, an edge's facets around the edge.
+class LocalMesh {
+ public:
+  LocalMesh(const SignedDelaunay& restricted, std::span<const TetId> tets)
+      : restricted_(restricted), delaunay_(restricted.delaunay()) {
+    for (const TetId t : tets) {
+      for (const VertexId v : delaunay_.vertices(t)) {
+        if (!restricted_.is_virtual(v) && !holds(v)) add(v, t);
+      }
+    }
+  }
+
+  // Twice the characteristic: an edge counts half for each of its two sides.
+  [[nodiscard]] std::int64_t doubled_characteristic() {
+    std::int64_t doubled = 0;
+    for (const Star& star : vertices_) {
+      const VertexId v = star.vertex;
+      find_facets_around(star);
+      doubled += 2 * count_umbrellas(v);
+      for (const FacetId f : facets_) doubled += doubled_facet(f, v);
+    }
+    return doubled;
+  }
+
+ private:
+  struct Star {
+    VertexId vertex;
+    std::size_t first, last;  // of the tetrahedra around it, in stars_
+  };
+
+  [[nodiscard]] bool holds(VertexId v) const {
+    return std::any_of(vertices_.begin(), vertices_.end(), [v](const Star& star) { return star.vertex == v; });
+  }
+  [[nodiscard]] bool is_in_mesh(FacetId f) const {
+    const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
+    return std::none_of(v.begin(), v.end(), [&](VertexId q) { return restricted_.is_virtual(q); });
+  }
+  void add(VertexId v, TetId from);
+  void find_facets_around(const Star& star);
+  [[nodiscard]] std::int64_t count_umbrellas(VertexId v);
+  [[nodiscard]] std::int64_t doubled_facet(FacetId f, VertexId at) const;
+
+  const SignedDelaunay& restricted_;
+  const Tetrahedralization& delaunay_;
+  std::vector<Star> vertices_;
+  std::vector<TetId> stars_;
+  TetSet in_star_;
+  std::vector<FacetId> facets_;  // of the mesh around one vertex, seen from above
+  std::vector<std::size_t> umbrella_;
+};
+
+// A vertex with the tetrahedra around it, one of which is known.
+void LocalMesh::add(VertexId v, TetId from) {
+  const std::size_t first = stars_.size();
+  in_star_.clear();
+  in_star_.insert(from);
+  stars_.push_back(from);
+  for (std::size_t at = first; at < stars_.size(); ++at) {
+    const TetId t = stars_[at];
+    for (unsigned face = 0; face < 4; ++face) {
+      if (delaunay_.vertices(t)[face] == v) continue;
+      const TetId next = delaunay_.neighbour(t, face);
+      if (in_star_.insert(next)) stars_.push_back(next);
+    }
+  }
+  vertices_.push_back({v, first, stars_.size()});
+}
+
+void LocalMesh::find_facets_around(const Star& star) {
+  facets_.clear();
+  for (std::size_t at = star.first; at < star.last; ++at) {
+    const TetId t = stars_[at];
+    if (!restricted_.is_above(t)) continue;
+    for (unsigned face = 0; face < 4; ++face) {
+      const FacetId f(t, face);
+      if (delaunay_.vertices(t)[face] == star.vertex || !restricted_.is_restricted(f) || !is_in_mesh(f)) continue;
+      facets_.push_back(f);
+    }
+  }
+}
+
+// Classes of the facets around v that are joined across edges at v.
+std::int64_t LocalMesh::count_umbrellas(VertexId v) {
+  umbrella_.resize(facets_.size());
+  std::iota(umbrella_.begin(), umbrella_.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (umbrella_[i] != i) i = umbrella_[i];
+    return i;
+  };
+  auto umbrellas = static_cast<std::int64_t>(facets_.size());
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    for (const VertexId third : delaunay_.facet_vertices(facets_[i])) {
+      if (third == v) continue;
+      const FacetId partner = paired_across(restricted_, facets_[i], third).partner;
+      const auto at = std::find(facets_.begin(), facets_.end(), partner);
+      if (at == facets_.end()) continue;
+      const std::size_t a = root(i), b = root(static_cast<std::size_t>(at - facets_.begin()));
+      if (a == b) continue;
+      umbrella_[a] = b;
+      --umbrellas;
+    }
+  }
+  return umbrellas;
+}
+
+// What a facet counts for, with its sides; at one of its vertices only, the first of those that are held.
+std::int64_t LocalMesh::doubled_facet(FacetId f, VertexId at) const {
+  const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
+  if (*std::find_if(v.begin(), v.end(), [&](VertexId q) { return holds(q); }) != at) return 0;
+  std::int64_t doubled = 0;
+  bool is_whole = true;
+  for (unsigned i = 0; i < 3; ++i) {
+    is_whole = is_whole && holds(v[i]);
+    if (!holds(v[(i + 1) % 3]) || !holds(v[(i + 2) % 3])) continue;
+    doubled -= is_in_mesh(paired_across(restricted_, f, v[i]).partner) ? 1 : 2;
+  }
+  return is_whole ? doubled + 2 : doubled;
+}
+
+}  // namespace
+
+std::int64_t change_of_characteristic(SignedDelaunay& restricted, std::span<const TetId> tets) {
+  if (are_simple(restricted, tets)) return 0;  // nearly always
+  LocalMesh local(restricted, tets);
+  const std::int64_t before = local.doubled_characteristic();
+  for (const TetId t : tets) restricted.overturn_sign(t);
+  const std::int64_t after = local.doubled_characteristic();
+  for (const TetId t : tets) restricted.overturn_sign(t);
+  return (after - before) / 2;
+}
+
+}  // namespace deliso

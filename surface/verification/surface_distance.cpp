@@ -1,0 +1,110 @@
+#include "surface/verification/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "surface/mesh/triangle_distance.h"
+#include "surface/search/box_tree.h"
+
+namespace deliso {
+
+namespace {
+
+// Gathers maximum and weighted mean.
+class FigureBuilder {
+ public:
+  void add(double distance, double weight, const Vec3& where) {
+    if (distance > figure_.max_voxels || weight_ == 0) {
+      figure_.max_voxels = distance;
+      figure_.worst = where;
+    }
+    sum_ += weight * distance;
+    weight_ += weight;
+  }
+  [[nodiscard]] DistanceFigure figure() const {
+    DistanceFigure result = figure_;
+    if (weight_ > 0) result.mean_voxels = sum_ / weight_;
+    return result;
+  }
+
+ private:
+  DistanceFigure figure_;
+  double sum_ = 0;
+  double weight_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
+  std::vector<bool> is_referenced(mesh.points.size(), false);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) is_referenced[v] = true;
+  }
+  std::vector<std::optional<double>> distances(mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (is_referenced[v]) distances[v] = probe.nearest_point(mesh.points[v]).distance;
+  }
+  return distances;
+}
+
+DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances) {
+  FigureBuilder builder;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (distances[v]) builder.add(*distances[v], 1, mesh.points[v]);
+  }
+  return builder.figure();
+}
+
+DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
+  constexpr int kMostPerEdge = 16;
+  FigureBuilder builder;
+  std::vector<Vec3> samples;
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Vec3 &a = mesh.points[ia], &b = mesh.points[ib], &c = mesh.points[ic];
+    const double longest =
+        std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+    const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
+    // A lattice without the corners, and the centroid.
+    samples.clear();
+    samples.push_back((a + b + c) / 3);
+    for (int i = 0; i <= order; ++i) {
+      for (int j = 0; i + j <= order; ++j) {
+        if (std::max({i, j, order - i - j}) == order) continue;
+        samples.push_back((double(i) * a + double(j) * b + double(order - i - j) * c) / double(order));
+      }
+    }
+    const double weight = 0.5 * norm(cross(b - a, c - a)) / static_cast<double>(samples.size());
+    for (const Vec3& p : samples) builder.add(probe.foot_point(p).distance, weight, p);
+  }
+  return builder.figure();
+}
+
+DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty) {
+  if (points.empty()) return {};
+  if (mesh.triangles.empty()) return {if_empty, if_empty, points[0]};
+  std::vector<Box3> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
+  }
+  const BoxTree tree(boxes);
+
+  FigureBuilder builder;
+  std::uint32_t nearest = 0;
+  for (const Vec3& p : points) {
+    const auto measure = [&](std::uint32_t t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
+    };
+    // Consecutive points are neighbours mostly: the last answer bounds the next.
+    const double bound = measure(nearest);
+    const auto [better, squared] = tree.nearest(p, bound, measure);
+    if (better != BoxTree::kNone) nearest = better;
+    builder.add(std::sqrt(squared), 1, p);
+  }
+  return builder.figure();
+}
+
+}  // namespace deliso

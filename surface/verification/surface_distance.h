@@ -1,0 +1,33 @@
+// How far a mesh is from an isosurface and the isosurface from the mesh, in voxels, by sampling both.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "delaunay/base/vec3.h"
+#include "surface/mesh/triangle_mesh.h"
+#include "surface/verification/isosurface_probe.h"
+
+namespace deliso {
+
+struct DistanceFigure {
+  double max_voxels = 0;
+  double mean_voxels = 0;
+  Vec3 worst;  // where the maximum is: the sampled point
+};
+
+// The distance of each vertex to the isosurface; nothing for vertices without a triangle. All in voxel space.
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+// Of these; the mean is over vertices.
+DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances);
+
+// Triangles to the isosurface: edge midpoints and centroid of each, on triangles with an edge longer than two voxels
+// more, one about every voxel (at most 16 to an edge). The mean is over area. The vertices are not sampled again.
+DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+
+// The given points to the mesh: their nearest triangles, exactly but for rounding. A mesh without triangles has the
+// distance `if_empty`.
+DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty);
+
+}  // namespace deliso

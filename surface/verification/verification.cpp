@@ -1,0 +1,297 @@
+#include "surface/verification/verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/counted.h"
+#include "delaunay/base/stopwatch.h"
+#include "surface/certificate/component_places.h"
+#include "surface/mesh/mesh_topology.h"
+#include "surface/verification/delaunay_balls.h"
+#include "surface/verification/isosurface_probe.h"
+#include "volume/topology/exact_topology.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kOnBox = 1e-3;        // voxels that a point of a boundary edge may be off its face
+constexpr double kMaxResidual = 1e-3;  // voxels that a vertex may be off the isosurface
+constexpr double kMaxDistance = 1.0;   // voxels that the isosurface may be off the mesh
+constexpr std::size_t kMostPlaces = 10;
+
+// Triangles with the same three vertices as an earlier one, whatever their order.
+std::int64_t count_duplicates(const TriangleMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> sorted = mesh.triangles;
+  for (auto& triangle : sorted) std::sort(triangle.begin(), triangle.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.end() - std::unique(sorted.begin(), sorted.end());
+}
+
+ManifoldCheck check_manifold(const TriangleMesh& mesh, const MeshTopology& topology, std::int64_t zero_area) {
+  ManifoldCheck check;
+  check.non_manifold_edges = topology.non_manifold_edges;
+  check.non_manifold_vertices = topology.non_manifold_vertices;
+  check.repeated_vertices = topology.repeated_vertices;
+  check.duplicate_triangles = count_duplicates(mesh);
+  check.zero_area_triangles = zero_area;
+  check.unreferenced_vertices = topology.unreferenced_vertices;
+  check.components = static_cast<std::int64_t>(topology.components.size());
+  for (const MeshComponent& component : topology.components) {
+    check.euler_characteristic += component.euler_characteristic();
+    check.boundary_loops += component.boundary_loops;
+  }
+  check.pass = topology.is_manifold() && !mesh.triangles.empty();
+  return check;
+}
+
+// A vertex of each of the first components with negative flux.
+std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& topology, std::vector<double> flux) {
+  std::vector<Vec3> places;
+  for (const auto& triangle : mesh.triangles) {
+    double& of_component = flux[topology.component_of_vertex[triangle[0]]];
+    if (of_component >= 0 || places.size() == kMostPlaces) continue;
+    places.push_back(mesh.points[triangle[0]]);
+    of_component = 0;  // told
+  }
+  return places;
+}
+
+// The isosurface next to the centroid of a triangle: the direction in which values fall there, longer where they fall
+// more steeply, and how far off it is.
+struct NextToCentroid {
+  Vec3 descent;
+  double distance = 0;
+};
+
+std::vector<NextToCentroid> look_next_to_centroids(const TriangleMesh& voxels, IsosurfaceProbe& probe) {
+  std::vector<NextToCentroid> result;
+  result.reserve(voxels.triangles.size());
+  for (const auto& [a, b, c] : voxels.triangles) {
+    const FootPoint foot = probe.foot_point((voxels.points[a] + voxels.points[b] + voxels.points[c]) / 3);
+    result.push_back({-probe.gradient(foot.point), foot.distance});
+  }
+  return result;
+}
+
+// The flux of the unit descent through a triangle, positive when it faces lower values. It is asked on the isosurface,
+// and all of that counts alike, however steep: beside a thin part the field is that of another. A triangle far off for
+// its height counts less. Its corners are `off` the isosurface, and it gets the benefit of that, within the tolerance
+// of residuals: what is thinner may be turned inside out by it.
+double flux_through(const std::array<Vec3, 3>& corners, const std::array<double, 3>& off, const NextToCentroid& next) {
+  constexpr double kFarOff = 0.25;  // heights to the isosurface with which it counts half
+  const double steepness = norm_of_any_size(next.descent);
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(norm(normal) > 0 && steepness > 0 && std::isfinite(steepness))) return 0;
+  double longest = 0, doubt = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double opposite = distance(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    longest = std::max(longest, opposite);
+    doubt += std::min(off[i], kMaxResidual) * opposite;
+  }
+  const double far_off = next.distance / (kFarOff * norm(normal) / longest);
+  return (dot(normal, next.descent / steepness) + doubt) / (1 + far_off * far_off);
+}
+
+// `voxels` is the mesh in voxel space; `off` is how far its vertices are off the isosurface.
+OrientationCheck check_orientation(const TriangleMesh& mesh, const TriangleMesh& voxels, const MeshTopology& topology,
+                                   std::span<const NextToCentroid> next, std::span<const std::optional<double>> off) {
+  OrientationCheck check;
+  check.misoriented_edges = topology.misoriented_edges;
+  std::vector<double> flux(topology.components.size(), 0);
+  for (std::size_t t = 0; t < voxels.triangles.size(); ++t) {
+    const auto& [a, b, c] = voxels.triangles[t];
+    flux[topology.component_of_vertex[a]] += flux_through({voxels.points[a], voxels.points[b], voxels.points[c]},
+                                                          {off[a].value(), off[b].value(), off[c].value()}, next[t]);
+  }
+  check.reversed_components = std::count_if(flux.begin(), flux.end(), [](double f) { return f < 0; });
+  check.pass = topology.is_oriented() && check.reversed_components == 0;
+  check.reversed_at = reversed_places(mesh, topology, std::move(flux));
+  return check;
+}
+
+// The faces of the box that p lies on, as bits.
+unsigned faces_at(const Box3& box, const Vec3& p) {
+  unsigned faces = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(p[axis] - box.low[axis]) <= kOnBox) faces |= 1u << (2 * axis);
+    if (std::abs(p[axis] - box.high[axis]) <= kOnBox) faces |= 2u << (2 * axis);
+  }
+  return faces;
+}
+
+BoundaryCheck check_boundary(const TriangleMesh& voxels, const MeshTopology& topology, const Box3& box) {
+  BoundaryCheck check;
+  check.boundary_edges = static_cast<std::int64_t>(topology.boundary_edges.size());
+  for (const MeshEdge& edge : topology.boundary_edges) {
+    const unsigned common = faces_at(box, voxels.points[edge.low]) & faces_at(box, voxels.points[edge.high]);
+    check.off_box_edges += common == 0 ? 1 : 0;
+  }
+  check.outside_vertices = std::count_if(voxels.points.begin(), voxels.points.end(),
+                                         [&](const Vec3& p) { return distance(p, box.clamp(p)) > kOnBox; });
+  check.pass = check.off_box_edges == 0;
+  return check;
+}
+
+NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCentroid> next) {
+  NormalCheck check;
+  double sum = 0;
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < voxels.triangles.size(); ++t) {
+    const auto& [ia, ib, ic] = voxels.triangles[t];
+    const Vec3 &a = voxels.points[ia], &b = voxels.points[ib], &c = voxels.points[ic];
+    const Vec3 normal = cross(b - a, c - a);
+    const double area = norm(normal), steepness = norm_of_any_size(next[t].descent);
+    if (!(area > 0 && steepness > 0 && std::isfinite(steepness))) continue;
+    const double cosine = dot(normal / area, next[t].descent / steepness);
+    check.min_cosine = std::min(check.min_cosine, cosine);
+    check.against += cosine < 0 ? 1 : 0;
+    sum += cosine;
+    ++count;
+  }
+  if (count > 0) {
+    check.fraction_against = static_cast<double>(check.against) / static_cast<double>(count);
+    check.mean_cosine = sum / static_cast<double>(count);
+  }
+  check.pass = check.against == 0;
+  return check;
+}
+
+void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
+
+void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, std::span<const std::optional<double>> off,
+                     Verification& v) {
+  v.residual.distance = vertices_to_isosurface(voxels, off);
+  v.residual.pass = v.residual.distance.max_voxels <= kMaxResidual;
+  v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe);
+  v.distance.isosurface_to_mesh = points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal());
+  v.distance.pass = v.distance.isosurface_to_mesh.max_voxels <= kMaxDistance;
+  in_world(v.residual.distance, probe);
+  in_world(v.distance.mesh_to_isosurface, probe);
+  in_world(v.distance.isosurface_to_mesh, probe);
+}
+
+// One sentence for each condition that fails.
+std::vector<std::string> list_failures(const Verification& v) {
+  std::vector<std::string> failures;
+  const ManifoldCheck& m = v.manifold;
+  if (v.triangles == 0) {
+    failures.emplace_back("the mesh has no triangle");
+  } else if (!m.pass) {
+    failures.push_back(
+        "not manifold: " +
+        counted(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
+        counted(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
+        counted(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice"));
+  }
+  if (!v.orientation.pass) {
+    failures.push_back("not oriented towards lower values: " +
+                       counted(v.orientation.misoriented_edges, "edge whose triangles disagree, ",
+                               "edges whose triangles disagree, ") +
+                       counted(v.orientation.reversed_components, "reversed component", "reversed components"));
+  }
+  if (!v.boundary.pass) {
+    failures.push_back("not closed up to the box: " + counted(v.boundary.off_box_edges, "boundary edge off its faces",
+                                                              "boundary edges off its faces"));
+  }
+  if (v.topology.verdict != Verdict::kHomeomorphic) {
+    failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
+                              ? "the isosurface is singular at this isovalue"
+                              : "the topology differs from that of the isosurface");
+  }
+  if (!v.self_intersection.pass) {
+    failures.push_back(
+        counted(v.self_intersection.found.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross"));
+  }
+  if (!v.residual.pass) {
+    failures.push_back("a vertex is " + std::to_string(v.residual.distance.max_voxels) + " voxels off the isosurface");
+  }
+  if (!v.distance.pass) {
+    failures.push_back("a point of the isosurface is " + std::to_string(v.distance.isosurface_to_mesh.max_voxels) +
+                       " voxels off the mesh");
+  }
+  return failures;
+}
+
+PlaceFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
+                             const RegularTopology& truth) {
+  if (!topology.is_manifold()) return {};
+  const Vec3& s = grid.spacing();
+  std::vector<Vec3> points;
+  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z}));
+  std::vector<ComponentTopology> pieces;
+  for (const MeshComponent& piece : topology.components) {
+    pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
+  }
+  const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
+  return place_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
+}
+
+void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  if (const std::size_t bad = first_bad_triangle(mesh); bad < mesh.triangles.size()) {
+    throw InputError("triangle " + std::to_string(bad) + " of the mesh names a vertex that is not there; it has " +
+                     std::to_string(mesh.points.size()) + " vertices");
+  }
+  const auto [lowest, highest] = grid.range();
+  if (!(lowest <= isovalue && isovalue <= highest)) {
+    throw InputError("the isovalue is " + std::to_string(isovalue) +
+                     ", expected a number in the range of the volume, " + std::to_string(lowest) + " to " +
+                     std::to_string(highest));
+  }
+}
+
+}  // namespace
+
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+  const Stopwatch stopwatch;
+  check_input(mesh, grid, isovalue);
+  Verification v;
+  v.vertices = static_cast<std::int64_t>(mesh.points.size());
+  v.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  v.isovalue = isovalue;
+
+  // The truth.
+  const RegularTopology regular = regular_topology(grid, isovalue);
+  const IsosurfaceTopology& truth = regular.topology;
+  v.isovalue_used = regular.isovalue;
+  if (truth.crossings.empty()) {
+    throw InputError("the isosurface of " + std::to_string(isovalue) + " has no point in this volume");
+  }
+  IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
+  TriangleMesh voxels = mesh;
+  for (Vec3& p : voxels.points) p = probe.to_voxels(p);
+  const std::vector<std::optional<double>> off = vertex_distances(voxels, probe);
+  const std::vector<NextToCentroid> next = look_next_to_centroids(voxels, probe);
+
+  // Combinatorics.
+  v.self_intersection.found = self_intersections(mesh, kMostPlaces);
+  v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
+  PlaceFaults faults;
+  {
+    const MeshTopology topology = mesh_topology(mesh);
+    faults = faults_of_places(mesh, topology, grid, regular);
+    v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
+    v.orientation = check_orientation(mesh, voxels, topology, next, off);
+    v.boundary = check_boundary(voxels, topology, probe.box());
+  }
+  v.topology = certify(mesh, truth);
+  add_place_faults(faults, v.topology);
+
+  // Geometry.
+  check_distances(voxels, probe, off, v);
+  v.normals = check_normals(voxels, next);
+  v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);
+  v.quality = measure_quality(mesh);
+
+  v.failures = list_failures(v);
+  v.proven = v.failures.empty();
+  v.seconds = stopwatch.seconds();
+  return v;
+}
+
+}  // namespace deliso

@@ -1,0 +1,100 @@
+#include "surface/extract/separate_copies.h"
+
+#include <gtest/gtest.h>
+
+#include "surface/extract/build_triangle_mesh.h"
+#include "surface/intersection/self_intersection.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+// The surface of a tetrahedron, appended to a mesh; the first vertex is `apex`.
+void append_tetrahedron(SurfaceMesh& mesh, const std::array<Vec3, 4>& corners) {
+  const auto base = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), corners.begin(), corners.end());
+  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {
+    mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+}
+
+const Box3 kBox{{-10, -10, -10}, {10, 10, 10}};
+
+TEST(SeparateCopies, TetrahedraThatShareACornerNoLongerTouch) {
+  SurfaceMesh mesh;
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}});
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {-1, 0, -1}, {0, -1, -1}, {-1, -1, -2}});
+  ASSERT_GT(self_intersections(mesh.points, mesh.triangles).touching_pairs, 0);
+  std::vector<VertexId> origin;
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
+  const std::vector<CopyGroup> groups = {{{0, {}}, {4, {}}}};
+  separate_copies(mesh, groups, origin, kBox);
+  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
+  EXPECT_EQ(found.crossing_pairs, 0);
+  EXPECT_EQ(found.touching_pairs, 0);
+  EXPECT_LT(norm(mesh.points[0]), 3e-4);
+  EXPECT_LT(norm(mesh.points[4]), 3e-4);
+}
+
+// Two tetrahedra on either side of a common edge, both of whose ends are copies.
+TEST(SeparateCopies, TetrahedraThatShareAnEdgeNoLongerTouch) {
+  SurfaceMesh mesh;
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {1, 1, 0.5}});
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {0, 0, 1}, {-1, 0, 0.5}, {-1, -1, 0.5}});
+  std::vector<VertexId> origin;
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 1u, 6u, 7u}) origin.emplace_back(v);
+  const std::vector<CopyGroup> groups = {{{0, {}}, {4, {}}}, {{1, {}}, {5, {}}}};
+  separate_copies(mesh, groups, origin, kBox);
+  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
+  EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
+}
+
+// A pyramid whose apex pierces a triangle that it has nothing to do with, unless it starts from its other home.
+TEST(SeparateCopies, AnotherHomeIsTakenWhereOneIsBeyondAForeignTriangle) {
+  SurfaceMesh mesh;
+  mesh.points = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-3, -3, 0.5}, {3, -3, 0.5}, {0, 3, 0.5}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 6, 7}};
+  ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 4);
+  std::vector<VertexId> origin;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) origin.emplace_back(v);
+  separate_copies(mesh, std::vector<CopyGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox);
+  EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
+  EXPECT_NEAR(mesh.points[0].z, 0.2, 1e-3);
+}
+
+TEST(SeparateCopies, OnABoxFaceCopiesStayOnIt) {
+  SurfaceMesh mesh;
+  append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, 1, 0}, {-9, 2, 1}, {-9, 1, 1}});
+  append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, -1, 0}, {-9, -2, -1}, {-9, -1, -1}});
+  std::vector<VertexId> origin;
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
+  separate_copies(mesh, std::vector<CopyGroup>{{{0, {}}, {4, {}}}}, origin, kBox);
+  EXPECT_EQ(mesh.points[0].x, -10);
+  EXPECT_EQ(mesh.points[4].x, -10);
+  const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
+  EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
+}
+
+// Wanted vertices move as they do when all are wanted, whatever their neighbours in other pieces do.
+TEST(SeparateCopies, WhatIsWantedMovesAsIfAllWere) {
+  int stayed = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto scene = testing::noise_scene({8, 7, 6}, seed);
+    const BuiltMesh built = build_triangle_mesh(testing::dense(*scene));
+    const auto is_wanted = [&](std::uint32_t v) { return built.mesh.points[v].x < 2; };
+    SurfaceMesh all = built.mesh;
+    separate_copies(all, built.groups, built.vertex_of, scene->isosurface->box());
+    SurfaceMesh some = built.mesh;
+    separate_copies(some, built.groups, built.vertex_of, scene->isosurface->box(), is_wanted);
+    for (std::uint32_t v = 0; v < all.points.size(); ++v) {
+      if (is_wanted(v)) {
+        ASSERT_EQ(all.points[v], some.points[v]) << "seed " << seed << " vertex " << v;
+      }
+      stayed += all.points[v] != some.points[v] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(stayed, 0);
+}
+
+}  // namespace
+}  // namespace deliso

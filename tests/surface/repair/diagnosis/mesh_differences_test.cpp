@@ -1,0 +1,145 @@
+// Where the meshes of repair differ from the surface: all components at once must be like one after the other.
+#include "surface/repair/diagnosis/mesh_differences.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/repair/diagnosis/curvature_lattice.h"
+#include "surface/repair/diagnosis/matched_mesh.h"
+#include "surface/repair/rounds/repair_round.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+constexpr std::size_t kMany = 1u << 30;
+
+class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  explicit MeshDifferencesOfNoise(const Dims& dims = {12, 11, 10})
+      : scene_(testing::noise_scene(dims, GetParam())), facts_(scene_->grid, *scene_->isosurface, scene_->topology, 1) {
+    std::vector<Vec3> samples;
+    for (std::size_t i = 0; i < scene_->topology.crossings.size(); i += 2) {
+      const EdgeCrossing& crossing = scene_->topology.crossings[i];
+      samples.push_back(scaled(crossing_position(scene_->grid, crossing), scene_->isosurface->step()));
+    }
+    RaisedCells cells(scene_->grid, *scene_->isosurface);
+    RepairRound round(scene_->grid, scene_->topology, cells,
+                      std::make_unique<SignedDelaunay>(*scene_->isosurface, samples), 1);
+    round.take_plain_signs();
+    mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
+  }
+  [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
+  // What one component's main piece and its part of the surface alone give, both as whole meshes.
+  [[nodiscard]] Places places_of(std::uint32_t c) const {
+    const PolygonizedSurface& exact = facts_.polygonized();
+    const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);
+    const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
+    const Vec3& step = scene_->isosurface->step();
+    const Dims& dims = scene_->grid.dims();
+    auto boxes =
+        PlaceBoxes::around(jumps_between(swept_characteristics(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
+                                         swept_characteristics(exact.mesh, on_surface, 1, step, dims).front()),
+                           dims);
+    if (!boxes) return {};
+    const auto adds = [&](std::int32_t sign) {
+      return
+          [&boxes, sign](std::uint32_t, const auto& layers, std::int32_t change) { boxes->add(layers, sign * change); };
+    };
+    for_each_mesh_change(mesh_->built.mesh, in_mesh, step, dims, adds(1));
+    for_each_mesh_change(exact.mesh, on_surface, step, dims, adds(-1));
+    return boxes->places();
+  }
+  static std::vector<std::uint32_t> part_where(const std::vector<std::uint32_t>& names, std::uint32_t wanted) {
+    std::vector<std::uint32_t> part;
+    for (const std::uint32_t name : names) part.push_back(name == wanted ? 0 : kNoPart);
+    return part;
+  }
+
+  std::unique_ptr<testing::Scene> scene_;
+  SurfaceFacts facts_;
+  std::shared_ptr<MatchedMesh> mesh_;
+};
+
+TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
+  MeshDifferences differences(facts_, *scene_->isosurface);
+  const std::vector<Places> places = differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
+  ASSERT_EQ(places.size(), components());
+  int wrong = 0;
+  for (std::uint32_t c = 0; c < components(); ++c) {
+    const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
+    EXPECT_EQ(places[c], is_wrong ? places_of(c) : Places()) << c;
+    wrong += is_wrong ? 1 : 0;
+  }
+  EXPECT_GT(wrong, 0);
+}
+
+TEST_P(MeshDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
+  MeshDifferences differences(facts_, *scene_->isosurface);
+  const std::vector<bool> none_done(components(), false);
+  const std::vector<Places> all = differences.find(mesh_, none_done, {kMany, false});
+  std::size_t most = 0;
+  for (const Places& places : all) most = std::max(most, places.all.size());
+  ASSERT_GT(most, 0u);
+  const std::vector<Places> fewer = differences.find(mesh_, none_done, {most - 1, false});
+  for (std::size_t c = 0; c < components(); ++c) {
+    EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : Places());
+  }
+  const std::vector<Places> again = differences.find(mesh_, none_done, {kMany, false});
+  for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
+  MeshDifferences others(facts_, *scene_->isosurface);
+  for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
+    EXPECT_TRUE(places.all.empty());
+  }
+}
+
+// So much that sweeps tell of many places or of wide ones.
+class MeshDifferencesOfMuchNoise : public MeshDifferencesOfNoise {
+ protected:
+  MeshDifferencesOfMuchNoise() : MeshDifferencesOfNoise({26, 25, 24}) {}
+};
+
+TEST_P(MeshDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSweepsDoNotTell) {
+  const Vec3& step = scene_->isosurface->step();
+  const auto& [exact, component_of] = facts_.polygonized();
+  int found = 0;
+  for (std::uint32_t c = 0; c < components(); ++c) {
+    const std::uint32_t main = mesh_->match.main_piece[c];
+    if (main == kNoPiece || mesh_->match.agreement[c] != Agreement::kNone) continue;
+    std::vector<bool> others_done(components(), true);
+    others_done[c] = false;
+    MeshDifferences differences(facts_, *scene_->isosurface);
+    const Places swept = differences.find(mesh_, others_done, {kMany, false})[c];
+    const Places both = differences.find(mesh_, others_done, {kMany, true})[c];
+    CurvatureLattice lattice(scene_->grid.dims(), step);
+    lattice.add(
+        mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; }, 1);
+    lattice.add(
+        exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; }, -1);
+    const std::int64_t too_much =
+        mesh_->match.pieces[main].topology.euler_characteristic - scene_->topology.components[c].euler_characteristic;
+    const std::vector<Place> places = lattice.places(too_much > 0, 16);
+    const auto is_narrow = [](const Place& place) {
+      return std::all_of(place.begin(), place.end(),
+                         [](const LayerRange& range) { return range.last - range.first < 16; });
+    };
+    const bool is_clear =
+        !swept.all.empty() && swept.all.size() <= 8 && std::all_of(swept.all.begin(), swept.all.end(), is_narrow);
+    if (too_much == 0 || places.empty() || is_clear) {
+      EXPECT_EQ(both, swept);
+      continue;
+    }
+    ++found;
+    EXPECT_EQ(both.likely, places);
+    for (const Place& place : swept.all) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+    for (const Place& place : places) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+  }
+  EXPECT_GT(found, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfMuchNoise, ::testing::Values(1, 2));
+
+}  // namespace
+}  // namespace deliso

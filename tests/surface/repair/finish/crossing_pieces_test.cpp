@@ -1,0 +1,58 @@
+#include "surface/repair/finish/crossing_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/certificate/certificate.h"
+#include "surface/intersection/self_intersection.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+// Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
+TEST(CrossingPieces, AreMeshedAgainUntilNothingCrosses) {
+  const auto scene = testing::field_scene("shells", 48);
+  const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, 1);
+  const std::size_t components = scene->topology.components.size();
+  ASSERT_GT(components, 1u);
+  SurfaceMesh mesh = facts.polygonized().mesh;
+  const std::vector<std::uint32_t>& component = facts.polygonized().component;
+  ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
+
+  // Some vertices of component 0 go to where component 1 is.
+  Vec3 there;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < component.size(); ++v) {
+    if (component[v] != 1) continue;
+    there += mesh.points[v];
+    ++count;
+  }
+  there = there / static_cast<double>(count);
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < component.size(); ++v) {
+    if (component[v] != 0 || v % 97 != 0) continue;
+    mesh.points[v] = there + Vec3{1e-3 * static_cast<double>(moved), 0, 0};
+    ++moved;
+  }
+  ASSERT_GT(moved, 0u);
+  ASSERT_GT(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
+
+  std::vector<bool> is_polygonized(components, false);
+  Controls controls(BudgetParameters{}, nullptr, {});
+  polygonize_crossing_pieces(mesh, facts, *scene->isosurface, is_polygonized, 1, controls);
+  EXPECT_TRUE(is_polygonized[0] && is_polygonized[1]);
+  EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
+  EXPECT_EQ(mesh.pole_heights.size(), mesh.points.size());
+  const TriangleMesh world = to_world(mesh, scene->grid, scene->isosurface->step());
+  EXPECT_EQ(certify(world, scene->topology).verdict, Verdict::kHomeomorphic);
+
+  // Nothing is left to do.
+  const std::vector<Vec3> before = mesh.points;
+  polygonize_crossing_pieces(mesh, facts, *scene->isosurface, is_polygonized, 2, controls);
+  EXPECT_EQ(mesh.points, before);
+}
+
+}  // namespace
+}  // namespace deliso

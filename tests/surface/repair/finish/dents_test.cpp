@@ -1,0 +1,192 @@
+#include "surface/repair/finish/dents.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "surface/certificate/certificate.h"
+#include "surface/intersection/self_intersection.h"
+#include "surface/mesh/link_sides.h"
+#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/verification/surface_distance.h"
+#include "tests/support/mesh_examples.h"
+#include "tests/support/mesh_fields.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/surface_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::Scene;
+
+const Vec3 kCenter{7.1, 6.9, 7.2};
+constexpr double kRadius = 4.3;
+
+Scene ball() { return {"ball", testing::sampled({15, 15, 15}, testing::ball_field(kCenter, kRadius)), 0}; }
+
+// A coarse mesh of the ball's surface. Vertices and triangles have their opposite.
+SurfaceMesh sphere(const Scene& scene, int levels) {
+  const TriangleMesh on = testing::on_isosurface(testing::sphere_mesh(levels, kRadius, kCenter), scene.grid, 0);
+  SurfaceMesh mesh{on.points, std::vector<double>(on.points.size(), kRadius), on.triangles, {}};
+  link_sides(mesh);
+  return mesh;
+}
+
+std::uint32_t opposite(const SurfaceMesh& mesh, std::uint32_t v) {
+  const Vec3 wanted = 2 * kCenter - mesh.points[v];
+  const auto nearest = std::min_element(mesh.points.begin(), mesh.points.end(), [&](const Vec3& p, const Vec3& q) {
+    return squared_distance(p, wanted) < squared_distance(q, wanted);
+  });
+  return static_cast<std::uint32_t>(nearest - mesh.points.begin());
+}
+
+// Just inside of a vertex, as the copy of it that a dent has.
+Vec3 inside_of(const Vec3& p) { return p + 2e-4 / distance(p, kCenter) * (kCenter - p); }
+
+// Closed, of sphere topology, without crossings, and near the isosurface's points on grid edges.
+void expect_good_sphere(const SurfaceMesh& mesh, const Scene& scene, std::uint32_t trial) {
+  EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << trial;
+  const TriangleMesh triangles{mesh.points, mesh.triangles};
+  EXPECT_EQ(component_topologies(triangles), (std::vector<ComponentTopology>{{2, 0}})) << trial;
+  const SelfIntersections found = self_intersections(triangles);
+  EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0) << trial;
+  EXPECT_LT(points_to_mesh(testing::crossing_points(scene), triangles, 100).max_voxels, 0.6) << trial;
+}
+
+TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 2);
+  for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) {
+    SurfaceMesh mesh = whole;
+    const auto [a, b, c] = whole.triangles[t];
+    const auto apex = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(inside_of(whole.points[opposite(whole, a)]));
+    mesh.pole_heights.push_back(1);
+    mesh.triangles[t] = {a, b, apex};
+    mesh.triangles.push_back({b, c, apex});
+    mesh.triangles.push_back({c, a, apex});
+    link_sides(mesh);
+    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << t;
+    expect_good_sphere(mesh, scene, t);
+    EXPECT_EQ(mesh.points, whole.points) << t;
+    EXPECT_EQ(mesh.pole_heights, whole.pole_heights) << t;
+    const auto names = [](const SurfaceMesh& m) {
+      std::multiset<std::set<std::uint32_t>> sets;
+      for (const auto& v : m.triangles) sets.insert({v.begin(), v.end()});
+      return sets;
+    };
+    EXPECT_EQ(names(mesh), names(whole)) << t;
+  }
+}
+
+TEST(Dents, AVertexDrawnThroughABodyGoes) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 2);
+  for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
+    SurfaceMesh mesh = whole;
+    mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
+    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << v;
+    EXPECT_EQ(mesh.points.size(), whole.points.size() - 1) << v;
+    expect_good_sphere(mesh, scene, v);
+  }
+}
+
+TEST(Dents, ARidgeGoesVertexByVertex) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 3);
+  for (std::uint32_t t = 0; t < whole.triangles.size(); t += 7) {
+    SurfaceMesh mesh = whole;
+    for (const std::uint32_t v : {whole.triangles[t][0], whole.triangles[t][1]}) {
+      mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
+    }
+    // Vertices at the foot of the ridge may go, too.
+    const std::int64_t removed = remove_dents(mesh, *scene.isosurface).removed;
+    EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
+    expect_good_sphere(mesh, scene, t);
+  }
+}
+
+TEST(Dents, VerticesThatNothingElseCoversStay) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 2);
+  SurfaceMesh untouched = whole;
+  EXPECT_EQ(remove_dents(untouched, *scene.isosurface).removed, 0);
+  EXPECT_EQ(untouched.triangles, whole.triangles);
+  EXPECT_EQ(untouched.points, whole.points);
+  for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
+    SurfaceMesh mesh = whole;
+    // Half a voxel short of the other side.
+    const Vec3 there = whole.points[opposite(whole, v)];
+    mesh.points[v] = there + 0.5 / distance(there, kCenter) * (kCenter - there);
+    EXPECT_EQ(remove_dents(mesh, *scene.isosurface).removed, 0) << v;
+    EXPECT_EQ(mesh.triangles, whole.triangles) << v;
+  }
+}
+
+TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 2);
+  for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
+    SurfaceMesh mesh = whole;
+    const Vec3 there = whole.points[v];
+    mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
+    // A small tetrahedron that reaches across the place where the filling would be, beside the cone.
+    const TriangleMesh small = testing::tetrahedron_mesh();
+    const auto base = static_cast<std::uint32_t>(mesh.points.size());
+    const Vec3 out = (there - kCenter) / distance(there, kCenter);
+    Vec3 centroid;
+    double corners = 0;
+    for (const auto& t : whole.triangles) {
+      if (std::find(t.begin(), t.end(), v) == t.end()) continue;
+      for (const std::uint32_t w : t) {
+        if (w == v) continue;
+        centroid += whole.points[w];
+        corners += 1;
+      }
+    }
+    centroid = centroid / corners;
+    for (const Vec3& p : small.points) mesh.points.push_back(centroid + 0.15 * (p - Vec3{0.25, 0.25, 0.25}));
+    mesh.points[base] += 0.6 * out;
+    mesh.points[base + 1] += -0.6 * out;
+    for (const auto& t : small.triangles) mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    mesh.pole_heights.resize(mesh.points.size(), 1);
+    link_sides(mesh);
+    const auto before = mesh.triangles;
+    const auto [removed, left] = remove_dents(mesh, *scene.isosurface);
+    EXPECT_EQ(removed, 0) << v;
+    EXPECT_EQ(mesh.triangles, before) << v;
+    // It tells of the dent that stays, and where its rim is.
+    EXPECT_TRUE(std::any_of(left.begin(), left.end(), [&](const Box3& box) {
+      return std::all_of(before.begin(), before.end(), [&](const auto& t) {
+        return std::find(t.begin(), t.end(), v) == t.end() ||
+               std::all_of(t.begin(), t.end(), [&](std::uint32_t w) { return box.contains(mesh.points[w]); });
+      });
+    })) << v;
+  }
+}
+
+// Whatever the mesh: here a good one with some vertices drawn to others anywhere.
+TEST(Dents, TopologyStaysAndNoCrossingsCome) {
+  std::int64_t removed = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto scene = testing::noise_scene({9, 8, 9}, seed);
+    SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+    Rng rng(seed);
+    for (Vec3& p : mesh.points) {
+      if (rng.uniform() > 0.05) continue;
+      const Vec3 other = mesh.points[static_cast<std::size_t>(rng.uniform() * double(mesh.points.size()))];
+      if (distance(other, p) < 4) p = other + 1e-4 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
+    }
+    const TriangleMesh before{mesh.points, mesh.triangles};
+    removed += remove_dents(mesh, *scene->isosurface).removed;
+    const TriangleMesh after{mesh.points, mesh.triangles};
+    EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << "seed " << seed;
+    EXPECT_EQ(component_topologies(after), component_topologies(before)) << "seed " << seed;
+    EXPECT_LE(self_intersections(after).crossing_pairs, self_intersections(before).crossing_pairs) << "seed " << seed;
+  }
+  EXPECT_GT(removed, 20);
+}
+
+}  // namespace
+}  // namespace deliso

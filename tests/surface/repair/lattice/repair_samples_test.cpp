@@ -1,0 +1,61 @@
+#include "surface/repair/lattice/repair_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "delaunay/base/rng.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::noise_scene;
+
+// The samples are the vertices, one by one, however they came to be: with lattice samples that equal free ones or stand
+// where one has gone.
+TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
+  int exchanges = 0;
+  int rebuilds = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto scene = noise_scene({9, 8, 9}, seed);
+    std::vector<Vec3> points = testing::crossing_points(*scene);  // lattice samples of level 1 equal these
+    auto restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, points);
+    RepairSamples samples(*restricted);
+    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
+    RaisedCells raised(scene->grid, *scene->isosurface);
+    Rng rng(seed);
+    for (int round = 0; round < 6; ++round) {
+      std::vector<CellName> cells;
+      for (int i = 0; i < 1 + 4 * (round % 3); ++i) {
+        const auto layer = [&](std::size_t axis) {
+          return static_cast<std::int32_t>(rng.below(static_cast<std::uint64_t>(scene->grid.dims()[axis] - 1)));
+        };
+        cells.push_back(raised.name({layer(0), layer(1), layer(2)}));
+      }
+      raised.raise(cells);
+      const Resampling resampling = samples.resampling(raised, lattice, *scene->isosurface);
+      ExchangedPoints exchanged;
+      if (round % 2 == 1 && restricted->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
+        samples.exchange(resampling, exchanged.vertex_of);
+        ++exchanges;
+      } else {
+        samples.replace(resampling);
+        std::vector<VertexId> vertex_of;
+        restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, samples.points(), 1, &vertex_of);
+        samples.take_vertices(vertex_of);
+        ++rebuilds;
+      }
+      const auto& vertices = restricted->delaunay().points();
+      ASSERT_EQ(samples.size(), vertices.size());
+      const std::vector<Vec3> now = samples.points();
+      for (std::size_t i = 0; i < vertices.size(); ++i) ASSERT_EQ(SignedDelaunay::snapped(now[i]), vertices[i]) << i;
+    }
+  }
+  EXPECT_GT(exchanges, 10);
+  EXPECT_GT(rebuilds, 10);
+}
+
+}  // namespace
+}  // namespace deliso

@@ -1,0 +1,210 @@
+// What is taken from the kept meshes at last must not depend on what was dropped of them meanwhile.
+#include "surface/repair/rounds/kept_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "surface/extract/separate_copies.h"
+#include "surface/mesh/vertex_fans.h"
+#include "surface/repair/diagnosis/matched_mesh.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::Scene;
+
+// The corners of a triangle, the least first, each with its pole height.
+using PlacedTriangle = std::array<std::array<double, 4>, 3>;
+
+void append_pieces_placed(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_wanted,
+                          std::vector<PlacedTriangle>& triangles) {
+  for (const auto& v : mesh.triangles) {
+    if (!is_wanted(v[0])) continue;
+    PlacedTriangle placed;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = mesh.points[v[i]];
+      placed[i] = {p.x, p.y, p.z, mesh.pole_heights[v[i]]};
+    }
+    std::rotate(placed.begin(), std::min_element(placed.begin(), placed.end()), placed.end());
+    triangles.push_back(placed);
+  }
+}
+
+// Noise at a high isovalue: many small components, some of which touch when signs are wrong.
+std::unique_ptr<Scene> blobs(std::uint64_t seed) {
+  Rng rng(seed);
+  return std::make_unique<Scene>("blobs", testing::noise_grid({14, 13, 12}, {1, 1, 1}, rng), 190.5);
+}
+
+// Meshes of one round with random signs turned over, each with its signs.
+struct Attempts {
+  explicit Attempts(const Scene& scene, std::uint64_t seed)
+      : cells(scene.grid, *scene.isosurface),
+        round(scene.grid, scene.topology, cells,
+              std::make_unique<SignedDelaunay>(*scene.isosurface, testing::crossing_points(scene)), 1) {
+    constexpr int kAttempts = 12;
+    Rng rng(seed);
+    round.take_plain_signs();
+    for (int i = 0; i < kAttempts; ++i) {
+      const TetSigns before = round.restricted().signs();
+      std::vector<TetId> tets;
+      for (std::size_t t = 0; t < before.size(); ++t) {
+        const bool is_live = round.restricted().delaunay().is_live(TetId(t));
+        if (is_live && i > 0 && rng.below(100) < 3) tets.emplace_back(t);
+      }
+      round.overturn(tets);
+      std::optional<MatchedMesh> mesh = round.assemble();
+      if (!mesh) continue;
+      meshes.push_back(*std::move(mesh));
+      signs.push_back(round.restricted().signs());
+      round.set_signs(before);
+    }
+  }
+  RaisedCells cells;
+  RepairRound round;
+  std::vector<MatchedMesh> meshes;
+  std::vector<TetSigns> signs;
+};
+
+// The wanted copies that have moved to where the surface is not, as their lists of homes tell.
+std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Vec3>& before,
+                                    const std::function<bool(std::uint32_t)>& is_wanted) {
+  std::vector<std::uint32_t> found;
+  for (const CopyGroup& group : built.groups) {
+    for (const auto& [v, others, has_false_home] : group) {
+      if (!has_false_home || !is_wanted(v)) continue;
+      double nearest = others.empty() ? 1 : distance(built.mesh.points[v], before[v]);
+      for (std::size_t i = 0; i + 1 < others.size(); ++i) {
+        nearest = std::min(nearest, distance(built.mesh.points[v], others[i]));
+      }
+      if (nearest >= 9e-4) found.push_back(v);
+    }
+  }
+  return found;
+}
+
+// All vertices that have not been moved must lie on the component that is told of them.
+void expect_true_components(const AssembledMesh& assembled, const Scene& scene) {
+  ASSERT_EQ(assembled.component.size(), assembled.mesh.points.size());
+  const std::vector<Vec3> samples = testing::crossing_points(scene);
+  std::size_t unmoved = 0;
+  for (std::size_t v = 0; v < assembled.component.size(); ++v) {
+    const Vec3& p = assembled.mesh.points[v];
+    if (std::find(samples.begin(), samples.end(), p) == samples.end()) continue;
+    ++unmoved;
+    EXPECT_EQ(assembled.component[v], component_of(scene.grid, scene.isosurface->isovalue(), scene.topology, p));
+  }
+  EXPECT_GT(2 * unmoved, assembled.component.size());
+}
+
+TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
+  std::size_t given_by_earlier = 0, mended = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto scene = blobs(seed);
+    const std::size_t components = scene->topology.components.size();
+    const Box3& box = scene->isosurface->box();
+    Attempts attempts(*scene, seed);
+    KeptMeshes kept(components);
+    // The same by hand: which mesh gives each component.
+    std::vector<Agreement> best(components, Agreement::kNone);
+    std::vector<std::optional<std::size_t>> giver(components);
+    for (std::size_t i = 0; i < attempts.meshes.size(); ++i) {
+      const std::vector<Agreement>& agreement = attempts.meshes[i].match.agreement;
+      bool helps = false;
+      for (std::size_t c = 0; c < components; ++c) helps = helps || agreement[c] > best[c];
+      for (std::size_t c = 0; c < components && helps; ++c) {
+        best[c] = std::max(best[c], std::min(agreement[c], Agreement::kWithStrays));
+        if (agreement[c] > Agreement::kPartial && agreement[c] >= best[c]) giver[c] = i;
+      }
+      kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[i]), attempts.signs[i]);
+    }
+    std::vector<PlacedTriangle> expected;
+    for (std::size_t c = 0; c < components; ++c) {
+      if (!giver[c]) continue;
+      given_by_earlier += *giver[c] + 1 < attempts.meshes.size() ? 1 : 0;
+      MatchedMesh mesh = attempts.meshes[*giver[c]];
+      attempts.round.set_signs(attempts.signs[*giver[c]]);
+      const auto heights = compute_poles(attempts.round.restricted());
+      for (const VertexId v : mesh.built.vertex_of) mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
+      const auto is_wanted = [&](std::uint32_t v) { return mesh.match.piece_of[v] == mesh.match.main_piece[c]; };
+      const std::vector<Vec3> before = mesh.built.mesh.points;
+      separate_copies(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
+      std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
+      if (const auto off = homeless(mesh.built, before, is_wanted); !off.empty()) {
+        VertexFans fans(mesh.built.mesh);
+        fans.take_out(off);
+        if (std::any_of(off.begin(), off.end(), [&](std::uint32_t v) { return fans.has(v); })) continue;
+        ++mended;
+        std::size_t next = 0;
+        for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
+          if (fans.has(v)) piece_of[next++] = piece_of[v];
+        }
+        fans.drop_free_slots();
+      }
+      append_pieces_placed(
+          mesh.built.mesh, [&](std::uint32_t v) { return piece_of[v] == mesh.match.main_piece[c]; }, expected);
+    }
+
+    const TetSigns signs = attempts.round.restricted().signs();
+    kept.give_poles(attempts.round);
+    EXPECT_EQ(attempts.round.restricted().signs(), signs);
+    std::sort(expected.begin(), expected.end());
+    EXPECT_FALSE(expected.empty());
+    for (const int threads : {1, 3}) {
+      SCOPED_TRACE(threads);
+      std::vector<bool> left;
+      RepairStats stats;
+      const AssembledMesh assembled = kept.assemble(left, box, threads, stats);
+      std::vector<PlacedTriangle> found;
+      append_pieces_placed(
+          assembled.mesh, [](std::uint32_t) { return true; }, found);
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, expected);
+      expect_true_components(assembled, *scene);
+    }
+  }
+  EXPECT_GT(given_by_earlier, 10u);
+  EXPECT_GT(mended, 0u);
+}
+
+// A component that is opened again is given by later meshes alone.
+TEST(KeptMeshes, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
+  const auto scene = blobs(1);
+  const Box3& box = scene->isosurface->box();
+  const std::size_t components = scene->topology.components.size();
+  Attempts attempts(*scene, 1);
+  std::vector<bool> left;
+  RepairStats stats;
+  KeptMeshes kept(components);
+  kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
+  kept.give_poles(attempts.round);
+  const AssembledMesh before = kept.assemble(left, box, 1, stats);
+  std::size_t reopened = 0;
+  for (std::uint32_t c = 0; c < components; ++c) {
+    const bool is_right = attempts.meshes[0].match.agreement[c] >= Agreement::kWithStrays;
+    if (!is_right || left[c]) continue;
+    ++reopened;
+    KeptMeshes again = kept;
+    again.reopen(c);
+    EXPECT_FALSE(again.done()[c]);
+    EXPECT_FALSE(again.is_done_but_for_mixing());
+    std::vector<bool> lacks;
+    again.assemble(lacks, box, 1, stats);
+    std::vector<bool> expected = left;
+    expected[c] = true;
+    EXPECT_EQ(lacks, expected);
+    again.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
+    again.give_poles(attempts.round);
+    EXPECT_TRUE(again.done()[c]);
+    EXPECT_EQ(again.assemble(lacks, box, 1, stats).mesh.points.size(), before.mesh.points.size());
+    EXPECT_EQ(lacks, left);
+  }
+  EXPECT_GT(reopened, 3u);
+}
+
+}  // namespace
+}  // namespace deliso

@@ -1,0 +1,288 @@
+// Rounds of repair that go on from the one before must be like rounds made anew.
+#include "surface/repair/rounds/repair_round.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/repair/diagnosis/matched_mesh.h"
+#include "surface/repair/lattice/sample_lattice.h"
+#include "surface/repair/signs/evidence.h"
+#include "surface/restricted/restricted_delaunay.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/surface_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::noise_scene;
+using testing::Scene;
+using testing::TetName;
+
+constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
+                                            SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
+
+std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vector<Vec3>& points) {
+  return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
+}
+
+// The same as stage 1 leaves it: grown point by point, in slots as they came free.
+std::unique_ptr<SignedDelaunay> grown(const Scene& scene, const std::vector<Vec3>& points) {
+  RestrictedDelaunay restricted(*scene.isosurface, std::span(points).first(points.size() / 4));
+  for (const Vec3& p : points) {
+    restricted.insert(p, restricted.delaunay().incident_tet(restricted.last_vertex()), 0);
+  }
+  return std::make_unique<SignedDelaunay>(std::move(restricted));
+}
+
+std::vector<Vec3> points_of(const RepairRound& round) {
+  const auto points = round.restricted().delaunay().points();
+  return {points.begin(), points.end()};
+}
+
+std::vector<Vec3> all_crossings(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (const EdgeCrossing& c : scene.topology.crossings) {
+    points.push_back(scaled(crossing_position(scene.grid, c), scene.isosurface->step()));
+  }
+  return points;
+}
+
+std::map<TetName, int> evidence_by_name(const RepairRound& round) {
+  std::map<TetName, int> names;
+  const Tetrahedralization& delaunay = round.restricted().delaunay();
+  for (std::size_t i = 0; i < round.evidence().size(); ++i) {
+    if (delaunay.is_live(TetId(i))) {
+      names[testing::name_of(delaunay, TetId(i))] = round.evidence()[i];
+    } else {
+      EXPECT_EQ(round.evidence()[i], 0);
+    }
+  }
+  return names;
+}
+
+// A mesh's triangles by the vertices of the triangulation, the least first; so copies of a vertex are not told apart. A
+// vertex on a subdivided edge, whose place may be rounded otherwise, counts as the infinite one.
+std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const RepairRound& round) {
+  const auto name = [&](std::uint32_t v) {
+    const VertexId vertex = built.vertex_of[v];
+    return built.mesh.points[v] == round.restricted().delaunay().point(vertex) ? vertex.value : kInfiniteVertex.value;
+  };
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& v : built.mesh.triangles) {
+    triangles.push_back({name(v[0]), name(v[1]), name(v[2])});
+    auto& triangle = triangles.back();
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& match) {
+  std::vector<std::array<std::int64_t, 5>> pieces;
+  for (const MeshPiece& piece : match.pieces) {
+    pieces.push_back({piece.topology.euler_characteristic, piece.topology.boundary_loops, piece.vertices,
+                      piece.component, piece.mixed ? 1 : 0});
+  }
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+// Takes signs by every rule in both and compares all that comes of it.
+void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
+  ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
+  ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
+  const std::vector<bool> all(points_of(fresh).size(), true);
+  for (const SignRule rule : kRules) {
+    continued.take_signs(rule);
+    fresh.take_signs(rule);
+    ASSERT_EQ(evidence_by_name(continued), evidence_by_name(fresh)) << where;
+    ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
+    // Circumcenters are rounded otherwise when the vertices of a tetrahedron stand in another order.
+    const std::vector<double>& heights = continued.pole_heights(all);
+    const std::vector<double>& fresh_heights = fresh.pole_heights(all);
+    ASSERT_EQ(heights.size(), fresh_heights.size()) << where;
+    for (std::size_t v = 0; v < heights.size(); ++v) {
+      ASSERT_NEAR(heights[v], fresh_heights[v], 1e-6 * fresh_heights[v]) << where << ", vertex " << v;
+    }
+    const auto mesh = continued.assemble();
+    const auto expected = fresh.assemble();
+    ASSERT_EQ(mesh.has_value(), expected.has_value()) << where;
+    if (!mesh) continue;
+    ASSERT_EQ(triangles_by_name(mesh->built, continued), triangles_by_name(expected->built, fresh)) << where;
+    ASSERT_EQ(mesh->built.mesh.points.size(), expected->built.mesh.points.size()) << where;
+    ASSERT_EQ(mesh->built.copies.size(), expected->built.copies.size()) << where;
+    ASSERT_EQ(sorted_pieces(mesh->match), sorted_pieces(expected->match)) << where;
+    ASSERT_EQ(mesh->match.agreement, expected->match.agreement) << where;
+    ASSERT_EQ(mesh->match.error, expected->match.error) << where;
+  }
+}
+
+// Raises some active cells one level.
+void raise_some(const Scene& scene, RaisedCells& raised, Rng& rng) {
+  std::vector<CellName> cells;
+  scene.topology.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
+    if (rng.below(40) == 0) cells.push_back(raised.name(cell));
+  });
+  raised.raise(cells);
+}
+
+void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool is_grown = false) {
+  Rng rng(seed);
+  const SampleLattice lattice(scene.grid, scene.isovalue, scene.topology);
+  RaisedCells raised(scene.grid, *scene.isosurface);
+  const std::vector<Vec3> start = all_crossings(scene);
+  RepairRound continued(scene.grid, scene.topology, raised,
+                        is_grown ? grown(scene, start) : triangulation(scene, start), threads);
+  std::vector<Vec3> points = points_of(continued);
+  continued.take_plain_signs();
+  ASSERT_TRUE(continued.assemble());
+  for (int round = 1; round <= 5; ++round) {
+    const std::string where = scene.name + ", round " + std::to_string(round);
+    raise_some(scene, raised, rng);
+    std::vector<LatticeSample> samples;
+    for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, samples);
+    std::vector<Vec3> coming;
+    coming.reserve(samples.size());
+    for (const LatticeSample& sample : samples) coming.push_back(scaled(sample.point, scene.isosurface->step()));
+    if (round == 4) coming.clear();
+    std::vector<VertexId> leaving;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (rng.below(30) == 0 && round != 3) leaving.push_back(VertexId(i));
+    }
+
+    ExchangedPoints exchanged;
+    ASSERT_TRUE(continued.exchange(leaving, coming, true, exchanged)) << where;
+    std::vector<Vec3> left;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool leaves = std::find(leaving.begin(), leaving.end(), VertexId(i)) != leaving.end();
+      ASSERT_EQ(exchanged.renamed[i].is_none(), leaves) << where;
+      if (!leaves) left.push_back(points[i]);
+    }
+    left.insert(left.end(), coming.begin(), coming.end());
+    for (std::size_t i = 0; i < coming.size(); ++i) {
+      ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]), SignedDelaunay::snapped(coming[i]));
+    }
+    RepairRound fresh(scene.grid, scene.topology, raised, triangulation(scene, left), 1);
+    compare(continued, fresh, where);
+    if (::testing::Test::HasFatalFailure()) return;
+    points = points_of(continued);
+  }
+}
+
+TEST(RepairRound, GoingOnIsLikeBeginningAnew) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    go_on_and_compare(*noise_scene({11, 10, 9}, seed), seed, seed % 2 == 0 ? 3 : 1);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(RepairRound, GoingOnFromStageOneIsLikeBeginningAnew) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    go_on_and_compare(*noise_scene({10, 9, 9}, seed), seed, 1, true);
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Where many samples of the grid lie on facets.
+TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
+  go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
+}
+
+// Beside each other on several threads or one after the other by hand; and missing parts that were covered before.
+TEST(RepairRound, AttemptsAreTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({11, 10, 9}, seed);
+    Rng rng(seed);
+    RaisedCells raised(scene->grid, *scene->isosurface);
+    raise_some(*scene, raised, rng);
+    const auto never = [](const MatchedMesh&) { return false; };
+    for (const int threads : {1, 2, 3}) {
+      RepairRound beside(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), threads);
+      RepairRound fresh(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+      const std::vector<RepairRound::Attempt> attempts = beside.attempts(kRules, never);
+      ASSERT_EQ(attempts.size(), kRules.size());
+      for (std::size_t i = 0; i < attempts.size(); ++i) {
+        fresh.take_signs(kRules[i]);
+        EXPECT_EQ(attempts[i].signs, fresh.restricted().signs()) << "seed " << seed;
+        const auto expected = fresh.assemble();
+        ASSERT_EQ(attempts[i].mesh.has_value(), expected.has_value()) << "seed " << seed;
+        if (!expected) continue;
+        EXPECT_EQ(attempts[i].mesh->built.mesh.points, expected->built.mesh.points) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->built.mesh.triangles, expected->built.mesh.triangles) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->match.agreement, expected->match.agreement) << "seed " << seed;
+        EXPECT_EQ(attempts[i].mesh->match.error, expected->match.error) << "seed " << seed;
+      }
+    }
+  }
+}
+
+// What a round has turned over stays so in the next one, where its tetrahedra do.
+TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
+  std::size_t stayed = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto scene = noise_scene({11, 10, 9}, seed);
+    Rng rng(seed);
+    RaisedCells raised(scene->grid, *scene->isosurface);
+    raise_some(*scene, raised, rng);
+    RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+    round.take_signs(SignRule::kCentroid);
+    EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
+    const Tetrahedralization& delaunay = round.restricted().delaunay();
+    std::vector<TetId> some;
+    for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
+      const TetId t(i);
+      const bool is_decided = round.evidence()[i] == kAbove || round.evidence()[i] == kBelow;
+      if (delaunay.is_live(t) && !delaunay.is_ghost(t) && !is_decided && rng.below(20) == 0) some.push_back(t);
+    }
+    round.overturn(some);
+    const TetSigns before = round.restricted().signs();
+
+    ExchangedPoints exchanged;
+    const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
+    ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
+    ASSERT_EQ(round.rules().front(), SignRule::kAsBefore);
+    round.take_signs(SignRule::kAsBefore);
+    const TetSigns after = round.restricted().signs();
+    std::vector<bool> is_renewed(after.size(), false);
+    for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (is_renewed[i] || !delaunay.is_live(TetId(i))) continue;
+      (before[i] == after[i] ? stayed : others) += 1;
+    }
+    // Pockets that lost their foundation.
+    EXPECT_LE(others, 4u) << "seed " << seed;
+    round.take_signs(SignRule::kCentroid);
+    EXPECT_NE(round.restricted().signs(), after);
+  }
+  EXPECT_GT(stayed, 1000u);
+}
+
+TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
+  const auto scene = noise_scene({9, 9, 9}, 1);
+  const RaisedCells raised(scene->grid, *scene->isosurface);
+  RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+  round.take_signs(SignRule::kCircumcenter);
+  ExchangedPoints exchanged;
+  const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
+  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
+  ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kAsBefore);
+  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
+  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
+}
+
+TEST(RepairRound, WithGuardsHasToBeginAnew) {
+  const auto scene = testing::field_scene("sphere", 12);
+  const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
+  RaisedCells raised(scene->grid, *scene->isosurface);
+  RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, points), 1);
+  ExchangedPoints exchanged;
+  const std::vector<Vec3> coming = {{5, 5, 5}};
+  EXPECT_FALSE(round.exchange({}, coming, true, exchanged));
+}
+
+}  // namespace
+}  // namespace deliso

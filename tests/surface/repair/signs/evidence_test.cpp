@@ -1,0 +1,83 @@
+#include "surface/repair/signs/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::dense;
+using testing::field_scene;
+using testing::noise_scene;
+using testing::Scene;
+
+std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
+                                      const RaisedCells& raised, int threads = 1) {
+  RaisedEvidence evidence(restricted, grid);
+  evidence.update(raised, threads);
+  return evidence.sides();
+}
+
+RaisedCells everywhere(const Scene& scene) {
+  RaisedCells raised(scene.grid, *scene.isosurface);
+  std::vector<CellName> cells;
+  scene.topology.index.for_each_active_cell(
+      [&](const CellIndex& cell, unsigned) { cells.push_back(raised.name(cell)); });
+  raised.raise(cells);
+  return raised;
+}
+
+// Points strictly between two samples of one side lie on that side: whichever tetrahedron holds one must know.
+TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({7, 6, 5}, seed);
+    const SignedDelaunay signed_delaunay = dense(*scene);
+    const RaisedCells raised = everywhere(*scene);
+    const std::vector<std::uint8_t> evidence = evidence_in(signed_delaunay, scene->grid, raised);
+    TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
+    for (const auto& [name, level] : raised.levels()) {
+      const CellIndex cell = raised.cell(name);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        CellIndex end = cell;
+        ++end[axis];
+        const bool above = scene->grid.at(cell[0], cell[1], cell[2]) > scene->isovalue;
+        if (above != (scene->grid.at(end[0], end[1], end[2]) > scene->isovalue)) continue;
+        for (const double t : {0.0, 0.25, 0.5, 1.0}) {
+          Vec3 p{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+          p[axis] += t;
+          const Vec3 center{cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5};
+          hint = signed_delaunay.locate(p, center, hint);
+          if (signed_delaunay.delaunay().is_ghost(hint)) continue;
+          const bool known = (evidence[hint.index()] & (above ? kAbove : kBelow)) != 0;
+          EXPECT_TRUE(known) << "seed " << seed << " at " << p.x << " " << p.y << " " << p.z;
+        }
+      }
+    }
+  }
+}
+
+// Enough cells for several blocks. In the symmetric field many samples lie on sides of tetrahedra.
+TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
+  for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
+    const SignedDelaunay signed_delaunay = dense(*scene);
+    const RaisedCells raised = everywhere(*scene);
+    EXPECT_GT(raised.levels().size(), 4096u);
+    const std::vector<std::uint8_t> one = evidence_in(signed_delaunay, scene->grid, raised);
+    EXPECT_GT(std::count(one.begin(), one.end(), kAbove), 1000) << scene->name;
+    EXPECT_EQ(evidence_in(signed_delaunay, scene->grid, raised, 3), one) << scene->name;
+  }
+}
+
+TEST(Evidence, IsNoneWithoutRaisedCells) {
+  const auto scene = noise_scene({6, 6, 6}, 3);
+  const SignedDelaunay signed_delaunay = dense(*scene);
+  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, RaisedCells(scene->grid, *scene->isosurface))) {
+    ASSERT_EQ(e, kNoEvidence);
+  }
+}
+
+}  // namespace
+}  // namespace deliso

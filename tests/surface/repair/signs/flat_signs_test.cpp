@@ -1,0 +1,133 @@
+#include "surface/repair/signs/flat_signs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/rng.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/surface_oracle.h"
+
+namespace deliso {
+namespace {
+
+using testing::field_scene;
+
+constexpr std::int32_t kSize = 11;
+constexpr double kLast = kSize - 1;
+constexpr double kHeight = 4.3;
+
+// Points in the plane z = kHeight but for last bits: those of a lattice that lie on one circle, within which flat
+// tetrahedra come to lie upon each other, and where the sides of the box meet; and the corners of the box, so that
+// there is something above and below.
+std::vector<Vec3> plane_points(Rng& rng) {
+  std::vector<Vec3> points;
+  for (unsigned i = 0; i < 8; ++i) {
+    points.push_back({(i & 1u) != 0 ? kLast : 0, (i & 2u) != 0 ? kLast : 0, (i & 4u) != 0 ? kLast : 0});
+  }
+  for (std::int32_t y = -5; y <= 5; ++y) {
+    for (std::int32_t x = -5; x <= 5; ++x) {
+      if (x * x + y * y != 25 && x * x + y * y != 50) continue;
+      points.push_back({5.0 + x, 5.0 + y, kHeight + 0x1p-50 * std::floor(4 * rng.uniform())});
+    }
+  }
+  return points;
+}
+
+// A volume whose isosurface that plane is.
+ScalarGrid plane_grid() {
+  std::vector<float> samples;
+  for (std::int32_t i = 0; i < kSize * kSize * kSize; ++i) samples.push_back(static_cast<float>(i / (kSize * kSize)));
+  return {{kSize, kSize, kSize}, std::move(samples)};
+}
+
+// Those with a corner off the plane get the side that they lie on, the flat ones any. How many are flat.
+std::size_t give_signs(SignedDelaunay& restricted, Rng& rng) {
+  std::size_t flat = 0;
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
+    if (!delaunay.is_live(TetId(i))) continue;
+    double off = 0;
+    for (const VertexId v : delaunay.vertices(TetId(i)))
+      off += restricted.is_virtual(v) ? 0 : delaunay.point(v).z - kHeight;
+    const bool is_flat = std::abs(off) < 1e-9;
+    flat += is_flat ? 1 : 0;
+    restricted.set_sign(TetId(i), is_flat ? rng.uniform() < 0.5 : off > 0);
+  }
+  return flat;
+}
+
+double restricted_area(const SignedDelaunay& restricted) {
+  double area = 0;
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  for (const testing::FacetName& name : testing::restricted_by_name(restricted)) {
+    const VertexId a(name[0]), b(name[1]), c(name[2]);
+    if (restricted.is_virtual(a) || restricted.is_virtual(b) || restricted.is_virtual(c)) continue;
+    area += 0.5 * norm(cross(delaunay.point(b) - delaunay.point(a), delaunay.point(c) - delaunay.point(a)));
+  }
+  return area;
+}
+
+TEST(FlatSigns, WhateverTheyWereTheSurfacePassesOnce) {
+  const ScalarGrid grid = plane_grid();
+  const Isosurface isosurface(grid, kHeight, SearchOptions{});
+  int folded = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Rng rng(seed);
+    SignedDelaunay restricted(isosurface, plane_points(rng));
+    const FlatSigns flat(restricted);
+    EXPECT_EQ(flat.tets().size(), give_signs(restricted, rng)) << "seed " << seed;
+    folded += restricted_area(restricted) > 1.01 * kLast * kLast ? 1 : 0;
+    flat.settle(restricted);
+    EXPECT_NEAR(restricted_area(restricted), kLast * kLast, 1e-6) << "seed " << seed;
+    const TetSigns settled = restricted.signs();
+    flat.settle(restricted);
+    EXPECT_EQ(restricted.signs(), settled) << "seed " << seed;
+  }
+  EXPECT_GT(folded, 20);
+}
+
+TEST(FlatSigns, SignsOfOtherTetrahedraAreLeftAlone) {
+  for (const char* name : {"torus", "sheets"}) {
+    const auto scene = field_scene(name, 16);
+    SignedDelaunay restricted = testing::dense(*scene);
+    const TetSigns before = restricted.signs();
+    const FlatSigns flat(restricted);
+    flat.settle(restricted);
+    restricted.for_each_difference(
+        before, [&](TetId t) { EXPECT_TRUE(std::binary_search(flat.tets().begin(), flat.tets().end(), t)) << name; });
+  }
+}
+
+TEST(FlatSigns, AfterAnExchangeOfPointsTheyAreThoseOfATriangulationMadeAnew) {
+  const ScalarGrid grid = plane_grid();
+  const Isosurface isosurface(grid, kHeight, SearchOptions{});
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Rng rng(seed);
+    const std::vector<Vec3> points = plane_points(rng);
+    std::vector<VertexId> vertex_of;
+    SignedDelaunay restricted(isosurface, points, 1, &vertex_of);
+    FlatSigns flat(restricted);
+    ExchangedPoints exchanged;
+    ASSERT_TRUE(restricted.exchange(std::vector{vertex_of[points.size() / 2]},
+                                    std::vector<Vec3>{{5, 5, kHeight}, {5.5, 4, kHeight + 0x1p-50}}, exchanged));
+    flat.renew(exchanged);
+    give_signs(restricted, rng);
+    const TetSigns given = restricted.signs();
+    const FlatSigns anew(restricted);
+    EXPECT_EQ(flat.tets(), anew.tets()) << "seed " << seed;
+    flat.settle(restricted);
+    const TetSigns settled = restricted.signs();
+    restricted.set_signs(given);
+    anew.settle(restricted);
+    EXPECT_EQ(restricted.signs(), settled) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace deliso
