@@ -6,7 +6,7 @@
 
 #include "delaunay/base/counted.h"
 #include "delaunay/base/parallel.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/certificate/component_match.h"
 
 namespace deliso {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/restricted/signed_delaunay.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

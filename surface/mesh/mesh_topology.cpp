@@ -10,7 +10,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/huge_pages.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/restricted/sides_of_facets.h"
 #include "surface/search/covering_triangles.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "surface/base/bucket_queue.h"
 #include "surface/base/parameters.h"
-#include "surface/base/ranked_queue.h"
 
 namespace deliso {
 
@@ -32,7 +32,7 @@ class ViolationQueue {
   // `badness`: how far beyond its threshold; `radius`: size of the facet: the order decides which of them counts.
   // `where`: a point nearby, in mesh space.
   void push(const Violation& violation, double badness, double radius, const Vec3& where) {
-    RankedQueue& queue = queues_[static_cast<std::size_t>(violation.kind)];
+    BucketQueue& queue = queues_[static_cast<std::size_t>(violation.kind)];
     const QueuedElement queued{violation.element, violation.generation};
     const double key = order_ == QueueOrder::kWorstFirst ? badness : radius;
     if (order_ == QueueOrder::kFirstInFirstOut || violation.kind == ViolationKind::kExtractManifold) {
@@ -76,7 +76,7 @@ class ViolationQueue {
   }
 
   QueueOrder order_;
-  std::array<RankedQueue, 3> queues_;  // of each kind
+  std::array<BucketQueue, 3> queues_;  // of each kind
 };
 
 }  // namespace deliso

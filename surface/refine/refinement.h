@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
-#include "surface/base/ranked_queue.h"
+#include "surface/base/bucket_queue.h"
 #include "surface/refine/disk/refinement_candidates.h"
 #include "surface/refine/disk/refinement_disk.h"
 #include "surface/refine/disk/refinement_mesh.h"
@@ -94,7 +94,7 @@ class Refinement {
   const Isosurface& isosurface_;
   const RefineOptions& options_;
   RefineStats& stats_;
-  RankedQueue queue_;
+  BucketQueue queue_;
   RefinementDisk disk_;                 // E
   std::optional<CrossingGuard> guard_;  // while it runs
   std::vector<Shape> shapes_;           // D, one for each edge of E's rim,

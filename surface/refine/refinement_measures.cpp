@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/refine/refinement.h"
 #include "surface/refine/triangle_lanes.h"
 

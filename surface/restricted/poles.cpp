@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "delaunay/constructions.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

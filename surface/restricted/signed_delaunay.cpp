@@ -5,7 +5,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/constructions.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/search/halving_order.h"
 
 namespace deliso {

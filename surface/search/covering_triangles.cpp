@@ -1,7 +1,7 @@
 #include "surface/search/covering_triangles.h"
 
 #include "delaunay/base/box3.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 #include "surface/search/near_blocks.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "delaunay/base/box3.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/near_blocks.h"
 #include "surface/search/point_blocks.h"

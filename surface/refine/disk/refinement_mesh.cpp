@@ -1,7 +1,7 @@
 #include "surface/refine/disk/refinement_mesh.h"
 
 #include "delaunay/base/parallel.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "delaunay/triangle_contact.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {

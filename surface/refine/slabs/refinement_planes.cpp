@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "delaunay/base/box3.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

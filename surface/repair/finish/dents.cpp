@@ -7,7 +7,7 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/triangle_contact.h"
 #include "raycast/gradients_at.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/least_triangulation.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/mesh/vertex_fans.h"

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <utility>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/certificate/component_match.h"
 #include "surface/extract/build_triangle_mesh.h"
 #include "surface/repair/diagnosis/matched_mesh.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/signs/evidence.h"
 

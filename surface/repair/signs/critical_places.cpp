@@ -3,7 +3,7 @@
 #include <bit>
 #include <utility>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "volume/topology/critical_points.h"
 
 namespace deliso {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "delaunay/predicates.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/repair/signs/passage.h"
 #include "surface/repair/signs/sample_locator.h"
 #include "volume/topology/critical_points.h"

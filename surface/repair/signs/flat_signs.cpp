@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

@@ -7,7 +7,7 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/predicates.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 

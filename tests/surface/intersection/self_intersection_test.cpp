@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "delaunay/predicates.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/search/box_tree.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/random_boxes.h"

@@ -10,7 +10,7 @@
 
 #include "delaunay/base/rng.h"
 #include "delaunay/constructions.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/repair/diagnosis/polygonized_components.h"
 #include "surface/search/covering_triangles.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/verification/surface_distance.h"

@@ -7,7 +7,7 @@
 #include <bit>
 #include <numeric>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/repair/signs/critical_places.h"
 #include "tests/support/surface_fields.h"
 #include "volume/topology/critical_points.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 #include "surface/repair/diagnosis/polygonized_components.h"
 #include "surface/search/mesh_cover.h"
 #include "tests/support/surface_fields.h"

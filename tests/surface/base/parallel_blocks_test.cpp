@@ -1,4 +1,4 @@
-#include "surface/base/blocks.h"
+#include "surface/base/parallel_blocks.h"
 
 #include <gtest/gtest.h>
 

@@ -58,7 +58,7 @@ struct RankedElement {
 //
 // Ranks that agree in their upper half share a bucket, which becomes a heap when its turn comes: of block_rank() that
 // is a block's part of one power of two, small enough to stay in the cache.
-class RankedQueue {
+class BucketQueue {
  public:
   void push(std::uint64_t rank, const QueuedElement& queued) {
     Bucket& bucket = bucket_at(static_cast<std::uint32_t>(rank >> 32));

@@ -1,4 +1,4 @@
-#include "surface/base/ranked_queue.h"
+#include "surface/base/bucket_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -27,11 +27,11 @@ std::uint64_t random_rank(Rng& rng) {
 }
 
 // Against a set in the order that the queue promises: rank down, then element up, then generation down.
-TEST(RankedQueue, PopsByRankHoweverPushesAndPopsMix) {
+TEST(BucketQueue, PopsByRankHoweverPushesAndPopsMix) {
   using Key = std::tuple<std::uint64_t, std::int64_t, std::uint32_t>;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
-    RankedQueue queue;
+    BucketQueue queue;
     std::set<Key> expected;
     int foretold = 0;
     for (int step = 0; step < 4000; ++step) {
@@ -61,8 +61,8 @@ TEST(RankedQueue, PopsByRankHoweverPushesAndPopsMix) {
   }
 }
 
-TEST(RankedQueue, ByAgeTheFirstComesOutFirst) {
-  RankedQueue queue;
+TEST(BucketQueue, ByAgeTheFirstComesOutFirst) {
+  BucketQueue queue;
   for (std::uint32_t i = 0; i < 100; ++i) queue.push_by_age({i, 2 * i});
   for (std::uint32_t i = 0; i < 100; ++i) EXPECT_EQ(queue.pop()->queued.element, i);
   EXPECT_FALSE(queue.pop());
