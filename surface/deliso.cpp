@@ -182,11 +182,11 @@ void refine_in_3d(RestrictedDelaunay& restricted, const Parameters& parameters, 
 
 // Where the pieces of the mesh lie that stage 2 starts from: it takes none elsewhere, and the crossings that tell of it
 // are too many to be kept until it has ended.
-PlaceFaults faults_of(const SurfaceMesh& mesh, const ScalarGrid& grid, const Isosurface& isosurface,
-                      const IsosurfaceTopology& topology, const MeshingOptions& options, MeshingResult& result) {
+AssignmentFaults faults_of(const SurfaceMesh& mesh, const ScalarGrid& grid, const Isosurface& isosurface,
+                           const IsosurfaceTopology& topology, const MeshingOptions& options, MeshingResult& result) {
   if (!options.parameters.certify || !result.build.bounds_a_solid) return {};
   return timed(result.certify_stage, [&] {
-    return place_faults(mesh, grid, isosurface.isovalue(), isosurface.step(), topology, options.threads);
+    return assignment_faults(mesh, grid, isosurface.isovalue(), isosurface.step(), topology, options.threads);
   });
 }
 
@@ -241,7 +241,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   // The tetrahedra and the facts go as soon as the surface mesh stands; of the topology the components stay.
   controls.enter("repair");
   SurfaceMesh surface = surface_from(std::move(restricted), std::move(facts), options, controls, result);
-  const PlaceFaults faults = faults_of(surface, grid, *isosurface, topology, options, result);
+  const AssignmentFaults faults = faults_of(surface, grid, *isosurface, topology, options, result);
   drop_crossings(regular.topology);
   if (options.keep_stage1_mesh) result.stage1_mesh = to_world(surface, grid, isosurface->step());
   controls.enter("refine");

@@ -22,10 +22,10 @@ bool is_exact_in_world(const ScalarGrid& grid, const Vec3& step) {
 
 }  // namespace
 
-Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology, const PlaceFaults& faults,
-                              bool bounds_a_solid, int threads) {
+Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
+                              const AssignmentFaults& faults, bool bounds_a_solid, int threads) {
   Certificate certificate = certify(mesh, topology, threads);
-  add_place_faults(faults, certificate);
+  add_assignment_faults(faults, certificate);
   if (bounds_a_solid) return certificate;
   if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
   certificate.differences.insert(

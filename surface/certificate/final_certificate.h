@@ -3,7 +3,7 @@
 #pragma once
 
 #include "surface/certificate/certificate.h"
-#include "surface/certificate/component_places.h"
+#include "surface/certificate/component_assignment.h"
 #include "surface/mesh/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
@@ -12,8 +12,8 @@ namespace deliso {
 
 // Of a mesh whose pieces are placed with these faults. Facets that bound no set of tetrahedra are no isosurface,
 // whatever their counts.
-Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology, const PlaceFaults& faults,
-                              bool bounds_a_solid, int threads = 1);
+Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
+                              const AssignmentFaults& faults, bool bounds_a_solid, int threads = 1);
 
 // For a mesh in world coordinates whose triangles do not cross in mesh space (cells with sides `step`): sheets that all
 // but touch may cross when an origin or a spacing rounds them, and then the certificate holds no more. Where

@@ -10,7 +10,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/counted.h"
 #include "delaunay/base/stopwatch.h"
-#include "surface/certificate/component_places.h"
+#include "surface/certificate/component_assignment.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/verification/delaunay_balls.h"
 #include "surface/verification/isosurface_probe.h"
@@ -218,8 +218,8 @@ std::vector<std::string> list_failures(const Verification& v) {
   return failures;
 }
 
-PlaceFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
-                             const RegularTopology& truth) {
+AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
+                                  const RegularTopology& truth) {
   if (!topology.is_manifold()) return {};
   const Vec3& s = grid.spacing();
   std::vector<Vec3> points;
@@ -229,7 +229,7 @@ PlaceFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topol
     pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
   }
   const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
-  return place_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
+  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
 }
 
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
@@ -271,7 +271,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   // Combinatorics.
   v.self_intersection.found = self_intersections(mesh, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
-  PlaceFaults faults;
+  AssignmentFaults faults;
   {
     const MeshTopology topology = mesh_topology(mesh);
     faults = faults_of_places(mesh, topology, grid, regular);
@@ -280,7 +280,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);
-  add_place_faults(faults, v.topology);
+  add_assignment_faults(faults, v.topology);
 
   // Geometry.
   check_distances(voxels, probe, off, v);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "surface/certificate/component_places.h"
+#include "surface/certificate/component_assignment.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/intersection/self_intersection.h"
 
@@ -54,8 +54,8 @@ void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, cons
 
 bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
                                  std::vector<bool>& is_polygonized, int threads) {
-  const PlaceFaults faults =
-      place_faults(mesh, facts.grid(), isosurface.isovalue(), isosurface.step(), facts.topology(), threads);
+  const AssignmentFaults faults =
+      assignment_faults(mesh, facts.grid(), isosurface.isovalue(), isosurface.step(), facts.topology(), threads);
   if (faults.is_empty()) return false;
   std::vector<bool> replaced(is_polygonized.size(), false);
   for (const auto* components : {&faults.without, &faults.repeated, &faults.unlike, &faults.overrunning}) {

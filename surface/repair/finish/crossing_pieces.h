@@ -19,8 +19,8 @@ namespace deliso {
 void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
                                 std::vector<bool>& is_polygonized, int threads, Controls& controls);
 
-// The same for pieces that are in the wrong place (component_places.h): that lie on another component as much as its
-// own piece does, share a component, or are of another topology. True when there were any.
+// The same for pieces that are in the wrong place (component_assignment.h): that lie on another component as much as
+// its own piece does, share a component, or are of another topology. True when there were any.
 bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
                                  std::vector<bool>& is_polygonized, int threads);
 

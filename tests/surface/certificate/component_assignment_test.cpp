@@ -1,5 +1,5 @@
 // Pieces of a mesh and the exact components that they count for, by hand.
-#include "surface/certificate/component_places.h"
+#include "surface/certificate/component_assignment.h"
 
 #include <gtest/gtest.h>
 
@@ -12,42 +12,43 @@ using Numbers = std::vector<std::uint32_t>;
 
 constexpr ComponentTopology kSphere{2, 0}, kDisk{1, 1};
 
-PlaceFaults faults(const Numbers& piece_of, const Numbers& component_of, const std::vector<ComponentTopology>& pieces,
-                   const std::vector<ComponentTopology>& components) {
-  return place_faults({piece_of, component_of, pieces, components});
+AssignmentFaults faults(const Numbers& piece_of, const Numbers& component_of,
+                        const std::vector<ComponentTopology>& pieces,
+                        const std::vector<ComponentTopology>& components) {
+  return assignment_faults({piece_of, component_of, pieces, components});
 }
 
-TEST(ComponentPlaces, OnePieceOnEachComponentIsRight) {
+TEST(ComponentAssignment, OnePieceOnEachComponentIsRight) {
   EXPECT_TRUE(faults({0, 0, 1, 1}, {1, 1, 0, 0}, {kSphere, kDisk}, {kDisk, kSphere}).is_empty());
   // A few vertices of another component, and one that lies on none or has no triangle, do not count.
   EXPECT_TRUE(faults({0, 0, 0, 0, 1, 1, 9}, {0, 0, 1, 9, 1, 1, 1}, {kDisk, kDisk}, {kDisk, kDisk}).is_empty());
 }
 
 // Two components in one piece and one of them once more: the counts are right.
-TEST(ComponentPlaces, APieceMayNotLieOnAnotherComponentAsMuchAsItsOwnPiece) {
-  const PlaceFaults found = faults({0, 0, 0, 0, 0, 1, 1}, {0, 0, 0, 1, 1, 1, 1}, {kDisk, kDisk}, {kDisk, kDisk});
+TEST(ComponentAssignment, APieceMayNotLieOnAnotherComponentAsMuchAsItsOwnPiece) {
+  const AssignmentFaults found = faults({0, 0, 0, 0, 0, 1, 1}, {0, 0, 0, 1, 1, 1, 1}, {kDisk, kDisk}, {kDisk, kDisk});
   EXPECT_EQ(found.overrunning, Numbers{0});
   EXPECT_TRUE(found.without.empty() && found.repeated.empty() && found.unlike.empty());
 }
 
-TEST(ComponentPlaces, ComponentsWithoutAPieceAndWithTwoAreTold) {
-  const PlaceFaults found = faults({0, 0, 1}, {0, 0, 0}, {kDisk, kDisk}, {kDisk, kDisk});
+TEST(ComponentAssignment, ComponentsWithoutAPieceAndWithTwoAreTold) {
+  const AssignmentFaults found = faults({0, 0, 1}, {0, 0, 0}, {kDisk, kDisk}, {kDisk, kDisk});
   EXPECT_EQ(found.without, Numbers{1});
   EXPECT_EQ(found.repeated, Numbers{0});
 }
 
-TEST(ComponentPlaces, PiecesOfTheRightTopologiesInEachOthersPlacesAreTold) {
-  const PlaceFaults found = faults({0, 1}, {0, 1}, {kSphere, kDisk}, {kDisk, kSphere});
+TEST(ComponentAssignment, PiecesOfTheRightTopologiesInEachOthersPlacesAreTold) {
+  const AssignmentFaults found = faults({0, 1}, {0, 1}, {kSphere, kDisk}, {kDisk, kSphere});
   EXPECT_EQ(found.unlike, (Numbers{0, 1}));
 }
 
-TEST(ComponentPlaces, FaultsTakeBackWhatCountsSeemToProve) {
+TEST(ComponentAssignment, FaultsTakeBackWhatCountsSeemToProve) {
   for (const bool has_faults : {false, true}) {
     Certificate certificate;
     certificate.verdict = Verdict::kHomeomorphic;
-    PlaceFaults found;
+    AssignmentFaults found;
     if (has_faults) found.overrunning = {3};
-    add_place_faults(found, certificate);
+    add_assignment_faults(found, certificate);
     EXPECT_EQ(certificate.verdict, has_faults ? Verdict::kDifferent : Verdict::kHomeomorphic);
     EXPECT_EQ(certificate.differences.size(), has_faults ? 1u : 0u);
   }

@@ -1,4 +1,4 @@
-#include "surface/certificate/component_places.h"
+#include "surface/certificate/component_assignment.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Share {
 };
 
 // All that are not zero, by piece and component.
-std::vector<Share> shares_of(const PlacedPieces& pieces) {
+std::vector<Share> shares_of(const AssignedPieces& pieces) {
   std::vector<Share> shares;
   for (std::size_t v = 0; v < pieces.piece_of.size(); ++v) {
     const std::uint32_t piece = pieces.piece_of[v], component = pieces.component_of[v];
@@ -62,14 +62,14 @@ void sort_and_drop_repeated(std::vector<std::uint32_t>& numbers) {
 
 }  // namespace
 
-PlaceFaults place_faults(const PlacedPieces& pieces) {
+AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
   const std::vector<Share> shares = shares_of(pieces);
   const std::vector<Share> main_of_piece =
       largest(shares, pieces.topology.size(), [](const Share& share) { return share.piece; });
   const std::vector<Share> own =
       largest(main_of_piece, pieces.components.size(), [](const Share& share) { return share.component; });
 
-  PlaceFaults faults;
+  AssignmentFaults faults;
   for (std::uint32_t c = 0; c < own.size(); ++c) {
     if (own[c].vertices == 0) {
       faults.without.push_back(c);
@@ -91,7 +91,7 @@ PlaceFaults place_faults(const PlacedPieces& pieces) {
   return faults;
 }
 
-void add_place_faults(const PlaceFaults& faults, Certificate& certificate) {
+void add_assignment_faults(const AssignmentFaults& faults, Certificate& certificate) {
   const auto add = [&](const std::vector<std::uint32_t>& components, const std::string& one,
                        const std::string& several) {
     if (components.empty()) return;
@@ -120,8 +120,8 @@ std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const Sca
   return components;
 }
 
-PlaceFaults place_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
-                         const IsosurfaceTopology& topology, int threads) {
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
+                                   const IsosurfaceTopology& topology, int threads) {
   std::vector<std::uint32_t> component_of;
   ComponentMatch match;
   run_tasks(2, threads, [&](std::size_t task) {
@@ -137,7 +137,7 @@ PlaceFaults place_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return place_faults({match.piece_of, component_of, topologies, topology.components});
+  return assignment_faults({match.piece_of, component_of, topologies, topology.components});
 }
 
 }  // namespace deliso

@@ -16,7 +16,7 @@
 namespace deliso {
 
 // A mesh in pieces, and where these lie.
-struct PlacedPieces {
+struct AssignedPieces {
   std::span<const std::uint32_t> piece_of;      // of each vertex; beyond the number of pieces for one without triangles
   std::span<const std::uint32_t> component_of;  // of each vertex; beyond the number of components for one off them all
   std::span<const ComponentTopology> topology;  // of each piece
@@ -24,7 +24,7 @@ struct PlacedPieces {
 };
 
 // A piece counts for the component that most of its vertices lie on.
-struct PlaceFaults {
+struct AssignmentFaults {
   std::vector<std::uint32_t> without;   // components for which no piece counts
   std::vector<std::uint32_t> repeated;  // those for which several do
   std::vector<std::uint32_t> unlike;    // those whose piece has another topology
@@ -35,17 +35,17 @@ struct PlaceFaults {
     return without.empty() && repeated.empty() && unlike.empty() && overrunning.empty();
   }
 };
-PlaceFaults place_faults(const PlacedPieces& pieces);
+AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 
 // A certificate whose counts are right is right no more where places are not: a sentence for each kind of fault.
-void add_place_faults(const PlaceFaults& faults, Certificate& certificate);
+void add_assignment_faults(const AssignmentFaults& faults, Certificate& certificate);
 
 // The exact component of each point, given in index space; a number beyond all for one that lies on none.
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 
 // Of a mesh in mesh space (raycast/isosurface.h) of cells with these sides.
-PlaceFaults place_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
-                         const IsosurfaceTopology& topology, int threads = 1);
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
+                                   const IsosurfaceTopology& topology, int threads = 1);
 
 }  // namespace deliso
