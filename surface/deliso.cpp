@@ -165,7 +165,7 @@ SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::un
       timed(result.poles, [&] { return compute_poles(*restricted, parameters.stage2.pole_height); });
   return timed(result.build, [&] {
     BuiltMesh built = build_triangle_mesh(*restricted);
-    separate_copies(built.mesh, built.groups, built.vertex_of, restricted->isosurface().box());
+    separate_pinches(built.mesh, built.groups, built.vertex_of, restricted->isosurface().box());
     for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
     return std::move(built.mesh);
   });

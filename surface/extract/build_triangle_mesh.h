@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "surface/extract/facet_pairing.h"
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/restricted/signed_delaunay.h"
 
@@ -14,12 +14,12 @@ struct BuiltMesh {
   SurfaceMesh mesh;                   // without balls and pole heights
   std::vector<VertexId> vertex_of;    // of each mesh vertex; for a vertex put on a subdivided edge, an end of that edge
   std::vector<std::uint32_t> copies;  // mesh vertices that share their vertex with another one, ascending
-  std::vector<CopyGroup> groups;      // of copies, and of vertices on the same subdivided edge
+  std::vector<PinchGroup> groups;     // of copies, and of vertices on the same subdivided edge
 };
 
 // From the paired facets (facet_pairing.h). A vertex is given once for each fan of paired triangles. An edge that two
 // pairs still share afterwards is subdivided in each of them. The result is a manifold with boundary, oriented, by
-// construction. Vertices without triangles are left out. It touches itself at the copies until separate_copies has
+// construction. Vertices without triangles are left out. It touches itself at the copies until separate_pinches has
 // moved them apart.
 BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
 // The same from triangles taken before; whatever signs `restricted` has by now.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "delaunay/base/parallel.h"
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_fans.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 
@@ -60,7 +60,7 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
   for (const std::uint32_t v : whole.built.copies) {
     if (stays(v)) part.built.copies.push_back(name[v]);
   }
-  for (const CopyGroup& group : whole.built.groups) {
+  for (const PinchGroup& group : whole.built.groups) {
     if (!stays(group.front().vertex)) continue;  // nor do the others
     part.built.groups.push_back(group);
     for (Copy& copy : part.built.groups.back()) copy.vertex = name[copy.vertex];
@@ -73,7 +73,7 @@ class TrueHomes {
  public:
   // Of copies that still are at their first homes.
   explicit TrueHomes(const BuiltMesh& built) {
-    for (const CopyGroup& group : built.groups) {
+    for (const PinchGroup& group : built.groups) {
       for (const Copy& copy : group) {
         if (!copy.has_false_home) continue;
         std::vector<Vec3> homes = copy.other_homes;
@@ -88,7 +88,9 @@ class TrueHomes {
     std::vector<std::uint32_t> left;
     for (const auto& [v, homes] : homes_) {
       const Vec3& p = points[v];
-      const auto is_near = [&](const Vec3& home) { return squared_distance(p, home) < kHairsBreadth * kHairsBreadth; };
+      const auto is_near = [&](const Vec3& home) {
+        return squared_distance(p, home) < kPinchSeparation * kPinchSeparation;
+      };
       if (std::none_of(homes.begin(), homes.end(), is_near)) left.push_back(v);
     }
     return left;
@@ -238,7 +240,7 @@ AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int
       return piece_of[v] != kNoPiece && wanted[piece_of[v]];
     };
     given[i] = {built.mesh, component, match.piece_of};
-    separate_copies(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
+    separate_pinches(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
     std::vector<std::uint32_t> homeless = TrueHomes(built).left_by(given[i].mesh.points);
     std::erase_if(homeless, [&](std::uint32_t v) { return !is_wanted(v); });
     given[i].take_out(homeless, wanted[i]);

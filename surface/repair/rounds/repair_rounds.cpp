@@ -7,7 +7,7 @@
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/certificate/mesh_pieces.h"
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/diagnosis/trouble.h"
 #include "surface/repair/finish/left_out.h"
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
 // Its copies moved apart, with the poles of the samples as they are.
 SurfaceMesh RepairRounds::as_it_is() {
   BuiltMesh built = mesh_->built;
-  separate_copies(built.mesh, built.groups, built.vertex_of, isosurface_.box());
+  separate_pinches(built.mesh, built.groups, built.vertex_of, isosurface_.box());
   const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
   for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   stats_.vertices_after = static_cast<std::int64_t>(built.mesh.points.size());

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_fans.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "tests/support/surface_fields.h"
@@ -73,7 +73,7 @@ struct Attempts {
 std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Vec3>& before,
                                     const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
-  for (const CopyGroup& group : built.groups) {
+  for (const PinchGroup& group : built.groups) {
     for (const auto& [v, others, has_false_home] : group) {
       if (!has_false_home || !is_wanted(v)) continue;
       double nearest = others.empty() ? 1 : distance(built.mesh.points[v], before[v]);
@@ -132,7 +132,7 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       for (const VertexId v : mesh.built.vertex_of) mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
       const auto is_wanted = [&](std::uint32_t v) { return mesh.match.piece_of[v] == mesh.match.main_piece[c]; };
       const std::vector<Vec3> before = mesh.built.mesh.points;
-      separate_copies(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
+      separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
       if (const auto off = homeless(mesh.built, before, is_wanted); !off.empty()) {
         VertexFans fans(mesh.built.mesh);

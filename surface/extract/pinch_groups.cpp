@@ -1,11 +1,11 @@
-#include "surface/extract/copy_groups.h"
+#include "surface/extract/pinch_groups.h"
 
 #include <numeric>
 #include <unordered_map>
 
 namespace deliso {
 
-std::vector<std::size_t> groups_that_matter(std::span<const CopyGroup> groups,
+std::vector<std::size_t> groups_that_matter(std::span<const PinchGroup> groups,
                                             const std::function<void(std::size_t, const VertexVisit&)>& visit_around,
                                             const std::function<bool(std::uint32_t)>& is_wanted) {
   std::unordered_map<std::uint32_t, std::size_t> group_of;  // of each copy

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "delaunay/ids.h"
-#include "surface/extract/copy_groups.h"
+#include "surface/extract/pinch_groups.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
 
-class GroupSurroundings {
+class PinchNeighbourhoods {
  public:
   // Of a mesh whose points may move a hair's breadth from where they are, and copies to their other homes. `origin_of`
   // names, for each mesh vertex, what it is a copy of. Keeps references.
-  GroupSurroundings(const SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of);
+  PinchNeighbourhoods(const SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of);
 
   // Of a copy, or a vertex of a triangle at one: the triangles at all that have its origin, ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& fan(std::uint32_t v) const { return fans_.at(origin_of_[v].index()); }
@@ -35,7 +35,7 @@ class GroupSurroundings {
   void find_those_near_homes();
 
   const SurfaceMesh& mesh_;
-  std::span<const CopyGroup> groups_;
+  std::span<const PinchGroup> groups_;
   std::span<const VertexId> origin_of_;
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;        // by origin
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> near_homes_;  // by group, for those with other homes

@@ -1,4 +1,4 @@
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <unordered_map>
 
 #include "delaunay/triangle_contact.h"
-#include "surface/extract/copy_directions.h"
-#include "surface/extract/copy_groups.h"
-#include "surface/extract/group_surroundings.h"
+#include "surface/extract/pinch_directions.h"
+#include "surface/extract/pinch_groups.h"
+#include "surface/extract/pinch_neighbourhoods.h"
 
 namespace deliso {
 
@@ -17,7 +17,7 @@ namespace {
 // Distances tried, in mesh-space units, the last one in stubborn sweeps only; and the largest fraction of the shortest
 // edge at the copy.
 constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
-static_assert(kDistances.back() < kHairsBreadth);
+static_assert(kDistances.back() < kPinchSeparation);
 constexpr double kEdgeFraction = 0.05;
 constexpr int kCrossingWeight = 100;
 // Sweeps over all groups: in the first one neighbouring copies may still share their place.
@@ -27,7 +27,8 @@ constexpr int kStubbornSweeps = 2;
 
 class Separation {
  public:
-  Separation(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of, const Box3& box)
+  Separation(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
+             const Box3& box)
       : mesh_(mesh),
         groups_(groups),
         around_(mesh, groups, origin_of),
@@ -80,8 +81,8 @@ class Separation {
   }
 
   SurfaceMesh& mesh_;
-  std::span<const CopyGroup> groups_;
-  GroupSurroundings around_;
+  std::span<const PinchGroup> groups_;
+  PinchNeighbourhoods around_;
   const Box3& box_;
   std::vector<Surrounding> surroundings_;         // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> home_;  // where each copy came from
@@ -177,7 +178,7 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   for (const Vec3& home : homes) {
     const double farthest = kEdgeFraction * shortest_edge(v, home);
     mesh_.points[v] = home;
-    for (const Vec3& towards : directions_apart(mesh_, around_, box_, v, is_stubborn)) {
+    for (const Vec3& towards : pinch_directions(mesh_, around_, box_, v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest <= least) break;
         mesh_.points[v] = home + std::min(length, farthest) * towards;
@@ -240,8 +241,8 @@ int Separation::unavoidable_conflicts(std::uint32_t copy) const {
 
 }  // namespace
 
-void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
-                     const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted) {
+void separate_pinches(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
+                      const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted) {
   Separation separation(mesh, groups, origin_of, box);
   if (is_wanted) separation.choose(is_wanted);
   separation.run();

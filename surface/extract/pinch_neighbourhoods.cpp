@@ -1,11 +1,11 @@
-#include "surface/extract/group_surroundings.h"
+#include "surface/extract/pinch_neighbourhoods.h"
 
 #include "surface/search/box_tree.h"
 
 namespace deliso {
 
-GroupSurroundings::GroupSurroundings(const SurfaceMesh& mesh, std::span<const CopyGroup> groups,
-                                     std::span<const VertexId> origin_of)
+PinchNeighbourhoods::PinchNeighbourhoods(const SurfaceMesh& mesh, std::span<const PinchGroup> groups,
+                                         std::span<const VertexId> origin_of)
     : mesh_(mesh), groups_(groups), origin_of_(origin_of) {
   if (groups_.empty()) return;
   find_fans();
@@ -13,9 +13,9 @@ GroupSurroundings::GroupSurroundings(const SurfaceMesh& mesh, std::span<const Co
 }
 
 // The triangles at all vertices that stand beside a copy.
-void GroupSurroundings::find_fans() {
+void PinchNeighbourhoods::find_fans() {
   std::vector<bool> is_copy(mesh_.points.size(), false);
-  for (const CopyGroup& group : groups_) {
+  for (const PinchGroup& group : groups_) {
     for (const Copy& copy : group) is_copy[copy.vertex] = true;
   }
   for (const auto& triangle : mesh_.triangles) {
@@ -33,7 +33,7 @@ void GroupSurroundings::find_fans() {
   }
 }
 
-void GroupSurroundings::find_those_near_homes() {
+void PinchNeighbourhoods::find_those_near_homes() {
   std::vector<std::size_t> groups;
   std::vector<Box3> boxes;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -49,7 +49,7 @@ void GroupSurroundings::find_those_near_homes() {
       }
     }
     if (!has_homes) continue;
-    const Vec3 around{kHairsBreadth, kHairsBreadth, kHairsBreadth};
+    const Vec3 around{kPinchSeparation, kPinchSeparation, kPinchSeparation};
     groups.push_back(i);
     boxes.push_back({box.low - around, box.high + around});
   }
@@ -60,7 +60,7 @@ void GroupSurroundings::find_those_near_homes() {
   }
 }
 
-std::vector<std::uint32_t> GroupSurroundings::triangles(std::size_t group) const {
+std::vector<std::uint32_t> PinchNeighbourhoods::triangles(std::size_t group) const {
   std::vector<std::uint32_t> triangles;
   for (const Copy& copy : groups_[group]) {
     for (const std::uint32_t t : fan(copy.vertex)) {

@@ -7,7 +7,7 @@
 
 #include "delaunay/base/box3.h"
 #include "delaunay/ids.h"
-#include "surface/extract/copy_groups.h"
+#include "surface/extract/pinch_groups.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
@@ -18,7 +18,7 @@ namespace deliso {
 // around. `origin_of` names, for each mesh vertex, what it is a copy of: triangles that share no vertex but an origin
 // are tested, too. When only some vertices are wanted (is_wanted(vertex)), the others are of no use afterwards: copies
 // that are neither wanted nor can make a difference to wanted ones stay where they are.
-void separate_copies(SurfaceMesh& mesh, std::span<const CopyGroup> groups, std::span<const VertexId> origin_of,
-                     const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted = {});
+void separate_pinches(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
+                      const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted = {});
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-#include "surface/extract/separate_copies.h"
+#include "surface/extract/pinch_separation.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,15 @@ void append_tetrahedron(SurfaceMesh& mesh, const std::array<Vec3, 4>& corners) {
 
 const Box3 kBox{{-10, -10, -10}, {10, 10, 10}};
 
-TEST(SeparateCopies, TetrahedraThatShareACornerNoLongerTouch) {
+TEST(PinchSeparation, TetrahedraThatShareACornerNoLongerTouch) {
   SurfaceMesh mesh;
   append_tetrahedron(mesh, {Vec3{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}});
   append_tetrahedron(mesh, {Vec3{0, 0, 0}, {-1, 0, -1}, {0, -1, -1}, {-1, -1, -2}});
   ASSERT_GT(self_intersections(mesh.points, mesh.triangles).touching_pairs, 0);
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
-  const std::vector<CopyGroup> groups = {{{0, {}}, {4, {}}}};
-  separate_copies(mesh, groups, origin, kBox);
+  const std::vector<PinchGroup> groups = {{{0, {}}, {4, {}}}};
+  separate_pinches(mesh, groups, origin, kBox);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
   EXPECT_EQ(found.crossing_pairs, 0);
   EXPECT_EQ(found.touching_pairs, 0);
@@ -37,38 +37,38 @@ TEST(SeparateCopies, TetrahedraThatShareACornerNoLongerTouch) {
 }
 
 // Two tetrahedra on either side of a common edge, both of whose ends are copies.
-TEST(SeparateCopies, TetrahedraThatShareAnEdgeNoLongerTouch) {
+TEST(PinchSeparation, TetrahedraThatShareAnEdgeNoLongerTouch) {
   SurfaceMesh mesh;
   append_tetrahedron(mesh, {Vec3{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {1, 1, 0.5}});
   append_tetrahedron(mesh, {Vec3{0, 0, 0}, {0, 0, 1}, {-1, 0, 0.5}, {-1, -1, 0.5}});
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 1u, 6u, 7u}) origin.emplace_back(v);
-  const std::vector<CopyGroup> groups = {{{0, {}}, {4, {}}}, {{1, {}}, {5, {}}}};
-  separate_copies(mesh, groups, origin, kBox);
+  const std::vector<PinchGroup> groups = {{{0, {}}, {4, {}}}, {{1, {}}, {5, {}}}};
+  separate_pinches(mesh, groups, origin, kBox);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
 
 // A pyramid whose apex pierces a triangle that it has nothing to do with, unless it starts from its other home.
-TEST(SeparateCopies, AnotherHomeIsTakenWhereOneIsBeyondAForeignTriangle) {
+TEST(PinchSeparation, AnotherHomeIsTakenWhereOneIsBeyondAForeignTriangle) {
   SurfaceMesh mesh;
   mesh.points = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-3, -3, 0.5}, {3, -3, 0.5}, {0, 3, 0.5}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 6, 7}};
   ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 4);
   std::vector<VertexId> origin;
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) origin.emplace_back(v);
-  separate_copies(mesh, std::vector<CopyGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox);
+  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox);
   EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
   EXPECT_NEAR(mesh.points[0].z, 0.2, 1e-3);
 }
 
-TEST(SeparateCopies, OnABoxFaceCopiesStayOnIt) {
+TEST(PinchSeparation, OnABoxFaceCopiesStayOnIt) {
   SurfaceMesh mesh;
   append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, 1, 0}, {-9, 2, 1}, {-9, 1, 1}});
   append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, -1, 0}, {-9, -2, -1}, {-9, -1, -1}});
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
-  separate_copies(mesh, std::vector<CopyGroup>{{{0, {}}, {4, {}}}}, origin, kBox);
+  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {}}, {4, {}}}}, origin, kBox);
   EXPECT_EQ(mesh.points[0].x, -10);
   EXPECT_EQ(mesh.points[4].x, -10);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
@@ -76,16 +76,16 @@ TEST(SeparateCopies, OnABoxFaceCopiesStayOnIt) {
 }
 
 // Wanted vertices move as they do when all are wanted, whatever their neighbours in other pieces do.
-TEST(SeparateCopies, WhatIsWantedMovesAsIfAllWere) {
+TEST(PinchSeparation, WhatIsWantedMovesAsIfAllWere) {
   int stayed = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto scene = testing::noise_scene({8, 7, 6}, seed);
     const BuiltMesh built = build_triangle_mesh(testing::dense(*scene));
     const auto is_wanted = [&](std::uint32_t v) { return built.mesh.points[v].x < 2; };
     SurfaceMesh all = built.mesh;
-    separate_copies(all, built.groups, built.vertex_of, scene->isosurface->box());
+    separate_pinches(all, built.groups, built.vertex_of, scene->isosurface->box());
     SurfaceMesh some = built.mesh;
-    separate_copies(some, built.groups, built.vertex_of, scene->isosurface->box(), is_wanted);
+    separate_pinches(some, built.groups, built.vertex_of, scene->isosurface->box(), is_wanted);
     for (std::uint32_t v = 0; v < all.points.size(); ++v) {
       if (is_wanted(v)) {
         ASSERT_EQ(all.points[v], some.points[v]) << "seed " << seed << " vertex " << v;

@@ -1,4 +1,4 @@
-#include "surface/extract/copy_directions.h"
+#include "surface/extract/pinch_directions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +20,7 @@ Vec3 within_face(const Box3& box, const Vec3& at, Vec3 d) {
   return d;
 }
 
-std::vector<Vec3> unit_normals(const SurfaceMesh& mesh, const GroupSurroundings& around, std::uint32_t copy) {
+std::vector<Vec3> unit_normals(const SurfaceMesh& mesh, const PinchNeighbourhoods& around, std::uint32_t copy) {
   std::vector<Vec3> normals;
   for (const std::uint32_t t : around.fan(copy)) {
     if (!around.is_at(t, copy)) continue;
@@ -50,7 +50,7 @@ std::optional<Vec3> direction(std::span<const Vec3> normals, double side, const 
 
 }  // namespace
 
-std::vector<Vec3> directions_apart(const SurfaceMesh& mesh, const GroupSurroundings& around, const Box3& box,
+std::vector<Vec3> pinch_directions(const SurfaceMesh& mesh, const PinchNeighbourhoods& around, const Box3& box,
                                    std::uint32_t copy, bool is_stubborn) {
   const Vec3& at = mesh.points[copy];
   const std::vector<Vec3> normals = unit_normals(mesh, around, copy);
