@@ -7,8 +7,8 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/parallel.h"
 #include "surface/intersection/box_pairs.h"
-#include "surface/intersection/laid_out_umbrellas.h"
-#include "surface/intersection/umbrella_rows.h"
+#include "surface/intersection/injective_umbrellas.h"
+#include "surface/intersection/umbrella_batches.h"
 #include "surface/search/halving_order.h"
 
 namespace deliso {
@@ -84,8 +84,8 @@ class OrderedTriangles {
       std::vector<std::uint8_t> has_area;
       look_at(points, triangles, projected, has_area);
       const CornersOfVertices corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
-      laid_out = laid_out_umbrellas(triangles, projected, corners, points.size(), threads);
-      place(umbrella_rows(triangles, has_area, corners, points.size()), points, threads);
+      laid_out = injective_umbrellas(triangles, projected, corners, points.size(), threads);
+      place(umbrella_batches(triangles, has_area, corners, points.size()), points, threads);
     }
     renumber(points, triangles, laid_out);
   }
@@ -130,7 +130,7 @@ class OrderedTriangles {
   }
 
   // Gives the rows their order and the triangles their places. Rows that have room for the next one take it in.
-  void place(const std::vector<UmbrellaRow>& rows, std::span<const Vec3> points, int threads) {
+  void place(const std::vector<UmbrellaBatch>& rows, std::span<const Vec3> points, int threads) {
     const CentreLattice lattice(whole_);
     std::vector<LatticePlace> centres;
     centres.reserve(rows.size());
@@ -139,7 +139,7 @@ class OrderedTriangles {
     numbers_.reserve(kBoxesPerRow * rows.size());
     std::size_t left = 0;  // in the last row
     for (const std::uint32_t r : halving_order(std::move(centres), centre_of, threads)) {
-      const UmbrellaRow& row = rows[r];
+      const UmbrellaBatch& row = rows[r];
       if (row.count > left) {
         numbers_.resize(numbers_.size() + left, kNone);
         left = kBoxesPerRow;

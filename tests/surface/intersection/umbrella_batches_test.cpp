@@ -1,4 +1,4 @@
-#include "surface/intersection/umbrella_rows.h"
+#include "surface/intersection/umbrella_batches.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@
 namespace deliso {
 namespace {
 
-std::vector<UmbrellaRow> rows_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& takes_part) {
+std::vector<UmbrellaBatch> rows_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& takes_part) {
   const CornersOfVertices corners(mesh.points.size(), mesh.triangles,
                                   [&](std::size_t t) { return takes_part[t] != 0; });
-  return umbrella_rows(mesh.triangles, takes_part, corners, mesh.points.size());
+  return umbrella_batches(mesh.triangles, takes_part, corners, mesh.points.size());
 }
 
-TEST(UmbrellaRows, HaveEachTriangleThatTakesPartOnce) {
+TEST(UmbrellaBatches, HaveEachTriangleThatTakesPartOnce) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng(seed);
@@ -31,9 +31,9 @@ TEST(UmbrellaRows, HaveEachTriangleThatTakesPartOnce) {
       takes_part[t] = has_three && (seed < 3 || rng.below(5) != 0) ? 1 : 0;
     }
     std::vector<std::uint8_t> found(takes_part.size());
-    for (const UmbrellaRow& row : rows_of(mesh, takes_part)) {
+    for (const UmbrellaBatch& row : rows_of(mesh, takes_part)) {
       ASSERT_GT(row.count, 0U);
-      ASSERT_LE(row.count, kTrianglesPerRow);
+      ASSERT_LE(row.count, kTrianglesPerBatch);
       for (std::size_t i = 0; i < row.count; ++i) ++found[row.triangles[i]];
       const auto& first = mesh.triangles[row.triangles[0]];
       EXPECT_NE(std::find(first.begin(), first.end(), row.vertex), first.end());
@@ -43,12 +43,12 @@ TEST(UmbrellaRows, HaveEachTriangleThatTakesPartOnce) {
 }
 
 // Of a mesh whose vertices have six triangles each, as a rule.
-TEST(UmbrellaRows, AreFewAndMostlyOfOneUmbrella) {
+TEST(UmbrellaBatches, AreFewAndMostlyOfOneUmbrella) {
   const TriangleMesh mesh = testing::sphere_mesh(5);
-  const std::vector<UmbrellaRow> rows = rows_of(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 1));
+  const std::vector<UmbrellaBatch> rows = rows_of(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 1));
   EXPECT_LT(rows.size(), mesh.triangles.size() / 6);
   std::size_t in_umbrella = 0;
-  for (const UmbrellaRow& row : rows) {
+  for (const UmbrellaBatch& row : rows) {
     in_umbrella += static_cast<std::size_t>(
         std::count_if(row.triangles.begin(), row.triangles.begin() + row.count, [&](std::uint32_t t) {
           const auto& corners = mesh.triangles[t];

@@ -1,4 +1,4 @@
-#include "surface/intersection/laid_out_umbrellas.h"
+#include "surface/intersection/injective_umbrellas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +79,8 @@ ProjectedTriangle::ProjectedTriangle(const Vec3& a, const Vec3& b, const Vec3& c
                                      straddles_along(a.x, b.x, c.x) << 6 | straddles_along(a.y, b.y, c.y) << 7);
 }
 
-std::vector<std::uint8_t> laid_out_umbrellas(Triangles triangles, std::span<const ProjectedTriangle> projected,
-                                             const CornersOfVertices& corners, std::size_t vertices, int threads) {
+std::vector<std::uint8_t> injective_umbrellas(Triangles triangles, std::span<const ProjectedTriangle> projected,
+                                              const CornersOfVertices& corners, std::size_t vertices, int threads) {
   std::vector<std::uint8_t> laid_out(vertices);
   const std::size_t per_task = std::max(kFewestVertices, vertices / kMostTasks + 1);
   run_tasks((vertices + per_task - 1) / per_task, threads, [&](std::size_t task) {

@@ -31,8 +31,8 @@ class ProjectedTriangle {
 // around the vertex once in the projection along some coordinate axis, every triangle in the same sense. Then of two of
 // them the projections have only the projection of what they share in common, and so have the triangles themselves.
 // Certain where it is 1; 0 says nothing. `projected`: of each triangle.
-std::vector<std::uint8_t> laid_out_umbrellas(CornersOfVertices::Triangles triangles,
-                                             std::span<const ProjectedTriangle> projected,
-                                             const CornersOfVertices& corners, std::size_t vertices, int threads = 1);
+std::vector<std::uint8_t> injective_umbrellas(CornersOfVertices::Triangles triangles,
+                                              std::span<const ProjectedTriangle> projected,
+                                              const CornersOfVertices& corners, std::size_t vertices, int threads = 1);
 
 }  // namespace deliso

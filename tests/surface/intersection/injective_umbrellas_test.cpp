@@ -1,4 +1,4 @@
-#include "surface/intersection/laid_out_umbrellas.h"
+#include "surface/intersection/injective_umbrellas.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> laid_out(const TriangleMesh& mesh, int threads = 1) {
   std::vector<ProjectedTriangle> projected;
   for (const auto& [a, b, c] : mesh.triangles) projected.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c]);
   const CornersOfVertices corners(mesh.points.size(), mesh.triangles, [](std::size_t) { return true; });
-  return laid_out_umbrellas(mesh.triangles, projected, corners, mesh.points.size(), threads);
+  return injective_umbrellas(mesh.triangles, projected, corners, mesh.points.size(), threads);
 }
 
 // Vertex 0 with its spokes in a row, closed up.
@@ -46,7 +46,7 @@ std::vector<Vec3> spokes_around(std::size_t count, double turns) {
 }
 
 // Fans with corners on a small grid, in random directions, more or less in order around the vertex.
-TEST(LaidOutUmbrellas, HaveNoTrianglesThatMeet) {
+TEST(InjectiveUmbrellas, HaveNoTrianglesThatMeet) {
   std::array<int, 2> with_contact{}, without{};
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
     Rng rng(seed);
@@ -122,7 +122,7 @@ TEST(ProjectedTriangle, SaysNothingWrongNextToALine) {
 }
 
 // Steps along the axes, and corners in line with the vertex.
-TEST(LaidOutUmbrellas, AreThoseOfARegularGrid) {
+TEST(InjectiveUmbrellas, AreThoseOfARegularGrid) {
   for (std::size_t up = 0; up < 3; ++up) {
     for (const bool is_diagonal : {false, true}) {
       std::vector<Vec3> spokes;
@@ -139,7 +139,7 @@ TEST(LaidOutUmbrellas, AreThoseOfARegularGrid) {
   }
 }
 
-TEST(LaidOutUmbrellas, AreAllOfAFineMesh) {
+TEST(InjectiveUmbrellas, AreAllOfAFineMesh) {
   for (const TriangleMesh& mesh : {testing::sphere_mesh(4), testing::torus_mesh(40, 30)}) {
     const std::vector<std::uint8_t> found = laid_out(mesh);
     EXPECT_EQ(std::count(found.begin(), found.end(), 1), std::ptrdiff_t(mesh.points.size()));
@@ -147,7 +147,7 @@ TEST(LaidOutUmbrellas, AreAllOfAFineMesh) {
   }
 }
 
-TEST(LaidOutUmbrellas, AreNoFansThatAreOpenOrDoubledOrGoAroundTwice) {
+TEST(InjectiveUmbrellas, AreNoFansThatAreOpenOrDoubledOrGoAroundTwice) {
   TriangleMesh mesh = fan(spokes_around(7, 1));
   EXPECT_EQ(laid_out(mesh)[0], 1);
   EXPECT_EQ(laid_out(mesh)[1], 0) << "open";

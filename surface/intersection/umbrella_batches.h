@@ -15,16 +15,17 @@
 
 namespace deliso {
 
-inline constexpr std::size_t kTrianglesPerRow = 8;
+inline constexpr std::size_t kTrianglesPerBatch = 8;
 
-struct UmbrellaRow {
-  std::array<std::uint32_t, kTrianglesPerRow> triangles{};
+struct UmbrellaBatch {
+  std::array<std::uint32_t, kTrianglesPerBatch> triangles{};
   std::uint32_t count = 0;
   std::uint32_t vertex = 0;  // of the first triangle
 };
 
 // Rows of the triangles that takes_part[t] names (not 0), each in one of them. Precondition: `corners` are theirs.
-std::vector<UmbrellaRow> umbrella_rows(CornersOfVertices::Triangles triangles, std::span<const std::uint8_t> takes_part,
-                                       const CornersOfVertices& corners, std::size_t vertices);
+std::vector<UmbrellaBatch> umbrella_batches(CornersOfVertices::Triangles triangles,
+                                            std::span<const std::uint8_t> takes_part, const CornersOfVertices& corners,
+                                            std::size_t vertices);
 
 }  // namespace deliso

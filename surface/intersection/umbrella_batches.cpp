@@ -1,4 +1,4 @@
-#include "surface/intersection/umbrella_rows.h"
+#include "surface/intersection/umbrella_batches.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ class RowMaker {
  public:
   RowMaker(CornersOfVertices::Triangles triangles, const CornersOfVertices& corners, std::size_t vertices)
       : triangles_(triangles), corners_(corners), row_of_(triangles.size(), kNoRow), is_taken_(vertices) {
-    rows_.reserve(triangles.size() / (kTrianglesPerRow - 2));
+    rows_.reserve(triangles.size() / (kTrianglesPerBatch - 2));
   }
 
   [[nodiscard]] bool is_left(std::size_t t) const { return row_of_[t] == kNoRow; }
@@ -22,7 +22,7 @@ class RowMaker {
   void take_umbrella(std::uint32_t v) {
     if (is_taken_[v] != 0) return;
     const auto corners = corners_.at(v);
-    if (corners.empty() || corners.size() > kTrianglesPerRow) return;
+    if (corners.empty() || corners.size() > kTrianglesPerBatch) return;
     begin_row(v);
     for (const TriangleCorner corner : corners) {
       append(static_cast<std::uint32_t>(rows_.size() - 1), corner >> 2);
@@ -36,14 +36,14 @@ class RowMaker {
       const auto corners = corners_.at(v);
       for (const TriangleCorner corner : corners.first(std::min(corners.size(), kMostLookedAt))) {
         const std::uint32_t row = row_of_[corner >> 2];
-        if (row != kNoRow && rows_[row].count < kTrianglesPerRow) return append(row, t);
+        if (row != kNoRow && rows_[row].count < kTrianglesPerBatch) return append(row, t);
       }
     }
     begin_row(triangles_[t][0]);
     append(static_cast<std::uint32_t>(rows_.size() - 1), t);
   }
 
-  [[nodiscard]] std::vector<UmbrellaRow> rows() && { return std::move(rows_); }
+  [[nodiscard]] std::vector<UmbrellaBatch> rows() && { return std::move(rows_); }
 
  private:
   void begin_row(std::uint32_t v) {
@@ -59,13 +59,14 @@ class RowMaker {
   const CornersOfVertices& corners_;
   std::vector<std::uint32_t> row_of_;
   std::vector<std::uint8_t> is_taken_;  // of a vertex, whether a triangle of its umbrella is in a row
-  std::vector<UmbrellaRow> rows_;
+  std::vector<UmbrellaBatch> rows_;
 };
 
 }  // namespace
 
-std::vector<UmbrellaRow> umbrella_rows(CornersOfVertices::Triangles triangles, std::span<const std::uint8_t> takes_part,
-                                       const CornersOfVertices& corners, std::size_t vertices) {
+std::vector<UmbrellaBatch> umbrella_batches(CornersOfVertices::Triangles triangles,
+                                            std::span<const std::uint8_t> takes_part, const CornersOfVertices& corners,
+                                            std::size_t vertices) {
   RowMaker maker(triangles, corners, vertices);
   for (std::uint32_t v = 0; v < vertices; ++v) maker.take_umbrella(v);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
