@@ -10,7 +10,7 @@ namespace deliso {
 
 namespace {
 
-using Triangles = CornersOfVertices::Triangles;
+using Triangles = VertexCorners::Triangles;
 
 constexpr std::size_t kMostTriangles = 16;  // of a vertex that is looked at
 constexpr std::size_t kMostTasks = 16, kFewestVertices = 8192;
@@ -80,7 +80,7 @@ ProjectedTriangle::ProjectedTriangle(const Vec3& a, const Vec3& b, const Vec3& c
 }
 
 std::vector<std::uint8_t> injective_umbrellas(Triangles triangles, std::span<const ProjectedTriangle> projected,
-                                              const CornersOfVertices& corners, std::size_t vertices, int threads) {
+                                              const VertexCorners& corners, std::size_t vertices, int threads) {
   std::vector<std::uint8_t> laid_out(vertices);
   const std::size_t per_task = std::max(kFewestVertices, vertices / kMostTasks + 1);
   run_tasks((vertices + per_task - 1) / per_task, threads, [&](std::size_t task) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
-#include "surface/mesh/corners_of_vertices.h"
+#include "surface/mesh/vertex_corners.h"
 
 namespace deliso {
 
@@ -31,8 +31,8 @@ class ProjectedTriangle {
 // around the vertex once in the projection along some coordinate axis, every triangle in the same sense. Then of two of
 // them the projections have only the projection of what they share in common, and so have the triangles themselves.
 // Certain where it is 1; 0 says nothing. `projected`: of each triangle.
-std::vector<std::uint8_t> injective_umbrellas(CornersOfVertices::Triangles triangles,
+std::vector<std::uint8_t> injective_umbrellas(VertexCorners::Triangles triangles,
                                               std::span<const ProjectedTriangle> projected,
-                                              const CornersOfVertices& corners, std::size_t vertices, int threads = 1);
+                                              const VertexCorners& corners, std::size_t vertices, int threads = 1);
 
 }  // namespace deliso

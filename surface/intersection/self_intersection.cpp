@@ -83,7 +83,7 @@ class OrderedTriangles {
       std::vector<ProjectedTriangle> projected;
       std::vector<std::uint8_t> has_area;
       look_at(points, triangles, projected, has_area);
-      const CornersOfVertices corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
+      const VertexCorners corners(points.size(), triangles, [&](std::size_t t) { return has_area[t] != 0; });
       laid_out = injective_umbrellas(triangles, projected, corners, points.size(), threads);
       place(umbrella_batches(triangles, has_area, corners, points.size()), points, threads);
     }

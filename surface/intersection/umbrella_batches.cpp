@@ -11,7 +11,7 @@ constexpr std::size_t kMostLookedAt = 16;  // corners of a vertex
 
 class RowMaker {
  public:
-  RowMaker(CornersOfVertices::Triangles triangles, const CornersOfVertices& corners, std::size_t vertices)
+  RowMaker(VertexCorners::Triangles triangles, const VertexCorners& corners, std::size_t vertices)
       : triangles_(triangles), corners_(corners), row_of_(triangles.size(), kNoRow), is_taken_(vertices) {
     rows_.reserve(triangles.size() / (kTrianglesPerBatch - 2));
   }
@@ -55,8 +55,8 @@ class RowMaker {
     row_of_[t] = row;
   }
 
-  CornersOfVertices::Triangles triangles_;
-  const CornersOfVertices& corners_;
+  VertexCorners::Triangles triangles_;
+  const VertexCorners& corners_;
   std::vector<std::uint32_t> row_of_;
   std::vector<std::uint8_t> is_taken_;  // of a vertex, whether a triangle of its umbrella is in a row
   std::vector<UmbrellaBatch> rows_;
@@ -64,8 +64,8 @@ class RowMaker {
 
 }  // namespace
 
-std::vector<UmbrellaBatch> umbrella_batches(CornersOfVertices::Triangles triangles,
-                                            std::span<const std::uint8_t> takes_part, const CornersOfVertices& corners,
+std::vector<UmbrellaBatch> umbrella_batches(VertexCorners::Triangles triangles,
+                                            std::span<const std::uint8_t> takes_part, const VertexCorners& corners,
                                             std::size_t vertices) {
   RowMaker maker(triangles, corners, vertices);
   for (std::uint32_t v = 0; v < vertices; ++v) maker.take_umbrella(v);

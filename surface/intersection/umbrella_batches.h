@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/mesh/corners_of_vertices.h"
+#include "surface/mesh/vertex_corners.h"
 
 namespace deliso {
 
@@ -24,8 +24,8 @@ struct UmbrellaBatch {
 };
 
 // Rows of the triangles that takes_part[t] names (not 0), each in one of them. Precondition: `corners` are theirs.
-std::vector<UmbrellaBatch> umbrella_batches(CornersOfVertices::Triangles triangles,
-                                            std::span<const std::uint8_t> takes_part, const CornersOfVertices& corners,
+std::vector<UmbrellaBatch> umbrella_batches(VertexCorners::Triangles triangles,
+                                            std::span<const std::uint8_t> takes_part, const VertexCorners& corners,
                                             std::size_t vertices);
 
 }  // namespace deliso

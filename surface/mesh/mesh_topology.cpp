@@ -50,12 +50,12 @@ struct Corner {
 };
 
 // The corners at each vertex, vertex by vertex.
-class CornersOfVertices {
+class VertexCorners {
  public:
   // So many places from any corner on may be read.
   static constexpr std::size_t kReadable = 8;
 
-  explicit CornersOfVertices(const TriangleMesh& mesh)
+  explicit VertexCorners(const TriangleMesh& mesh)
       : first_(mesh.points.size() + 1, 0), corners_(3 * mesh.triangles.size() + kReadable) {
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t v : triangle) ++first_[v];
@@ -79,7 +79,7 @@ class CornersOfVertices {
 // Looks at vertices one by one: at the half-edges that leave and reach them, and at the umbrellas these make.
 class StarCensus {
  public:
-  StarCensus(const CornersOfVertices& corners, const MeshTopology& components)
+  StarCensus(const VertexCorners& corners, const MeshTopology& components)
       : corners_(corners), components_(components), edges_(components.components.size(), 0) {}
 
   void look_at(std::uint32_t v) {
@@ -110,7 +110,7 @@ class StarCensus {
   void count_edge(std::uint32_t v, std::vector<Spoke>::const_iterator first, std::ptrdiff_t half_edges);
   void add_edges(std::uint32_t v, std::int64_t count) { edges_[components_.component_of_vertex[v]] += count; }
 
-  const CornersOfVertices& corners_;
+  const VertexCorners& corners_;
   const MeshTopology& components_;
   std::span<const Corner> at_;  // the vertex looked at
   std::vector<Spoke> spokes_;
@@ -123,9 +123,8 @@ class StarCensus {
 // compared: beyond the last of few there are others, whose bits are taken away.
 std::uint32_t StarCensus::corners_after(std::uint32_t v) const {
   std::uint32_t found = 0;
-  for (std::uint32_t k = 0; k < CornersOfVertices::kReadable; ++k)
-    found |= std::uint32_t{at_.data()[k].previous == v} << k;
-  for (std::uint32_t k = CornersOfVertices::kReadable; k < at_.size(); ++k)
+  for (std::uint32_t k = 0; k < VertexCorners::kReadable; ++k) found |= std::uint32_t{at_.data()[k].previous == v} << k;
+  for (std::uint32_t k = VertexCorners::kReadable; k < at_.size(); ++k)
     found |= std::uint32_t{at_[k].previous == v} << k;
   return found & ((1u << at_.size()) - 1);
 }
@@ -237,7 +236,7 @@ void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
   DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
   MeshTopology topology;
-  std::optional<CornersOfVertices> corners;
+  std::optional<VertexCorners> corners;
   run_tasks(2, threads, [&](std::size_t task) {
     if (task == 0) return find_components(mesh, topology);
     corners.emplace(mesh);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "delaunay/base/check.h"
-#include "surface/mesh/io/mesh_io_formats.h"
+#include "surface/mesh/io/formats.h"
 #include "volume/io/atomic_file.h"
 #include "volume/io/input_file.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "surface/intersection/exact_tests.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
@@ -49,7 +49,7 @@ PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface&
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
   surface.mesh.triangles = std::move(cubes.triangles);
-  link_sides(surface.mesh);
+  set_side_adjacency(surface.mesh);
   return surface;
 }
 

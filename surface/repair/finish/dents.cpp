@@ -8,9 +8,9 @@
 #include "delaunay/triangle_contact.h"
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/mesh/least_triangulation.h"
+#include "surface/mesh/minimum_area_triangulation.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/mesh/vertex_fans.h"
+#include "surface/mesh/vertex_decimation.h"
 #include "surface/search/box_tree.h"
 
 namespace deliso {
@@ -78,7 +78,7 @@ class Dents {
 
   SurfaceMesh& mesh_;
   const Isosurface& isosurface_;
-  VertexFans fans_;
+  VertexDecimation fans_;
   std::vector<Apex> apexes_;
   std::vector<Box3> boxes_;  // of kTrianglesAtOnce triangles each, as the mesh was
   SearchCounters search_;
@@ -197,7 +197,7 @@ void Dents::look_around(Apex& apex, const Box3& box) {
 bool Dents::remove(Apex& apex) {
   VertexFan fan;
   if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
-  const LeastTriangulation least = fans_.least_filling(fan);
+  const MinimumAreaTriangulation least = fans_.least_filling(fan);
   if (!least.exists()) return false;
   Triangles filling;
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});

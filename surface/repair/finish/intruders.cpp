@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "surface/certificate/mesh_pieces.h"
-#include "surface/mesh/vertex_fans.h"
+#include "surface/mesh/vertex_decimation.h"
 #include "surface/search/covering_triangles.h"
 
 namespace deliso {
@@ -59,7 +59,7 @@ Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> com
                         [&](std::uint32_t t) { return is_covered_by(mesh.points[v], mesh, t); });
   });
   if (intruders.empty()) return counted;
-  VertexFans fans(mesh);
+  VertexDecimation fans(mesh);
   fans.take_out(intruders);
   counted.removed = std::count_if(intruders.begin(), intruders.end(), [&](std::uint32_t v) { return !fans.has(v); });
   counted.left -= counted.removed;

@@ -6,7 +6,7 @@
 
 #include "delaunay/base/parallel.h"
 #include "surface/extract/pinch_separation.h"
-#include "surface/mesh/vertex_fans.h"
+#include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 
 namespace deliso {
@@ -112,7 +112,7 @@ struct GivenMesh {
 
 void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted) {
   if (vertices.empty()) return;
-  VertexFans fans(mesh);
+  VertexDecimation fans(mesh);
   fans.take_out(vertices);
   for (const std::uint32_t v : vertices) {
     if (fans.has(v)) wanted[piece_of[v]] = false;

@@ -20,7 +20,7 @@ constexpr double kTurn = 6.283185307179586;
 std::vector<std::uint8_t> laid_out(const TriangleMesh& mesh, int threads = 1) {
   std::vector<ProjectedTriangle> projected;
   for (const auto& [a, b, c] : mesh.triangles) projected.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c]);
-  const CornersOfVertices corners(mesh.points.size(), mesh.triangles, [](std::size_t) { return true; });
+  const VertexCorners corners(mesh.points.size(), mesh.triangles, [](std::size_t) { return true; });
   return injective_umbrellas(mesh.triangles, projected, corners, mesh.points.size(), threads);
 }
 

@@ -12,8 +12,7 @@ namespace deliso {
 namespace {
 
 std::vector<UmbrellaBatch> rows_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& takes_part) {
-  const CornersOfVertices corners(mesh.points.size(), mesh.triangles,
-                                  [&](std::size_t t) { return takes_part[t] != 0; });
+  const VertexCorners corners(mesh.points.size(), mesh.triangles, [&](std::size_t t) { return takes_part[t] != 0; });
   return umbrella_batches(mesh.triangles, takes_part, corners, mesh.points.size());
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "surface/intersection/self_intersection.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/refine/guard/clearances.h"
 #include "surface/refine/guard/refinement_crossings.h"
 #include "surface/refine/refine.h"
@@ -58,7 +58,7 @@ CrossedHill crossed_hill(const Vec3& place) {
     mesh.points.push_back(place + corner);
   }
   mesh.triangles.push_back({small, small + 1, small + 2});
-  link_sides(mesh);
+  set_side_adjacency(mesh);
   mesh.pole_heights.assign(mesh.points.size(), 1000);
   return hill;
 }

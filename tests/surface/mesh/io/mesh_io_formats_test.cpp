@@ -1,5 +1,5 @@
 // What each mesh format has of its own, as it is written here and as others write it.
-#include "surface/mesh/io/mesh_io_formats.h"
+#include "surface/mesh/io/formats.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/rng.h"
-#include "surface/mesh/io/mesh_io_formats.h"
+#include "surface/mesh/io/formats.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/mesh_files.h"
 

@@ -7,7 +7,7 @@
 
 #include "delaunay/base/rng.h"
 #include "delaunay/triangle_contact.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/refine/guard/clearances.h"
 
 namespace deliso {
@@ -233,7 +233,7 @@ TEST(CrossingGuard, SeesWhetherAStarMeetsItself) {
       polygon.points.push_back({std::cos(angle), std::sin(angle), rng.uniform(-1, 1)});
     }
     for (std::uint32_t i = 1; i + 1 < kCorners; ++i) polygon.triangles.push_back({0, i, i + 1});
-    link_sides(polygon);
+    set_side_adjacency(polygon);
     polygon.pole_heights.assign(kCorners, 0.01);
     const Vec3 p{rng.uniform(-0.6, 0.6), rng.uniform(-0.6, 0.6), rng.uniform(-0.5, 0.5)};
     RefinementMesh mesh(polygon);

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "surface/deliso.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/polygonized_components.h"
 #include "tests/support/raycast_fields.h"
 #include "tests/support/surface_fields.h"
@@ -96,7 +96,7 @@ TEST(CurvatureLattice, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
     const Vec3& step = scene->isosurface->step();
     for (const Vec3& p : result.mesh.points) mesh.points.push_back(from_world(p, scene->grid, step));
     mesh.triangles = result.mesh.triangles;
-    link_sides(mesh);
+    set_side_adjacency(mesh);
     CurvatureLattice difference(scene->grid.dims(), step);
     difference.add(mesh, takes_all, 1);
     ASSERT_FALSE(difference.places(true, kMany).empty() && difference.places(false, kMany).empty());

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "surface/certificate/component_match.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
@@ -26,7 +26,7 @@ MatchedMesh matched(const TriangleMesh& mesh, const IsosurfaceTopology& topology
   MatchedMesh matched;
   matched.built.mesh.points = mesh.points;
   matched.built.mesh.triangles = mesh.triangles;
-  link_sides(matched.built.mesh);
+  set_side_adjacency(matched.built.mesh);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) matched.component.push_back(mesh.points[v].x < 4 ? 0 : 1);
   matched.match = match_components(matched.built.mesh, matched.component, topology.components);
   return matched;

@@ -7,7 +7,7 @@
 
 #include "surface/certificate/certificate.h"
 #include "surface/intersection/self_intersection.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/polygonized_components.h"
 #include "surface/verification/surface_distance.h"
 #include "tests/support/mesh_examples.h"
@@ -29,7 +29,7 @@ Scene ball() { return {"ball", testing::sampled({15, 15, 15}, testing::ball_fiel
 SurfaceMesh sphere(const Scene& scene, int levels) {
   const TriangleMesh on = testing::on_isosurface(testing::sphere_mesh(levels, kRadius, kCenter), scene.grid, 0);
   SurfaceMesh mesh{on.points, std::vector<double>(on.points.size(), kRadius), on.triangles, {}};
-  link_sides(mesh);
+  set_side_adjacency(mesh);
   return mesh;
 }
 
@@ -66,7 +66,7 @@ TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
     mesh.triangles[t] = {a, b, apex};
     mesh.triangles.push_back({b, c, apex});
     mesh.triangles.push_back({c, a, apex});
-    link_sides(mesh);
+    set_side_adjacency(mesh);
     ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << t;
     expect_good_sphere(mesh, scene, t);
     EXPECT_EQ(mesh.points, whole.points) << t;
@@ -151,7 +151,7 @@ TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
     mesh.points[base + 1] += -0.6 * out;
     for (const auto& t : small.triangles) mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
     mesh.pole_heights.resize(mesh.points.size(), 1);
-    link_sides(mesh);
+    set_side_adjacency(mesh);
     const auto before = mesh.triangles;
     const auto [removed, left] = remove_dents(mesh, *scene.isosurface);
     EXPECT_EQ(removed, 0) << v;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "surface/certificate/mesh_pieces.h"
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/polygonized_components.h"
 #include "tests/support/surface_fields.h"
 
@@ -33,7 +33,7 @@ struct Swallowing {
     mesh.triangles[triangle] = {a, b, corner};
     mesh.triangles.push_back({b, c, corner});
     mesh.triangles.push_back({c, a, corner});
-    link_sides(mesh);
+    set_side_adjacency(mesh);
   }
   // With their smallest corner first, in order.
   [[nodiscard]] std::vector<Triangle> triangles() const {

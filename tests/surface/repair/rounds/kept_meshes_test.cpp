@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "surface/extract/pinch_separation.h"
-#include "surface/mesh/vertex_fans.h"
+#include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "tests/support/surface_fields.h"
 
@@ -135,7 +135,7 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
       if (const auto off = homeless(mesh.built, before, is_wanted); !off.empty()) {
-        VertexFans fans(mesh.built.mesh);
+        VertexDecimation fans(mesh.built.mesh);
         fans.take_out(off);
         if (std::any_of(off.begin(), off.end(), [&](std::uint32_t v) { return fans.has(v); })) continue;
         ++mended;

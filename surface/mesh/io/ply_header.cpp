@@ -1,4 +1,4 @@
-#include "surface/mesh/io/mesh_io_ply_header.h"
+#include "surface/mesh/io/ply_header.h"
 
 #include <array>
 #include <limits>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
-#include "surface/mesh/io/mesh_io_formats.h"
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/formats.h"
+#include "surface/mesh/io/text.h"
 
 namespace deliso {
 

@@ -1,4 +1,4 @@
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/text.h"
 
 #include <cmath>
 #include <system_error>

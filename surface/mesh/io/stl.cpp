@@ -8,9 +8,9 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
-#include "surface/mesh/io/mesh_io_bytes.h"
-#include "surface/mesh/io/mesh_io_formats.h"
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/bytes.h"
+#include "surface/mesh/io/formats.h"
+#include "surface/mesh/io/text.h"
 
 namespace deliso {
 

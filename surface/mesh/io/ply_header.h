@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/text.h"
 
 namespace deliso {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include "surface/mesh/io/mesh_io_bytes.h"
-#include "surface/mesh/io/mesh_io_formats.h"
-#include "surface/mesh/io/mesh_io_ply_header.h"
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/bytes.h"
+#include "surface/mesh/io/formats.h"
+#include "surface/mesh/io/ply_header.h"
+#include "surface/mesh/io/text.h"
 
 namespace deliso {
 

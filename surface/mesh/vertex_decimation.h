@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/mesh/least_triangulation.h"
+#include "surface/mesh/minimum_area_triangulation.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
@@ -19,10 +19,10 @@ struct VertexFan {
   std::vector<TriangleSide> outer;
 };
 
-class VertexFans {
+class VertexDecimation {
  public:
   // Keeps a reference to the mesh and changes it.
-  explicit VertexFans(SurfaceMesh& mesh);
+  explicit VertexDecimation(SurfaceMesh& mesh);
 
   [[nodiscard]] bool has(std::uint32_t vertex) const { return corner_of_[vertex] != kNoCorner; }
   [[nodiscard]] bool has_triangle(std::uint32_t t) const { return !is_gone_[t]; }
@@ -36,10 +36,10 @@ class VertexFans {
   [[nodiscard]] bool can_be_filled(const VertexFan& fan) const;
   // Its filling of the least area, if there is one: by triangles that have an area and edges that the mesh does not
   // have elsewhere.
-  [[nodiscard]] LeastTriangulation least_filling(const VertexFan& fan) const;
+  [[nodiscard]] MinimumAreaTriangulation least_filling(const VertexFan& fan) const;
   // Takes an inner vertex away and fills its link, which can be filled. Two slots of triangles are free then,
   // the others hold the filling.
-  void replace(std::uint32_t vertex, const VertexFan& fan, const LeastTriangulation& filling);
+  void replace(std::uint32_t vertex, const VertexFan& fan, const MinimumAreaTriangulation& filling);
   // Does so with all of some vertices for which it can be done; those that the mesh still has() stay.
   void take_out(std::span<const std::uint32_t> vertices);
   // All triangles that came so, gone or not.
@@ -53,7 +53,7 @@ class VertexFans {
   // Links of more vertices are left as they are.
   static constexpr std::size_t kLongestLink = 32;
 
-  TriangleSide build(const VertexFan& fan, const LeastTriangulation& filling, std::size_t i, std::size_t j,
+  TriangleSide build(const VertexFan& fan, const MinimumAreaTriangulation& filling, std::size_t i, std::size_t j,
                      std::size_t& next);
   void join(TriangleSide side, TriangleSide across) {
     mesh_.neighbours[side >> 2][side & 3u] = across;

@@ -14,13 +14,13 @@ namespace deliso {
 // A corner of a triangle: 4 * triangle + 0, 1 or 2.
 using TriangleCorner = std::uint32_t;
 
-class CornersOfVertices {
+class VertexCorners {
  public:
   using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
   // Of the triangles that takes_part(t) names. Precondition: indices below `vertices`, fewer than 2^30 triangles.
   template <class TakesPart>
-  CornersOfVertices(std::size_t vertices, Triangles triangles, const TakesPart& takes_part) : begin_(vertices + 2) {
+  VertexCorners(std::size_t vertices, Triangles triangles, const TakesPart& takes_part) : begin_(vertices + 2) {
     DELISO_CHECK(triangles.size() < std::size_t{1} << 30, "numbers of corners fit into 32 bits");
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (!takes_part(t)) continue;

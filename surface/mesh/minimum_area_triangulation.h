@@ -9,12 +9,12 @@
 
 namespace deliso {
 
-class LeastTriangulation {
+class MinimumAreaTriangulation {
  public:
   // Of a polygon with so many corners, 3 at least. area(i, k, j), for i < k < j, is what a triangle of its corners
   // costs; it may be infinite. is_free(i, j) says whether a diagonal will do. Time grows with the cube of the corners.
   template <class Area, class IsFree>
-  LeastTriangulation(std::size_t corners, Area&& area, IsFree&& is_free);
+  MinimumAreaTriangulation(std::size_t corners, Area&& area, IsFree&& is_free);
 
   [[nodiscard]] bool exists() const { return area() < kInfinity; }
   // Infinite when there is none.
@@ -34,7 +34,7 @@ class LeastTriangulation {
 };
 
 template <class Area, class IsFree>
-LeastTriangulation::LeastTriangulation(std::size_t corners, Area&& area, IsFree&& is_free)
+MinimumAreaTriangulation::MinimumAreaTriangulation(std::size_t corners, Area&& area, IsFree&& is_free)
     : corners_(corners), least_(corners * corners, 0), apex_(corners * corners, 0) {
   for (std::size_t span = 2; span < corners; ++span) {
     for (std::size_t i = 0; i + span < corners; ++i) {
@@ -54,7 +54,7 @@ LeastTriangulation::LeastTriangulation(std::size_t corners, Area&& area, IsFree&
   }
 }
 
-inline std::vector<std::array<std::size_t, 3>> LeastTriangulation::triangles() const {
+inline std::vector<std::array<std::size_t, 3>> MinimumAreaTriangulation::triangles() const {
   std::vector<std::array<std::size_t, 3>> triangles;
   std::vector<std::array<std::size_t, 2>> open = {{0, corners_ - 1}};
   while (!open.empty()) {

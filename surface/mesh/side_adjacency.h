@@ -7,6 +7,6 @@ namespace deliso {
 
 // Sets the neighbours of all triangles: sides with the same two ends are neighbours, those with no other are none's. In
 // a manifold this is what they are; where more than two share an edge each gets one of the others.
-void link_sides(SurfaceMesh& mesh);
+void set_side_adjacency(SurfaceMesh& mesh);
 
 }  // namespace deliso

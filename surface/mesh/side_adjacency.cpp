@@ -1,4 +1,4 @@
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace deliso {
 
 // Sides are put in buckets by their lower end.
-void link_sides(SurfaceMesh& mesh) {
+void set_side_adjacency(SurfaceMesh& mesh) {
   const auto ends = [&](TriangleSide side) {
     const auto& v = mesh.triangles[side >> 2];
     return std::minmax(v[((side & 3u) + 1) % 3], v[((side & 3u) + 2) % 3]);

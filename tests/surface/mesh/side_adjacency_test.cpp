@@ -1,5 +1,5 @@
 // Neighbours of triangles that come without.
-#include "surface/mesh/link_sides.h"
+#include "surface/mesh/side_adjacency.h"
 
 #include <gtest/gtest.h>
 
@@ -18,23 +18,23 @@ std::set<std::uint32_t> ends_of(const SurfaceMesh& mesh, TriangleSide side) {
   return {v[((side & 3u) + 1) % 3], v[((side & 3u) + 2) % 3]};
 }
 
-TEST(LinkSides, AManifoldGetsItsNeighbours) {
+TEST(SideAdjacency, AManifoldGetsItsNeighbours) {
   for (const char* name : {"double_torus", "gyroid", "sheets"}) {
     const auto scene = testing::field_scene(name, 16);
     SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
     mesh.neighbours.clear();
-    link_sides(mesh);
+    set_side_adjacency(mesh);
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << name;
   }
 }
 
-TEST(LinkSides, WhereManyShareAnEdgeEachGetsOneOfThem) {
+TEST(SideAdjacency, WhereManyShareAnEdgeEachGetsOneOfThem) {
   // Pages of a book, and a triangle of its own.
   SurfaceMesh mesh;
   mesh.points.resize(20);
   for (std::uint32_t page = 0; page < 5; ++page) mesh.triangles.push_back({0, 1, 2 + page});
   mesh.triangles.push_back({10, 11, 12});
-  link_sides(mesh);
+  set_side_adjacency(mesh);
   ASSERT_EQ(mesh.neighbours.size(), mesh.triangles.size());
   for (std::uint32_t t = 0; t < 5; ++t) {
     const TriangleSide beyond = mesh.neighbours[t][2];

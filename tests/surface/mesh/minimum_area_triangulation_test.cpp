@@ -1,4 +1,4 @@
-#include "surface/mesh/least_triangulation.h"
+#include "surface/mesh/minimum_area_triangulation.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ double least_area(const Polygon& polygon, const std::vector<std::size_t>& corner
   return least;
 }
 
-TEST(LeastTriangulation, HasTheLeastAreaOfAll) {
+TEST(MinimumAreaTriangulation, HasTheLeastAreaOfAll) {
   Rng rng(5);
   int with = 0, without = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -54,7 +54,7 @@ TEST(LeastTriangulation, HasTheLeastAreaOfAll) {
       }
     }
     for (std::size_t i = 0; i < n; ++i) polygon.taken.erase(std::minmax(i, (i + 1) % n));
-    const LeastTriangulation least(
+    const MinimumAreaTriangulation least(
         n, [&](std::size_t i, std::size_t k, std::size_t j) { return polygon.area(i, k, j); },
         [&](std::size_t i, std::size_t j) { return polygon.is_free(i, j); });
     const double expected = least_area(polygon, all);
@@ -83,15 +83,15 @@ TEST(LeastTriangulation, HasTheLeastAreaOfAll) {
   EXPECT_GT(without, 10);
 }
 
-TEST(LeastTriangulation, TakesNoTriangleOfInfiniteCost) {
+TEST(MinimumAreaTriangulation, TakesNoTriangleOfInfiniteCost) {
   const auto never = [](std::size_t, std::size_t, std::size_t) { return kInfinity; };
   const auto always = [](std::size_t, std::size_t) { return true; };
-  EXPECT_FALSE(LeastTriangulation(3, never, always).exists());
-  EXPECT_FALSE(LeastTriangulation(6, never, always).exists());
+  EXPECT_FALSE(MinimumAreaTriangulation(3, never, always).exists());
+  EXPECT_FALSE(MinimumAreaTriangulation(6, never, always).exists());
   const auto fan_of_two = [](std::size_t i, std::size_t k, std::size_t j) {
     return i == 2 || k == 2 || j == 2 ? 1.0 : kInfinity;
   };
-  const LeastTriangulation fan(6, fan_of_two, always);
+  const MinimumAreaTriangulation fan(6, fan_of_two, always);
   ASSERT_TRUE(fan.exists());
   for (const auto& t : fan.triangles()) EXPECT_NE(std::find(t.begin(), t.end(), 2u), t.end());
 }

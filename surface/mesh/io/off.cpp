@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "surface/mesh/io/mesh_io_formats.h"
-#include "surface/mesh/io/mesh_io_text.h"
+#include "surface/mesh/io/formats.h"
+#include "surface/mesh/io/text.h"
 
 namespace deliso {
 

@@ -1,4 +1,4 @@
-#include "surface/mesh/vertex_fans.h"
+#include "surface/mesh/vertex_decimation.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,14 +7,14 @@
 
 namespace deliso {
 
-VertexFans::VertexFans(SurfaceMesh& mesh)
+VertexDecimation::VertexDecimation(SurfaceMesh& mesh)
     : mesh_(mesh), corner_of_(mesh.points.size(), kNoCorner), is_gone_(mesh.triangles.size(), false) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) corner_of_[mesh.triangles[t][i]] = 3 * t + i;
   }
 }
 
-bool VertexFans::find(std::uint32_t vertex, VertexFan& fan) const {
+bool VertexDecimation::find(std::uint32_t vertex, VertexFan& fan) const {
   for (std::uint32_t corner = corner_of_[vertex];;) {
     const std::uint32_t t = corner / 3, i = corner % 3;
     fan.triangles.push_back(t);
@@ -27,7 +27,7 @@ bool VertexFans::find(std::uint32_t vertex, VertexFan& fan) const {
   }
 }
 
-bool VertexFans::are_joined(std::uint32_t v, std::uint32_t w) const {
+bool VertexDecimation::are_joined(std::uint32_t v, std::uint32_t w) const {
   bool found = false;
   std::uint32_t visits = 0;
   for_each_corner_of_fan(
@@ -40,7 +40,7 @@ bool VertexFans::are_joined(std::uint32_t v, std::uint32_t w) const {
   return found;
 }
 
-bool VertexFans::can_be_filled(const VertexFan& fan) const {
+bool VertexDecimation::can_be_filled(const VertexFan& fan) const {
   if (fan.link.size() < 3 || fan.link.size() > kLongestLink) return false;
   std::vector<std::uint32_t> sorted = fan.link;
   std::sort(sorted.begin(), sorted.end());
@@ -49,7 +49,7 @@ bool VertexFans::can_be_filled(const VertexFan& fan) const {
   return fan.link.size() > 3 || beyond == kNoSide || mesh_.triangles[beyond >> 2][beyond & 3u] != fan.link[2];
 }
 
-LeastTriangulation VertexFans::least_filling(const VertexFan& fan) const {
+MinimumAreaTriangulation VertexDecimation::least_filling(const VertexFan& fan) const {
   const auto area = [&](std::size_t i, std::size_t k, std::size_t j) {
     const Vec3 &a = mesh_.points[fan.link[i]], &b = mesh_.points[fan.link[k]], &c = mesh_.points[fan.link[j]];
     return has_area(a, b, c) ? 0.5 * norm(cross(b - a, c - a)) : std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ LeastTriangulation VertexFans::least_filling(const VertexFan& fan) const {
   return {fan.link.size(), area, [&](std::size_t i, std::size_t j) { return !are_joined(fan.link[i], fan.link[j]); }};
 }
 
-void VertexFans::replace(std::uint32_t vertex, const VertexFan& fan, const LeastTriangulation& filling) {
+void VertexDecimation::replace(std::uint32_t vertex, const VertexFan& fan, const MinimumAreaTriangulation& filling) {
   for (std::size_t i = fan.triangles.size() - 2; i < fan.triangles.size(); ++i) is_gone_[fan.triangles[i]] = true;
   std::size_t next = 0;
   const TriangleSide last = build(fan, filling, 0, fan.link.size() - 1, next);
@@ -65,7 +65,7 @@ void VertexFans::replace(std::uint32_t vertex, const VertexFan& fan, const Least
   corner_of_[vertex] = kNoCorner;
 }
 
-void VertexFans::take_out(std::span<const std::uint32_t> vertices) {
+void VertexDecimation::take_out(std::span<const std::uint32_t> vertices) {
   // What was in the way of one may be gone the next time.
   for (bool any = true; any;) {
     any = false;
@@ -73,10 +73,10 @@ void VertexFans::take_out(std::span<const std::uint32_t> vertices) {
   }
 }
 
-bool VertexFans::take_out(std::uint32_t vertex) {
+bool VertexDecimation::take_out(std::uint32_t vertex) {
   VertexFan fan;
   if (!find(vertex, fan) || !can_be_filled(fan)) return false;
-  const LeastTriangulation filling = least_filling(fan);
+  const MinimumAreaTriangulation filling = least_filling(fan);
   if (!filling.exists()) return false;
   replace(vertex, fan, filling);
   return true;
@@ -84,8 +84,8 @@ bool VertexFans::take_out(std::uint32_t vertex) {
 
 // Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
 // rest is to be joined to.
-TriangleSide VertexFans::build(const VertexFan& fan, const LeastTriangulation& filling, std::size_t i, std::size_t j,
-                               std::size_t& next) {
+TriangleSide VertexDecimation::build(const VertexFan& fan, const MinimumAreaTriangulation& filling, std::size_t i,
+                                     std::size_t j, std::size_t& next) {
   if (j == i + 1) return fan.outer[i];
   const std::size_t k = filling.apex(i, j);
   const std::uint32_t t = fan.triangles[next++];
