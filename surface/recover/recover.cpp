@@ -5,11 +5,11 @@
 #include <limits>
 #include <optional>
 
-#include "surface/recover/recovery.h"
+#include "surface/recover/recover_loop.h"
 
 namespace deliso {
 
-void Recovery::run(Controls& controls, std::size_t enough) {
+void RecoverLoop::run(Controls& controls, std::size_t enough) {
   while (delaunay_.vertex_count() < enough && restricted_.has_room() &&
          !controls.must_stop("recover", delaunay_.vertex_count(), queue_.size())) {
     const std::optional<Violation> violation = queue_.pop();
@@ -19,7 +19,7 @@ void Recovery::run(Controls& controls, std::size_t enough) {
   }
 }
 
-void Recovery::treat(const Violation& violation) {
+void RecoverLoop::treat(const Violation& violation) {
   // What was queued may have been mended or destroyed meanwhile.
   std::optional<RefinementPoint> candidate;
   if (violation.kind == ViolationKind::kExtractManifold) {
@@ -37,7 +37,7 @@ void Recovery::treat(const Violation& violation) {
   if (violation.kind == ViolationKind::kExtractManifold) queue_umbrella(VertexId(violation.element));
 }
 
-std::int64_t Recovery::insert_points(std::span<const Vec3> points, Controls& controls) {
+std::int64_t RecoverLoop::insert_points(std::span<const Vec3> points, Controls& controls) {
   std::int64_t inserted = 0;
   for (const Vec3& p : points) {
     if (controls.must_stop("recover", delaunay_.vertex_count(), queue_.size())) break;
@@ -51,7 +51,7 @@ std::int64_t Recovery::insert_points(std::span<const Vec3> points, Controls& con
   return inserted;
 }
 
-void Recovery::queue_everything() {
+void RecoverLoop::queue_everything() {
   for (std::size_t i = 0; i < restricted_.dual_edge_slots(); ++i) {
     if (restricted_.is_alive(DualEdgeId(i))) queue_edge(DualEdgeId(i));
   }
@@ -60,7 +60,7 @@ void Recovery::queue_everything() {
   }
 }
 
-void Recovery::queue_edge(DualEdgeId e) {
+void RecoverLoop::queue_edge(DualEdgeId e) {
   if (!restricted_.is_alive(e)) return;
   const DualEdge& edge = restricted_.dual_edge(e);
   if (edge.hits.size() > 1) {
@@ -75,19 +75,19 @@ void Recovery::queue_edge(DualEdgeId e) {
 }
 
 // What the last insertion has changed.
-void Recovery::queue_touched() {
+void RecoverLoop::queue_touched() {
   for (const DualEdgeId e : restricted_.touched_edges()) queue_edge(e);
   for (const VertexId q : restricted_.touched_vertices()) queue_umbrella(q);
 }
 
-void Recovery::queue_umbrella(VertexId q) {
+void RecoverLoop::queue_umbrella(VertexId q) {
   if (umbrella_queued_.size() < delaunay_.vertex_count()) umbrella_queued_.resize(delaunay_.vertex_count(), false);
   if (umbrella_queued_[q.index()]) return;
   umbrella_queued_[q.index()] = true;
   queue_.push({ViolationKind::kExtractManifold, q.value, 0}, 0, 0, {});
 }
 
-bool Recovery::insert(const Violation& violation, const RefinementPoint& candidate) {
+bool RecoverLoop::insert(const Violation& violation, const RefinementPoint& candidate) {
   const std::optional<Vec3> p = onto_surface(candidate.point);
   if (!p) return false;
   const RestrictedDelaunay::Outcome outcome = restricted_.insert(*p, candidate.start, options_.size_bound);
@@ -116,7 +116,7 @@ bool Recovery::insert(const Violation& violation, const RefinementPoint& candida
 }
 
 // A new vertex takes the mean pole height of its neighbours on the surface, or that of the nearest of them.
-void Recovery::inherit_pole_height() {
+void RecoverLoop::inherit_pole_height() {
   if (pole_heights_ == nullptr) return;
   const VertexId q = restricted_.last_vertex();
   umbrella_.inspect(q);
@@ -142,7 +142,7 @@ void Recovery::inherit_pole_height() {
 
 void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
              std::vector<double>* pole_heights) {
-  Recovery recovery(restricted, options, stats, pole_heights);
+  RecoverLoop recovery(restricted, options, stats, pole_heights);
   recovery.queue_everything();
   if (pole_heights == nullptr) recovery.run_in_slabs(controls);
   recovery.run(controls);
@@ -150,7 +150,7 @@ void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Cont
 
 std::int64_t recover_with(RestrictedDelaunay& restricted, std::span<const Vec3> points, const RecoverOptions& options,
                           Controls& controls, RecoverStats& stats) {
-  Recovery recovery(restricted, options, stats);
+  RecoverLoop recovery(restricted, options, stats);
   const std::int64_t inserted = recovery.insert_points(points, controls);
   recovery.run_in_slabs(controls);
   recovery.run(controls);

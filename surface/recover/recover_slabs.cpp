@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "delaunay/base/parallel.h"
-#include "surface/recover/recovery.h"
+#include "surface/recover/recover_loop.h"
 
 namespace deliso {
 
@@ -33,7 +33,7 @@ constexpr double kMostGrowth = 0.5;
 
 }  // namespace
 
-void Recovery::run_in_slabs(Controls& controls) {
+void RecoverLoop::run_in_slabs(Controls& controls) {
   const std::size_t on_box = count_on_box();
   run(controls, std::max(kFewestVertices, on_box + on_box / kApartFromBox));
   for (std::size_t round = 0; !controls.stopped(); ++round) {
@@ -42,7 +42,7 @@ void Recovery::run_in_slabs(Controls& controls) {
   }
 }
 
-std::size_t Recovery::count_on_box() const {
+std::size_t RecoverLoop::count_on_box() const {
   std::size_t count = 0;
   for (std::size_t i = 0; i < delaunay_.vertex_count(); ++i) {
     const VertexId v(i);
@@ -51,7 +51,7 @@ std::size_t Recovery::count_on_box() const {
   return count;
 }
 
-std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
+std::int64_t RecoverLoop::run_round(std::size_t axis, Controls& controls) {
   // Step 1: plan.
   const std::vector<Violation> waiting = take_waiting();
   const std::vector<Slab> slabs = slabs_of(waiting, axis);
@@ -61,7 +61,7 @@ std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
     return 0;
   }
   std::vector<RecoverStats> counted(parts.size());
-  std::vector<Recovery> work;
+  std::vector<RecoverLoop> work;
   work.reserve(parts.size());
   std::vector<Controls> limits;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -95,7 +95,8 @@ std::int64_t Recovery::run_round(std::size_t axis, Controls& controls) {
 
 // One by one, but not what follows from it. Left alone, coarse triangles would block all that is finer around them, in
 // round after round.
-void Recovery::mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed, Controls& controls) {
+void RecoverLoop::mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed,
+                               Controls& controls) {
   ViolationQueue in_order(options_.order);
   for (Violation violation : blocked) {
     if (violation.kind == ViolationKind::kExtractManifold) violation.element = renamed[violation.element].value;
@@ -109,7 +110,7 @@ void Recovery::mend_blocked(std::span<const Violation> blocked, std::span<const 
 }
 
 // Empties the queue; without what was mended or destroyed meanwhile.
-std::vector<Violation> Recovery::take_waiting() {
+std::vector<Violation> RecoverLoop::take_waiting() {
   std::vector<Violation> waiting = queue_.take_all();
   std::erase_if(waiting, [&](const Violation& violation) {
     return violation.kind != ViolationKind::kExtractManifold &&
@@ -119,7 +120,7 @@ std::vector<Violation> Recovery::take_waiting() {
 }
 
 // Of each slab; none when a round is not worth its while. Umbrellas are many, and nearly all of them will do.
-std::size_t Recovery::most_insertions(std::span<const Violation> waiting) const {
+std::size_t RecoverLoop::most_insertions(std::span<const Violation> waiting) const {
   const auto triangles = static_cast<std::size_t>(std::count_if(
       waiting.begin(), waiting.end(), [](const Violation& v) { return v.kind != ViolationKind::kExtractManifold; }));
   const auto vertices = static_cast<double>(delaunay_.vertex_count());
@@ -128,7 +129,7 @@ std::size_t Recovery::most_insertions(std::span<const Violation> waiting) const 
 }
 
 // With about as many triangles that wait each.
-std::vector<Slab> Recovery::slabs_of(std::span<const Violation> waiting, std::size_t axis) const {
+std::vector<Slab> RecoverLoop::slabs_of(std::span<const Violation> waiting, std::size_t axis) const {
   std::vector<double> places;
   for (const Violation& violation : waiting) {
     if (violation.kind == ViolationKind::kExtractManifold) continue;
@@ -146,7 +147,7 @@ std::vector<Slab> Recovery::slabs_of(std::span<const Violation> waiting, std::si
 }
 
 // Of the facet whose dual edge it is; or one vertex, three times.
-std::array<VertexId, 3> Recovery::vertices_of(const Violation& violation) const {
+std::array<VertexId, 3> RecoverLoop::vertices_of(const Violation& violation) const {
   if (violation.kind != ViolationKind::kExtractManifold)
     return restricted_.dual_edge(DualEdgeId(violation.element)).vertices;
   const VertexId v(violation.element);
@@ -154,8 +155,8 @@ std::array<VertexId, 3> Recovery::vertices_of(const Violation& violation) const 
 }
 
 // To the part in whose slab it lies; returns what lies in none.
-std::vector<Violation> Recovery::hand_out(std::span<const Violation> waiting, std::span<const Slab> slabs,
-                                          std::span<Recovery> parts) const {
+std::vector<Violation> RecoverLoop::hand_out(std::span<const Violation> waiting, std::span<const Slab> slabs,
+                                             std::span<RecoverLoop> parts) const {
   std::vector<Violation> between;
   for (const Violation& violation : waiting) {
     const std::array<VertexId, 3> v = vertices_of(violation);
@@ -171,7 +172,7 @@ std::vector<Violation> Recovery::hand_out(std::span<const Violation> waiting, st
   return between;
 }
 
-void Recovery::take_back(std::span<const Violation> left, std::span<const VertexId> renamed) {
+void RecoverLoop::take_back(std::span<const Violation> left, std::span<const VertexId> renamed) {
   for (Violation violation : left) {
     if (violation.kind == ViolationKind::kExtractManifold) {
       violation.element = renamed[violation.element].value;

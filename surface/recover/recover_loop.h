@@ -24,11 +24,11 @@ struct RefinementPoint {
   TetId start;
 };
 
-class Recovery {
+class RecoverLoop {
  public:
   // `pole_heights`: see recover(). Keeps references to all.
-  Recovery(RestrictedDelaunay& restricted, const RecoverOptions& options, RecoverStats& stats,
-           std::vector<double>* pole_heights = nullptr)
+  RecoverLoop(RestrictedDelaunay& restricted, const RecoverOptions& options, RecoverStats& stats,
+              std::vector<double>* pole_heights = nullptr)
       : restricted_(restricted),
         delaunay_(restricted.delaunay()),
         isosurface_(restricted.isosurface()),
@@ -45,7 +45,7 @@ class Recovery {
   // Until no violation is left that can be mended here, or there are `enough` vertices, or no room for another one.
   void run(Controls& controls, std::size_t enough = std::numeric_limits<std::size_t>::max());
   // The same on several threads, round after round, each in slabs of the volume that are refined apart from each other
-  // (recovery_slabs.cpp). What it leaves is for run(). The same for any number of threads.
+  // (recover_slabs.cpp). What it leaves is for run(). The same for any number of threads.
   void run_in_slabs(Controls& controls);
 
  private:
@@ -56,7 +56,7 @@ class Recovery {
   bool insert(const Violation& violation, const RefinementPoint& candidate);
   void inherit_pole_height();
 
-  // The points that mend a violation (recovery_points.cpp).
+  // The points that mend a violation (refinement_points.cpp).
   [[nodiscard]] RefinementPoint point_at(const DualEdge& edge, double t) const;
   [[nodiscard]] std::optional<RefinementPoint> multi_intersect(DualEdgeId e) const;
   std::optional<RefinementPoint> extract_manifold(VertexId q);
@@ -76,7 +76,7 @@ class Recovery {
   [[nodiscard]] std::vector<Slab> slabs_of(std::span<const Violation> waiting, std::size_t axis) const;
   [[nodiscard]] std::array<VertexId, 3> vertices_of(const Violation& violation) const;
   std::vector<Violation> hand_out(std::span<const Violation> waiting, std::span<const Slab> slabs,
-                                  std::span<Recovery> parts) const;
+                                  std::span<RecoverLoop> parts) const;
   void mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed, Controls& controls);
   void take_back(std::span<const Violation> left, std::span<const VertexId> renamed);
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "surface/recover/recovery.h"
+#include "surface/recover/recover_loop.h"
 
 namespace deliso {
 
@@ -17,13 +17,13 @@ constexpr double kOnSurface = 1e-7;
 }  // namespace
 
 // A point on a dual edge lies in the circumball of the tetrahedron at that end which is on its side of the facet.
-RefinementPoint Recovery::point_at(const DualEdge& edge, double t) const {
+RefinementPoint RecoverLoop::point_at(const DualEdge& edge, double t) const {
   const FacetId f = t > 0 ? delaunay_.mirror(edge.facet) : edge.facet;
   return {edge.dual.at(t), f.tet()};
 }
 
 // MultiIntersect: a dual edge with several hits gives the one farthest from its facet.
-std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
+std::optional<RefinementPoint> RecoverLoop::multi_intersect(DualEdgeId e) const {
   const DualEdge& edge = restricted_.dual_edge(e);
   if (edge.hits.size() < 2) return std::nullopt;
   const double first = edge.hits.front().t;
@@ -33,7 +33,7 @@ std::optional<RefinementPoint> Recovery::multi_intersect(DualEdgeId e) const {
 
 // ExtractManifold: an umbrella that is no disk gives its x_sigma farthest from the vertex. On the box a half disk will
 // do.
-std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
+std::optional<RefinementPoint> RecoverLoop::extract_manifold(VertexId q) {
   const auto will_do = [&](UmbrellaShape shape) {
     return shape == UmbrellaShape::kDisk || (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q));
   };
@@ -42,7 +42,7 @@ std::optional<RefinementPoint> Recovery::extract_manifold(VertexId q) {
   return farthest_in_voronoi_cell(q);
 }
 
-std::optional<RefinementPoint> Recovery::farthest_of_umbrella(VertexId q) const {
+std::optional<RefinementPoint> RecoverLoop::farthest_of_umbrella(VertexId q) const {
   std::optional<RefinementPoint> farthest;
   double longest = 0;
   for (const FacetId f : umbrella_.facets()) {
@@ -62,7 +62,7 @@ std::optional<RefinementPoint> Recovery::farthest_of_umbrella(VertexId q) const 
 
 // A vertex without restricted triangles: its Voronoi cell swallows a piece of the surface. Rays from the vertex along
 // the gradient and in a dozen other directions look for the farthest point of that piece.
-std::optional<RefinementPoint> Recovery::farthest_in_voronoi_cell(VertexId q) {
+std::optional<RefinementPoint> RecoverLoop::farthest_in_voronoi_cell(VertexId q) {
   constexpr double kGolden = 1.618033988749895;
   const Vec3 from = delaunay_.point(q);
   const Vec3 gradient = isosurface_.gradient(from);
@@ -109,14 +109,14 @@ std::optional<RefinementPoint> Recovery::farthest_in_voronoi_cell(VertexId q) {
 }
 
 // ApproximateGeom: a triangle too coarse gives its x_sigma.
-std::optional<RefinementPoint> Recovery::approximate_geometry(DualEdgeId e) const {
+std::optional<RefinementPoint> RecoverLoop::approximate_geometry(DualEdgeId e) const {
   const DualEdge& edge = restricted_.dual_edge(e);
   if (geometric_badness(edge) <= 1) return std::nullopt;
   return point_at(edge, surface_hit(edge));
 }
 
 // The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
-double Recovery::geometric_badness(const DualEdge& edge) const {
+double RecoverLoop::geometric_badness(const DualEdge& edge) const {
   const GeometryCriterion& limit = options_.geometry;
   if (!restricted_.is_dual_to_surface(edge.facet) || edge.radius <= limit.r_min) return 0;
   const double h = std::abs(surface_hit(edge));
@@ -137,7 +137,7 @@ double Recovery::geometric_badness(const DualEdge& edge) const {
   return badness;
 }
 
-double Recovery::mean_pole_height(const DualEdge& edge) const {
+double RecoverLoop::mean_pole_height(const DualEdge& edge) const {
   double sum = 0;
   for (const VertexId v : edge.vertices) sum += (*pole_heights_)[v.index()];
   return sum / 3;
@@ -145,7 +145,7 @@ double Recovery::mean_pole_height(const DualEdge& edge) const {
 
 // A hit outside the box stands for the point of the boundary curve that it is clamped to. A hit that the signs alone
 // forced may lie off the surface; it is moved onto it along the gradient.
-std::optional<Vec3> Recovery::onto_surface(const Vec3& p) const {
+std::optional<Vec3> RecoverLoop::onto_surface(const Vec3& p) const {
   const Vec3 inside = isosurface_.box().clamp(p);
   const Vec3 gradient = isosurface_.gradient(inside);
   const double steepness = norm_of_any_size(gradient);
