@@ -88,10 +88,10 @@ RecoverOptions full3d_options(const Parameters& parameters, const Lengths& lengt
   return options;
 }
 
-RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths, std::span<const Vec3> landmarks,
-                             int threads) {
+RefineOptions stage2_options(const Parameters& parameters, const Lengths& lengths,
+                             std::span<const Vec3> coverage_targets, int threads) {
   RefineOptions options;
-  options.landmarks = landmarks;
+  options.coverage_targets = coverage_targets;
   options.threads = threads;
   options.epsilon1 = parameters.stage2.epsilon1;
   options.epsilon2 = parameters.stage2.epsilon2;
@@ -108,7 +108,7 @@ RefineOptions stage2_options(const Parameters& parameters, const Lengths& length
 }
 
 // Recover; and, when the exact topology is known, with samples of fingers of the surface that hide within a Voronoi
-// cell. Returns landmarks for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
+// cell. Returns coverage targets for stage 2, if it asks for them: the crossings that the first mesh of stage 1 is
 // not close to.
 std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& grid,
                               const IsosurfaceTopology* topology, const MeshingOptions& options, const Lengths& lengths,
@@ -117,16 +117,16 @@ std::vector<Vec3> recover_all(RestrictedDelaunay& restricted, const ScalarGrid& 
   recover(restricted, stage1, controls, stats);
   if (topology == nullptr || !options.parameters.stage1.coverage || controls.stopped()) return {};
   // Only where triangles that they make cross are looked for.
-  const bool wants_landmarks = options.parameters.algorithm == Algorithm::kTwoStage && repairs(options.parameters);
-  std::vector<Vec3> landmarks;
+  const bool wants_targets = options.parameters.algorithm == Algorithm::kTwoStage && repairs(options.parameters);
+  std::vector<Vec3> coverage_targets;
   std::vector<std::uint32_t> suspects = all_crossings(grid, *topology, options.threads);
   for (int i = 0; i < kCoverageRounds; ++i) {
     const std::vector<Vec3> points = uncovered_points(restricted, grid, *topology, suspects, options.threads,
-                                                      i == 0 && wants_landmarks ? &landmarks : nullptr);
+                                                      i == 0 && wants_targets ? &coverage_targets : nullptr);
     if (recover_with(restricted, points, stage1, controls, stats) == 0 || controls.poll()) break;
   }
-  landmarks.shrink_to_fit();
-  return landmarks;
+  coverage_targets.shrink_to_fit();
+  return coverage_targets;
 }
 
 void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
@@ -231,7 +231,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   });
 
   controls.enter("recover");
-  const std::vector<Vec3> landmarks = timed(result.recover, [&] {
+  const std::vector<Vec3> coverage_targets = timed(result.recover, [&] {
     return recover_all(*restricted, grid, needs_topology(parameters) ? &topology : nullptr, options, lengths, controls,
                        result.recover);
   });
@@ -247,7 +247,7 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   controls.enter("refine");
   if (parameters.algorithm == Algorithm::kTwoStage && result.build.bounds_a_solid) {
     timed(result.refine, [&] {
-      refine(surface, *isosurface, stage2_options(parameters, lengths, landmarks, options.threads), controls,
+      refine(surface, *isosurface, stage2_options(parameters, lengths, coverage_targets, options.threads), controls,
              result.refine);
     });
   }

@@ -49,7 +49,7 @@ Json refine_json(const RefineStats& refine) {
   json["stopped_at_r_min"] = refine.stopped_at_r_min;
   json["restarts"] = refine.restarts;
   json["halvings"] = refine.halvings;
-  json["landmarks"] = refine.landmarks;
+  json["coverage_targets"] = refine.coverage_targets;
   return json;
 }
 

@@ -66,7 +66,7 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
 
 std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
                                    const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
-                                   int threads, std::vector<Vec3>* landmarks) {
+                                   int threads, std::vector<Vec3>* coverage_targets) {
   // The facets as they are: how they make up a manifold does not matter here.
   const SurfaceMesh mesh = facets_alone(restricted, threads);
   const auto position = [&](std::uint32_t crossing) {
@@ -81,7 +81,7 @@ std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const S
   // Where few are asked about most have a triangle near by now, and a tree of all triangles is worth it for others
   // only.
   const bool are_few = suspects.size() <= mesh.triangles.size() / kFewSuspects;
-  if (landmarks == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
+  if (coverage_targets == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
   if (suspects.empty()) return {};
   const MeshCover cover(mesh, threads);
   const std::vector<std::uint32_t> asked = std::move(suspects);
@@ -93,7 +93,8 @@ std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const S
   suspects.clear();
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (covers[i] == MeshCover::Cover::kNone) suspects.push_back(asked[i]);
-    if (landmarks != nullptr && covers[i] != MeshCover::Cover::kClose) landmarks->push_back(position(asked[i]));
+    if (coverage_targets != nullptr && covers[i] != MeshCover::Cover::kClose)
+      coverage_targets->push_back(position(asked[i]));
   }
   return positions(suspects);
 }

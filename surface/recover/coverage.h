@@ -13,11 +13,11 @@ namespace deliso {
 
 // The grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover): for stage 1 to insert.
 // `suspects` are the crossings to ask about (places in topology.crossings); those that are not covered stay in it.
-// `landmarks`, when asked for, gets those that the mesh is not close to (MeshCover::look), covered or not. The same for
-// any number of threads.
+// `coverage targets`, when asked for, gets those that the mesh is not close to (MeshCover::look), covered or not. The
+// same for any number of threads.
 std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
                                    const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
-                                   int threads = 1, std::vector<Vec3>* landmarks = nullptr);
+                                   int threads = 1, std::vector<Vec3>* coverage_targets = nullptr);
 
 // All crossings, in an order that keeps neighbours together.
 std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads = 1);

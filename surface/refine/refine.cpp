@@ -11,7 +11,7 @@
 #include "delaunay/base/memory.h"
 #include "surface/refine/guard/clearances.h"
 #include "surface/refine/guard/refinement_crossings.h"
-#include "surface/refine/refinement.h"
+#include "surface/refine/refine_loop.h"
 #include "surface/refine/slabs/refinement_planes.h"
 #include "surface/refine/slabs/refinement_slabs.h"
 
@@ -71,7 +71,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   std::vector<Vec3> suspects;
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
-    Refinement refinement(part, task.isosurface, task.options, counted);
+    RefineLoop refinement(part, task.isosurface, task.options, counted);
     refinement.run(controls, threads.count());
     if (round == Round::kRest) release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
@@ -139,7 +139,7 @@ void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vec
 void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
   RefinementPart whole;
   std::swap(whole.mesh, mesh);
-  whole.landmarks = task.options.landmarks;
+  whole.coverage_targets = task.options.coverage_targets;
   RefineStats counted;
   refine_part(whole, round, task, task.controls, {task.options.threads, 1}, counted);
   std::swap(whole.mesh, mesh);
@@ -157,7 +157,7 @@ void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions
   refined = RefinementMesh(mesh, options.threads);
   mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
   set_clearances(refined);
-  std::vector<float> work = Refinement(whole, isosurface, options, stats).measure_all(options.threads);
+  std::vector<float> work = RefineLoop(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);
   if (slabs.size() == 1) {
     refine_whole(refined, Round::kSlabs, task);

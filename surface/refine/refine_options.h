@@ -26,10 +26,10 @@ struct RefineOptions {
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
-  bool keep_neighbours = true;        // and pole heights; or else the refined mesh has points and triangles alone
-  std::span<const Vec3> landmarks;    // points of the surface that the mesh is to come near (landmarks.h)
-  int threads = 1;                    // the result is the same for any number
-  std::size_t slab_triangles = 6144;  // of stage 1 in a slab (refinement_slabs.h), about
+  bool keep_neighbours = true;             // and pole heights; or else the refined mesh has points and triangles alone
+  std::span<const Vec3> coverage_targets;  // points of the surface that the mesh is to come near (coverage_targets.h)
+  int threads = 1;                         // the result is the same for any number
+  std::size_t slab_triangles = 6144;       // of stage 1 in a slab (refinement_slabs.h), about
 };
 
 // Why an insertion was refused.
@@ -48,9 +48,9 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::
 
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;
-  std::int64_t boundary_splits = 0;  // of them on boundary edges
-  std::int64_t landmarks = 0;        // of them points that the mesh had missed (landmarks.h)
-  std::int64_t halvings = 0;         // of them on the longest edge of a coarse triangle, x_sigma having been refused
+  std::int64_t boundary_splits = 0;   // of them on boundary edges
+  std::int64_t coverage_targets = 0;  // of them points that the mesh had missed (coverage_targets.h)
+  std::int64_t halvings = 0;          // of them on the longest edge of a coarse triangle, x_sigma having been refused
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
   std::int64_t restarts = 0;          // of a slab, or of what is done in the whole
@@ -61,7 +61,7 @@ struct RefineStats : StageStats {
     insertions += part.insertions;
     boundary_splits += part.boundary_splits;
     halvings += part.halvings;
-    landmarks += part.landmarks;
+    coverage_targets += part.coverage_targets;
     for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += part.refused[i];
     restarts += part.restarts;
     search += part.search;

@@ -14,14 +14,14 @@ constexpr double kCoarseEdge = 1.5;
 // The middle of an edge may be this near to a vertex, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
 
-// A landmark is not inserted so near to a vertex (mesh-space units).
+// A coverage target is not inserted so near to a vertex (mesh-space units).
 constexpr double kLandmarkToVertex = 0.3;
 // The radius that stands for its ball's, in distances from the next triangle: folded disks lie farther off it.
 constexpr double kLandmarkRadius = 2;
 
 }  // namespace
 
-RefinementCandidate landmark_candidate(const MissedLandmark& missed, double r_min) {
+RefinementCandidate target_candidate(const MissedTarget& missed, double r_min) {
   const double radius = kLandmarkRadius * std::sqrt(missed.squared_distance);
   return {missed.point, radius, std::max(kLandmarkToVertex, r_min), missed.triangle, kNoSide, kNoSide, true};
 }

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "raycast/isosurface.h"
-#include "surface/refine/disk/landmarks.h"
+#include "surface/refine/disk/coverage_targets.h"
 #include "surface/refine/disk/refinement_mesh.h"
 
 namespace deliso {
@@ -21,8 +21,8 @@ struct RefinementCandidate {
   bool is_landmark = false;
 };
 
-// A landmark, for the triangle next to it, unless a vertex is nearer than 0.3 mesh-space units and `r_min`.
-RefinementCandidate landmark_candidate(const MissedLandmark& missed, double r_min);
+// A coverage target, for the triangle next to it, unless a vertex is nearer than 0.3 mesh-space units and `r_min`.
+RefinementCandidate target_candidate(const MissedTarget& missed, double r_min);
 
 // A point of the boundary curve between the ends of a boundary edge of the box's face, if the edge is longer than
 // `r_min`: the hit nearest to its midpoint on the bisector within the face.

@@ -18,7 +18,7 @@
 #include "delaunay/base/box3.h"
 #include "surface/refine/disk/refinement_disk.h"
 #include "surface/refine/disk/refinement_mesh.h"
-#include "surface/refine/guard/tight_triangles.h"
+#include "surface/refine/guard/triangle_hash_grid.h"
 
 namespace deliso {
 
@@ -66,7 +66,7 @@ class CrossingGuard {
   [[nodiscard]] static bool meets(const PlacedTriangle& s, const PlacedTriangle& t);
 
   RefinementMesh& mesh_;
-  TightTriangles tight_;
+  TriangleHashGrid tight_;
   float new_clearance_ = 0;
   std::vector<PlacedTriangle> star_;
   std::vector<std::size_t> tight_in_star_;

@@ -12,7 +12,7 @@
 #include "surface/refine/guard/clearances.h"
 #include "surface/refine/guard/refinement_crossings.h"
 #include "surface/refine/refine.h"
-#include "surface/refine/refinement.h"
+#include "surface/refine/refine_loop.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
 
@@ -119,8 +119,8 @@ RefinementMesh refined_once(const Vec3& place, Trust trust, RefineStats& stats) 
   if (trust == Trust::kNone) distrust_all(part.mesh);
   const RefineOptions options = fine_options();
   Controls controls(BudgetParameters{}, nullptr, {});
-  Refinement(part, *scene->isosurface, options, stats).measure_all(1);
-  Refinement(part, *scene->isosurface, options, stats).run(controls, 1);
+  RefineLoop(part, *scene->isosurface, options, stats).measure_all(1);
+  RefineLoop(part, *scene->isosurface, options, stats).run(controls, 1);
   return std::move(part.mesh);
 }
 

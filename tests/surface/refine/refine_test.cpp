@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "surface/refine/guard/clearances.h"
-#include "surface/refine/refinement.h"
+#include "surface/refine/refine_loop.h"
 #include "tests/support/refine_runs.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
@@ -192,9 +192,9 @@ TEST(Refine, WhatIsTakenBackLeavesTheMeshAsItWasAndCanBeDoneAgain) {
     const RefineOptions options = fine_options();
     RefineStats stats;
     Controls controls(BudgetParameters{}, nullptr, {});
-    Refinement(part, *scene->isosurface, options, stats).measure_all(1);
+    RefineLoop(part, *scene->isosurface, options, stats).measure_all(1);
     const RefinementMesh before = mesh;
-    Refinement refinement(part, *scene->isosurface, options, stats);
+    RefineLoop refinement(part, *scene->isosurface, options, stats);
     refinement.run(controls, 1);
     EXPECT_EQ(mesh.vertices.size(), before.vertices.size() + static_cast<std::size_t>(stats.insertions));
     const RefinementMesh after = mesh;

@@ -1,4 +1,4 @@
-#include "surface/refine/guard/tight_triangles.h"
+#include "surface/refine/guard/triangle_hash_grid.h"
 
 #include <algorithm>
 #include <bit>
@@ -36,20 +36,20 @@ std::int32_t floored(double x) {
 
 }  // namespace
 
-int TightTriangles::level_of(const Box3& box) {
+int TriangleHashGrid::level_of(const Box3& box) {
   const Vec3 size = box.size();
   return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 2;
 }
 
-TightTriangles::FloatBox::FloatBox(const Box3& box)
+TriangleHashGrid::FloatBox::FloatBox(const Box3& box)
     : low{static_cast<float>(box.low.x), static_cast<float>(box.low.y), static_cast<float>(box.low.z)},
       high{static_cast<float>(box.high.x), static_cast<float>(box.high.y), static_cast<float>(box.high.z)} {}
 
-TightTriangles::Row::Row() {
+TriangleHashGrid::Row::Row() {
   for (std::size_t i = 0; i < kPerRow; ++i) clear(i);
 }
 
-void TightTriangles::Row::set(std::size_t i, std::uint32_t triangle, const FloatBox& box) {
+void TriangleHashGrid::Row::set(std::size_t i, std::uint32_t triangle, const FloatBox& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     low[axis][i] = box.low[axis];
     high[axis][i] = box.high[axis];
@@ -57,7 +57,7 @@ void TightTriangles::Row::set(std::size_t i, std::uint32_t triangle, const Float
   triangles[i] = triangle;
 }
 
-void TightTriangles::Row::set(std::size_t i, const Row& from, std::size_t j) {
+void TriangleHashGrid::Row::set(std::size_t i, const Row& from, std::size_t j) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     low[axis][i] = from.low[axis][j];
     high[axis][i] = from.high[axis][j];
@@ -65,7 +65,7 @@ void TightTriangles::Row::set(std::size_t i, const Row& from, std::size_t j) {
   triangles[i] = from.triangles[j];
 }
 
-void TightTriangles::Row::clear(std::size_t i) {
+void TriangleHashGrid::Row::clear(std::size_t i) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     low[axis][i] = std::numeric_limits<float>::infinity();
     high[axis][i] = -std::numeric_limits<float>::infinity();
@@ -73,7 +73,7 @@ void TightTriangles::Row::clear(std::size_t i) {
   triangles[i] = kNone;
 }
 
-std::uint32_t TightTriangles::Row::meeting(const FloatBox& other) const {
+std::uint32_t TriangleHashGrid::Row::meeting(const FloatBox& other) const {
   return bits_where<kPerRow>([&](std::size_t i) {
     std::uint32_t all = ~0U;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -83,24 +83,24 @@ std::uint32_t TightTriangles::Row::meeting(const FloatBox& other) const {
   });
 }
 
-std::size_t TightTriangles::Row::count() const {
+std::size_t TriangleHashGrid::Row::count() const {
   return static_cast<std::size_t>(std::find(triangles.begin(), triangles.end(), kNone) - triangles.begin());
 }
 
-double TightTriangles::Range::count() const {
+double TriangleHashGrid::Range::count() const {
   double count = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) count *= high[axis] - low[axis] + 1.0;
   return count;
 }
 
-bool TightTriangles::Range::contains(const Place& place) const {
+bool TriangleHashGrid::Range::contains(const Place& place) const {
   bool all = true;
   for (std::size_t axis = 0; axis < 3; ++axis) all = all && low[axis] <= place[axis] && place[axis] <= high[axis];
   return all;
 }
 
 template <class Visit>
-void TightTriangles::Range::for_each(Visit&& visit) const {
+void TriangleHashGrid::Range::for_each(Visit&& visit) const {
   for (std::int32_t z = low[2]; z <= high[2]; ++z) {
     for (std::int32_t y = low[1]; y <= high[1]; ++y) {
       for (std::int32_t x = low[0]; x <= high[0]; ++x) visit(Place{x, y, z});
@@ -108,19 +108,19 @@ void TightTriangles::Range::for_each(Visit&& visit) const {
   }
 }
 
-TightTriangles::Place TightTriangles::place_of(const Vec3& point, int level) {
+TriangleHashGrid::Place TriangleHashGrid::place_of(const Vec3& point, int level) {
   const double scale = scale_of(level);
   const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
   return {place(point.x), place(point.y), place(point.z)};
 }
 
 // Where the low corners of boxes are that meet `box`: such a box is smaller than half a cell.
-TightTriangles::Range TightTriangles::cells_near(const Box3& box, int level) {
+TriangleHashGrid::Range TriangleHashGrid::cells_near(const Box3& box, int level) {
   const double half = 0.5 / scale_of(level);
   return {place_of(box.low - Vec3{half, half, half}, level), place_of(box.high, level)};
 }
 
-TightTriangles::Range TightTriangles::blocks_of(const Range& cells) {
+TriangleHashGrid::Range TriangleHashGrid::blocks_of(const Range& cells) {
   Range blocks;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     blocks.low[axis] = cells.low[axis] >> kBlockShift;
@@ -129,19 +129,19 @@ TightTriangles::Range TightTriangles::blocks_of(const Range& cells) {
   return blocks;
 }
 
-std::uint64_t TightTriangles::cell_key(int level, const Place& place) {
+std::uint64_t TriangleHashGrid::cell_key(int level, const Place& place) {
   constexpr std::uint64_t kBits = 0x7FFFF;
   const auto bits = [&](std::size_t axis) { return static_cast<std::uint64_t>(place[axis]) & kBits; };
   return static_cast<std::uint64_t>(level) << 57 | bits(2) << 38 | bits(1) << 19 | bits(0);
 }
 
-std::uint64_t TightTriangles::block_key(int level, const Place& place) {
+std::uint64_t TriangleHashGrid::block_key(int level, const Place& place) {
   return std::uint64_t{1} << 63 | cell_key(level, place);
 }
 
 // Calls visit(cell) for those cells of a level that have been used, and maybe for others.
 template <class Visit>
-void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& visit) const {
+void TriangleHashGrid::for_each_used_cell(const Range& cells, int level, Visit&& visit) const {
   const auto look_at = [&](const Place& place) { visit(cells_[slot_of(cell_key(level, place))]); };
   if (cells.count() <= kFewCells) {
     cells.for_each(look_at);
@@ -169,7 +169,7 @@ void TightTriangles::for_each_used_cell(const Range& cells, int level, Visit&& v
 }
 
 // Where a key is, or the free slot where it belongs.
-std::size_t TightTriangles::slot_of(std::uint64_t key) const {
+std::size_t TriangleHashGrid::slot_of(std::uint64_t key) const {
   const std::size_t mask = cells_.size() - 1;
   std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> 32 & mask;
   while (cells_[slot].key != key && cells_[slot].key != kNoKey) slot = (slot + 1) & mask;
@@ -177,7 +177,7 @@ std::size_t TightTriangles::slot_of(std::uint64_t key) const {
 }
 
 // False when it is there already; `slot` is where it is then.
-bool TightTriangles::insert(std::uint64_t key, std::size_t& slot) {
+bool TriangleHashGrid::insert(std::uint64_t key, std::size_t& slot) {
   slot = slot_of(key);
   if (cells_[slot].key == key) return false;
   if (2 * ++used_ > cells_.size()) {
@@ -188,7 +188,7 @@ bool TightTriangles::insert(std::uint64_t key, std::size_t& slot) {
   return true;
 }
 
-TightTriangles::Cell& TightTriangles::cell_at(int level, const Place& place) {
+TriangleHashGrid::Cell& TriangleHashGrid::cell_at(int level, const Place& place) {
   const std::uint64_t key = cell_key(level, place);
   std::size_t slot = 0, of_block = 0;
   if (insert(key, slot)) {
@@ -199,7 +199,7 @@ TightTriangles::Cell& TightTriangles::cell_at(int level, const Place& place) {
   return cells_[slot];
 }
 
-void TightTriangles::grow() {
+void TriangleHashGrid::grow() {
   std::vector<Cell> old(4 * cells_.size());
   std::swap(old, cells_);
   for (Cell& cell : old) {
@@ -207,7 +207,7 @@ void TightTriangles::grow() {
   }
 }
 
-void TightTriangles::add(std::uint32_t triangle, const Box3& box) {
+void TriangleHashGrid::add(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
   if (level >= kLevels) return;
   if (held_.size() <= triangle) held_.resize(triangle + 1, 0);
@@ -219,7 +219,7 @@ void TightTriangles::add(std::uint32_t triangle, const Box3& box) {
   rows.back().set(rows.back().count(), triangle, FloatBox(box));
 }
 
-void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
+void TriangleHashGrid::remove(std::uint32_t triangle, const Box3& box) {
   const int level = level_of(box);
   held_[triangle] = 0;
   if (--kept_at_[static_cast<std::size_t>(level)] == 0) levels_ &= ~(std::uint64_t{1} << level);
@@ -236,7 +236,7 @@ void TightTriangles::remove(std::uint32_t triangle, const Box3& box) {
   }
 }
 
-void TightTriangles::append_near(const Box3& box, std::vector<std::uint32_t>& found) const {
+void TriangleHashGrid::append_near(const Box3& box, std::vector<std::uint32_t>& found) const {
   const FloatBox rounded(box);
   for (std::uint64_t levels = levels_; levels != 0; levels &= levels - 1) {
     const int level = std::countr_zero(levels);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "surface/base/parallel_blocks.h"
-#include "surface/refine/refinement.h"
+#include "surface/refine/refine_loop.h"
 #include "surface/refine/triangle_lanes.h"
 
 namespace deliso {
@@ -23,14 +23,14 @@ BadnessLimits badness_limits(const RefineOptions& options) {
 
 }  // namespace
 
-Refinement::NewTriangle Refinement::measure(const Shape& shape) {
+RefineLoop::NewTriangle RefineLoop::measure(const Shape& shape) {
   NewTriangle measured;
   measure({&shape, 1}, {&measured, 1});
   return measured;
 }
 
 // Balls and badness of triangles; a dual line without a falling hit gives its circumball and no further refinement.
-void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
+void RefineLoop::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
   const BadnessLimits limits = badness_limits(options_);
   TriangleLanes lanes;
   for (std::size_t first = 0; first < shapes.size(); first += kLanes) {
@@ -62,14 +62,14 @@ void Refinement::measure(std::span<const Shape> shapes, std::span<NewTriangle> m
   }
 }
 
-double Refinement::mean_pole_height(std::uint32_t triangle) const {
+double RefineLoop::mean_pole_height(std::uint32_t triangle) const {
   double mean = 0;
   for (const std::uint32_t v : mesh_.triangles[triangle].corners) mean += mesh_.vertices[v].pole_height / 3;
   return mean;
 }
 
 // The same of a triangle of the mesh, by the ball it has.
-Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
+RefineLoop::NewTriangle RefineLoop::measured(std::uint32_t triangle) {
   if (!mesh_.triangles[triangle].has_hit()) return {.ball = ball_of(triangle)};
   const auto [a, b, c] = mesh_.corner_points(mesh_.triangles[triangle].corners);
   const SurfaceDelaunayBall ball = ball_of(triangle);
@@ -85,7 +85,7 @@ Refinement::NewTriangle Refinement::measured(std::uint32_t triangle) {
 }
 
 // What is learnt of a triangle of the mesh.
-void Refinement::learn(std::uint32_t triangle, const NewTriangle& measured) {
+void RefineLoop::learn(std::uint32_t triangle, const NewTriangle& measured) {
   using Triangle = RefinementMesh::Triangle;
   Triangle& t = mesh_.triangles[triangle];
   const bool is_bad = measured.badness > 1, is_large = measured.radius > options_.r_min;
@@ -96,12 +96,12 @@ void Refinement::learn(std::uint32_t triangle, const NewTriangle& measured) {
 }
 
 // In blocks, on several threads; each block has counters of its own, which are added to ours in order.
-std::vector<float> Refinement::measure_all(int threads) {
+std::vector<float> RefineLoop::measure_all(int threads) {
   const std::size_t count = mesh_.triangles.size();
   std::vector<float> expected(count);
   std::vector<RefineStats> counted(count / kBlockSize + 1);
   for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
-    Refinement block(part_, isosurface_, options_, counted[first / kBlockSize]);
+    RefineLoop block(part_, isosurface_, options_, counted[first / kBlockSize]);
     std::array<Shape, kLanes> shapes;
     std::array<NewTriangle, kLanes> now;
     for (std::size_t from = first; from < last; from += kLanes) {

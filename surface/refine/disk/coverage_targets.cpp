@@ -1,4 +1,4 @@
-#include "surface/refine/disk/landmarks.h"
+#include "surface/refine/disk/coverage_targets.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace deliso {
 namespace {
 
 constexpr double kNear = 0.8;       // mesh-space units
-constexpr double kBlock = 2;        // side of the blocks near landmarks
+constexpr double kBlock = 2;        // side of the blocks near coverage targets
 constexpr double kLikelyBlock = 3;  // and of those in which a likely triangle is looked for: hardly any holds none
 constexpr double kFarthest = 6;     // where the nearest triangle is looked for
 constexpr double kLong = 4;         // triangles with such an edge may be off the surface
@@ -36,9 +36,9 @@ class LandmarkSearch {
   LandmarkSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
       : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, kNear)), threads_(threads) {}
 
-  [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> landmarks) const;
-  // Of landmarks that are far from all triangles.
-  [[nodiscard]] std::vector<MissedLandmark> with_nearest(std::span<const Vec3> landmarks) const;
+  [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> coverage_targets) const;
+  // Of coverage targets that are far from all triangles.
+  [[nodiscard]] std::vector<MissedTarget> with_nearest(std::span<const Vec3> coverage_targets) const;
 
  private:
   [[nodiscard]] std::array<Vec3, 3> corners(std::size_t triangle) const {
@@ -48,8 +48,8 @@ class LandmarkSearch {
     const auto [a, b, c] = corners(triangle);
     return squared_distance_to_triangle(p, a, b, c);
   }
-  [[nodiscard]] std::vector<Vec3> beside_no_likely_triangle(std::span<const Vec3> landmarks) const;
-  [[nodiscard]] std::vector<Vec3> beside_no_triangle(std::span<const Vec3> landmarks) const;
+  [[nodiscard]] std::vector<Vec3> beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const;
+  [[nodiscard]] std::vector<Vec3> beside_no_triangle(std::span<const Vec3> coverage_targets) const;
   // By its ball.
   [[nodiscard]] bool is_small(std::uint32_t triangle) const {
     const double squared_radius = mesh_.triangles[triangle].ball.squared_radius;
@@ -58,7 +58,7 @@ class LandmarkSearch {
   // How far from the middle of its ball a small triangle's vicinity of some width may reach.
   static double reach_of_small(double width) { return kRounding * (kSmallRadius * kRounding + width); }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
-  // How near a landmark has to be to a triangle. All that is so near lies in a box, and not far from a plane.
+  // How near a coverage target has to be to a triangle. All that is so near lies in a box, and not far from a plane.
   struct Vicinity {
     double reach = 0;
     Box3 box;
@@ -109,48 +109,49 @@ LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) con
   return vicinity;
 }
 
-// Where triangles are large there are fewer of them than landmarks: then all of them are asked at once.
-std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> landmarks) const {
-  if (landmarks.size() > mesh_.triangles.size()) return beside_no_triangle(landmarks);
-  return beside_no_triangle(beside_no_likely_triangle(landmarks));
+// Where triangles are large there are fewer of them than coverage targets: then all of them are asked at once.
+std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> coverage_targets) const {
+  if (coverage_targets.size() > mesh_.triangles.size()) return beside_no_triangle(coverage_targets);
+  return beside_no_triangle(beside_no_likely_triangle(coverage_targets));
 }
 
-// Of the triangles whose balls have their middles in a landmark's block, the one with the nearest middle nearly always
-// is near. Which one is measured does not matter to what is found at last, so threads may miss each other's finds.
-std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3> landmarks) const {
-  if (landmarks.empty()) return {};
-  const PointBlocks blocks(landmarks, kLikelyBlock);
-  // Of each landmark: the squared distance, in steps, and behind it the triangle.
+// Of the triangles whose balls have their middles in a coverage target's block, the one with the nearest middle nearly
+// always is near. Which one is measured does not matter to what is found at last, so threads may miss each other's
+// finds.
+std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const {
+  if (coverage_targets.empty()) return {};
+  const PointBlocks blocks(coverage_targets, kLikelyBlock);
+  // Of each coverage target: the squared distance, in steps, and behind it the triangle.
   constexpr double kSteps = 1 << 20;
   constexpr double kMostSteps = 1 << 30;
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  std::vector<std::uint64_t> likely(landmarks.size(), kNone);
+  std::vector<std::uint64_t> likely(coverage_targets.size(), kNone);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       const SurfaceDelaunayBall& ball = mesh_.triangles[t].ball;
       if (!(ball.squared_radius > 0)) continue;
       blocks.for_each_beside(ball.center, [&](std::uint32_t i) {
-        const double steps = std::min(kSteps * squared_distance(landmarks[i], ball.center), kMostSteps);
+        const double steps = std::min(kSteps * squared_distance(coverage_targets[i], ball.center), kMostSteps);
         const std::uint64_t found = static_cast<std::uint64_t>(static_cast<std::int64_t>(steps)) << 32 | t;
         const std::atomic_ref best(likely[i]);
         if (found < best.load(std::memory_order_relaxed)) best.store(found, std::memory_order_relaxed);
       });
     }
   });
-  return collect_in_blocks<Vec3>(landmarks.size(), threads_, [&](std::size_t i, std::vector<Vec3>& left) {
+  return collect_in_blocks<Vec3>(coverage_targets.size(), threads_, [&](std::size_t i, std::vector<Vec3>& left) {
     const auto triangle = static_cast<std::uint32_t>(likely[i]);
-    const bool is_near = likely[i] != kNone && squared_distance_to(landmarks[i], triangle) <= least_ * least_;
-    if (!is_near) left.push_back(landmarks[i]);
+    const bool is_near = likely[i] != kNone && squared_distance_to(coverage_targets[i], triangle) <= least_ * least_;
+    if (!is_near) left.push_back(coverage_targets[i]);
   });
 }
 
 // Those that no triangle is as near to as it would have to be.
-std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> landmarks) const {
-  if (landmarks.empty()) return {};
-  const PointBlocks blocks(landmarks, kBlock);
+std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> coverage_targets) const {
+  if (coverage_targets.empty()) return {};
+  const PointBlocks blocks(coverage_targets, kBlock);
   std::optional<NearBlocks> near_blocks;  // where it pays
-  if (landmarks.size() < mesh_.triangles.size()) near_blocks.emplace(landmarks, reach_of_small(least_));
-  std::vector<std::uint8_t> is_near(landmarks.size(), 0);
+  if (coverage_targets.size() < mesh_.triangles.size()) near_blocks.emplace(coverage_targets, reach_of_small(least_));
+  std::vector<std::uint8_t> is_near(coverage_targets.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
       if (near_blocks && is_small(t) && !near_blocks->is_near(mesh_.triangles[t].ball.center)) continue;
@@ -158,45 +159,45 @@ std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> landm
       const double most = vicinity.reach * vicinity.reach;
       blocks.for_each_near(vicinity.box, [&](std::uint32_t i) {
         const std::atomic_ref near(is_near[i]);
-        if (near.load(std::memory_order_relaxed) != 0 || !vicinity.may_hold(landmarks[i])) return;
-        if (squared_distance_to(landmarks[i], t) <= most) near.store(1, std::memory_order_relaxed);
+        if (near.load(std::memory_order_relaxed) != 0 || !vicinity.may_hold(coverage_targets[i])) return;
+        if (squared_distance_to(coverage_targets[i], t) <= most) near.store(1, std::memory_order_relaxed);
       });
     }
   });
   std::vector<Vec3> far;
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    if (is_near[i] == 0) far.push_back(landmarks[i]);
+  for (std::size_t i = 0; i < coverage_targets.size(); ++i) {
+    if (is_near[i] == 0) far.push_back(coverage_targets[i]);
   }
   return far;
 }
 
-std::vector<MissedLandmark> LandmarkSearch::with_nearest(std::span<const Vec3> landmarks) const {
-  if (landmarks.empty()) return {};
-  const PointBlocks blocks(landmarks, kBlock);
-  std::vector<MissedLandmark> found;
-  for (const Vec3& p : landmarks) found.push_back({p, 0, kFarthest * kFarthest});
-  const NearBlocks near_blocks(landmarks, reach_of_small(kFarthest));
+std::vector<MissedTarget> LandmarkSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
+  if (coverage_targets.empty()) return {};
+  const PointBlocks blocks(coverage_targets, kBlock);
+  std::vector<MissedTarget> found;
+  for (const Vec3& p : coverage_targets) found.push_back({p, 0, kFarthest * kFarthest});
+  const NearBlocks near_blocks(coverage_targets, reach_of_small(kFarthest));
   const auto near = collect_in_blocks<std::uint32_t>(mesh_.triangles.size(), threads_, [&](std::size_t i, auto& some) {
     const auto t = static_cast<std::uint32_t>(i);
     if (!is_small(t) || near_blocks.is_near(mesh_.triangles[t].ball.center)) some.push_back(t);
   });
   for (const std::uint32_t t : near) {
     blocks.for_each_near(widened(mesh_.box_of(t), kFarthest), [&](std::uint32_t i) {
-      const double squared = squared_distance_to(landmarks[i], t);
-      if (squared < found[i].squared_distance) found[i] = {landmarks[i], t, squared};
+      const double squared = squared_distance_to(coverage_targets[i], t);
+      if (squared < found[i].squared_distance) found[i] = {coverage_targets[i], t, squared};
     });
   }
-  std::erase_if(found, [](const MissedLandmark& m) { return !(m.squared_distance < kFarthest * kFarthest); });
+  std::erase_if(found, [](const MissedTarget& m) { return !(m.squared_distance < kFarthest * kFarthest); });
   return found;
 }
 
 }  // namespace
 
-std::vector<MissedLandmark> missed_landmarks(std::span<const Vec3> landmarks, const RefinementMesh& mesh,
-                                             const BallOf& ball_of, double least, int threads) {
+std::vector<MissedTarget> missed_targets(std::span<const Vec3> coverage_targets, const RefinementMesh& mesh,
+                                         const BallOf& ball_of, double least, int threads) {
   const LandmarkSearch search(mesh, ball_of, least, threads);
-  std::vector<MissedLandmark> missed = search.with_nearest(search.far_from_all(landmarks));
-  std::stable_sort(missed.begin(), missed.end(), [](const MissedLandmark& a, const MissedLandmark& b) {
+  std::vector<MissedTarget> missed = search.with_nearest(search.far_from_all(coverage_targets));
+  std::stable_sort(missed.begin(), missed.end(), [](const MissedTarget& a, const MissedTarget& b) {
     return a.squared_distance > b.squared_distance;
   });
   return missed;

@@ -11,7 +11,7 @@ namespace deliso {
 
 // Cells of 2^level mesh-space units; a triangle is kept at the first level whose cells are more than twice as large as
 // its box, in the cell of the box's low corner.
-class TightTriangles {
+class TriangleHashGrid {
  public:
   [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < held_.size() && held_[triangle] != 0; }
   // Precondition: not there yet; there, with the same box. Triangles of boxes that no level is large enough for are

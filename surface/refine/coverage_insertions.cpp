@@ -1,45 +1,46 @@
-// Refinement: what it does where the mesh has missed landmarks.
+// Refinement: what it does where the mesh has missed coverage targets.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "raycast/gradients_at.h"
-#include "surface/refine/disk/landmarks.h"
-#include "surface/refine/refinement.h"
+#include "surface/refine/disk/coverage_targets.h"
+#include "surface/refine/refine_loop.h"
 
 namespace deliso {
 
-// Points that no triangle has for its x_sigma: for each triangle that is nearest to landmarks missed the farthest of
-// them that will do. True when some went in.
-bool Refinement::insert_landmarks(Controls& controls, int threads) {
-  if (part_.landmarks.empty() || controls.poll()) return false;
+// Points that no triangle has for its x_sigma: for each triangle that is nearest to coverage targets missed the
+// farthest of them that will do. True when some went in.
+bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
+  if (part_.coverage_targets.empty() || controls.poll()) return false;
   const bool is_bounded = std::isfinite(options_.max_distance);
   const double least = std::max(options_.r_min, is_bounded ? options_.max_distance : 0);
   // Balls that are not kept are searched, and that is counted.
-  const std::vector<MissedLandmark> missed = missed_landmarks(
-      part_.landmarks, mesh_, [this](std::uint32_t t) { return ball_of(t); }, least, options_.store_hits ? threads : 1);
+  const std::vector<MissedTarget> missed = missed_targets(
+      part_.coverage_targets, mesh_, [this](std::uint32_t t) { return ball_of(t); }, least,
+      options_.store_hits ? threads : 1);
   if (missed.empty()) return false;
   if (!guard_) guard_.emplace(mesh_, threads);
-  const auto generation = [&](const MissedLandmark& m) {
+  const auto generation = [&](const MissedTarget& m) {
     return mesh_.triangles[m.triangle].state | RefinementMesh::Triangle::kFlags;
   };
   std::vector<std::uint32_t> generations;  // of the nearest triangles
-  for (const MissedLandmark& m : missed) generations.push_back(generation(m));
-  const std::int64_t before = stats_.landmarks;
+  for (const MissedTarget& m : missed) generations.push_back(generation(m));
+  const std::int64_t before = stats_.coverage_targets;
   for (std::size_t i = 0; i < missed.size(); ++i) {
     if (controls.must_stop("refine", mesh_.vertices.size(), missed.size() - i)) break;
     if (generation(missed[i]) != generations[i]) continue;
-    if (insert(landmark_candidate(missed[i], options_.r_min), nullptr)) continue;
+    if (insert(target_candidate(missed[i], options_.r_min), nullptr)) continue;
     wake_neighbours();
     ++stats_.insertions;
-    ++stats_.landmarks;
+    ++stats_.coverage_targets;
   }
-  return stats_.landmarks > before;
+  return stats_.coverage_targets > before;
 }
 
 // The direction that no triangle of the star may face: that of the gradient. At the tip of a finger that jumps, and the
 // disk which the finger stands on tells more of it, unless the gradients around the tip say otherwise.
-Vec3 Refinement::upwards(const Candidate& candidate) const {
+Vec3 RefineLoop::upwards(const Candidate& candidate) const {
   if (!candidate.is_landmark) return isosurface_.gradient(candidate.point);
   Vec3 mean;
   for_each_gradient_at(isosurface_, candidate.point,

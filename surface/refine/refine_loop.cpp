@@ -1,4 +1,4 @@
-#include "surface/refine/refinement.h"
+#include "surface/refine/refine_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace {
 constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
-// Landmarks are inserted so often, what follows from it being refined in between.
+// Coverage targets are inserted so often, what follows from it being refined in between.
 constexpr int kLandmarkRounds = 4;
 
 }  // namespace
 
-void Refinement::run(Controls& controls, int threads) {
+void RefineLoop::run(Controls& controls, int threads) {
   start_.emplace(mesh_);
   if (controls.must_stop("refine", mesh_.vertices.size(), 0)) return;
   queue_coarse_triangles();
@@ -26,11 +26,11 @@ void Refinement::run(Controls& controls, int threads) {
     guard_.emplace(mesh_, threads);
     refine_queued(controls);
   }
-  for (int i = 0; i < kLandmarkRounds && insert_landmarks(controls, threads); ++i) refine_queued(controls);
+  for (int i = 0; i < kLandmarkRounds && insert_coverage_targets(controls, threads); ++i) refine_queued(controls);
   guard_.reset();
 }
 
-void Refinement::refine_queued(Controls& controls) {
+void RefineLoop::refine_queued(Controls& controls) {
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto popped = queue_.pop();
     if (!popped && !retry_crossed()) break;
@@ -43,20 +43,20 @@ void Refinement::refine_queued(Controls& controls) {
   }
 }
 
-RefinementChange Refinement::take_back() {
+RefinementChange RefineLoop::take_back() {
   RefinementChange change = start_->restore(mesh_);
   start_.reset();
   return change;
 }
 
-void Refinement::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
+void RefineLoop::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
   if (t >= is_kept_.size() || is_kept_[t]) return;
   is_kept_[t] = true;
   places_.push_back(t);
   triangles_.push_back(mesh.triangles[t]);
 }
 
-RefinementChange Refinement::Start::restore(RefinementMesh& mesh) {
+RefinementChange RefineLoop::Start::restore(RefinementMesh& mesh) {
   RefinementChange change;
   change.new_triangles.assign(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(is_kept_.size()),
                               mesh.triangles.end());
@@ -77,18 +77,18 @@ void RefinementChange::redo(RefinementMesh& mesh) const {
 }
 
 // Whether a coarse triangle is to be refined here.
-bool Refinement::is_wanted(std::uint32_t triangle) const {
+bool RefineLoop::is_wanted(std::uint32_t triangle) const {
   return !part_.plane || mesh_.extent_of(triangle, part_.slab.axis).holds(*part_.plane);
 }
 
 // What another part left coarse is to be tried again; frozen triangles stay as they are.
-void Refinement::queue_coarse_triangles() {
+void RefineLoop::queue_coarse_triangles() {
   for (std::uint32_t t = part_.frozen; t < mesh_.triangles.size(); ++t) {
     if (mesh_.triangles[t].is_coarse() && is_wanted(t)) requeue(t);
   }
 }
 
-void Refinement::queue(std::uint32_t triangle, const NewTriangle& measured) {
+void RefineLoop::queue(std::uint32_t triangle, const NewTriangle& measured) {
   const QueuedElement queued{triangle, mesh_.triangles[triangle].state};
   if (options_.order == QueueOrder::kFirstInFirstOut) {
     queue_.push_by_age(queued);
@@ -100,7 +100,7 @@ void Refinement::queue(std::uint32_t triangle, const NewTriangle& measured) {
 
 // Inserts x_sigma of one triangle, or a point of the boundary curve where x_sigma would come too near to a boundary
 // edge.
-bool Refinement::treat(std::uint32_t triangle) {
+bool RefineLoop::treat(std::uint32_t triangle) {
   const SurfaceDelaunayBall ball = ball_of(triangle);
   const double radius = std::sqrt(ball.squared_radius);
   const Candidate candidate{ball.center, radius, kNearestVertex * radius, triangle, kNoSide};
@@ -140,7 +140,7 @@ bool Refinement::treat(std::uint32_t triangle) {
 
 // Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
 // reported and nothing is inserted.
-std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
+std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
   disk_.grow(candidate, [this](std::uint32_t t) {
     // A ball that is not kept is not searched again where it is not asked for.
     return options_.store_hits || !disk_.holds(t) ? ball_of(t) : SurfaceDelaunayBall{};
@@ -166,7 +166,7 @@ std::optional<Refusal> Refinement::insert(const Candidate& candidate, TriangleSi
 
 // Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
 // gradient, or a vertex is too near.
-std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
+std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
   const Vec3 gradient = upwards(candidate);
@@ -192,7 +192,7 @@ std::optional<Refusal> Refinement::plan_star(const Candidate& candidate) {
 }
 
 // The pole height of a new vertex, from its neighbours: the corners of the rim.
-double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
+double RefineLoop::inherited_pole_height(const Vec3& p, bool closed) const {
   std::uint32_t nearest = disk_.rim().front().from;
   double sum = 0;
   double count = 0;
@@ -207,7 +207,7 @@ double Refinement::inherited_pole_height(const Vec3& p, bool closed) const {
 }
 
 // Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
-void Refinement::replace_disk(const Candidate& candidate) {
+void RefineLoop::replace_disk(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
   const std::span<const std::uint32_t> old = disk_.triangles();
@@ -249,7 +249,7 @@ void Refinement::replace_disk(const Candidate& candidate) {
 }
 
 // The sheet in the way may be finer now. True when a triangle was queued again.
-bool Refinement::retry_crossed() {
+bool RefineLoop::retry_crossed() {
   if (stats_.insertions == insertions_at_retry_) return false;
   insertions_at_retry_ = stats_.insertions;
   bool any = false;
@@ -261,7 +261,7 @@ bool Refinement::retry_crossed() {
   return any;
 }
 
-void Refinement::requeue(std::uint32_t triangle) {
+void RefineLoop::requeue(std::uint32_t triangle) {
   start_->keep(triangle, mesh_);
   RefinementMesh::Triangle& t = mesh_.triangles[triangle];
   t.set(RefinementMesh::Triangle::kRefused, false);
@@ -270,7 +270,7 @@ void Refinement::requeue(std::uint32_t triangle) {
 }
 
 // Triangles around the new star that were refused before get another chance, frozen ones in the whole.
-void Refinement::wake_neighbours() {
+void RefineLoop::wake_neighbours() {
   for (const RimEdge& edge : disk_.rim()) {
     const std::uint32_t t = edge.outer >> 2;
     if (edge.outer == kNoSide || !mesh_.triangles[t].is_refused()) continue;

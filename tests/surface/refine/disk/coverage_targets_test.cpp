@@ -1,5 +1,5 @@
-// Landmarks that a mesh has missed, and what stage 2 makes of them.
-#include "surface/refine/disk/landmarks.h"
+// Coverage targets that a mesh has missed, and what stage 2 makes of them.
+#include "surface/refine/disk/coverage_targets.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ double distance_to(const RefinementMesh& mesh, std::uint32_t t, const Vec3& p) {
   return std::sqrt(squared_distance_to_triangle(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
 }
 
-// How far off landmarks may be that a triangle stands for.
+// How far off coverage targets may be that a triangle stands for.
 double reach_of(const RefinementMesh& mesh, std::uint32_t t, double least) {
   const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
   const double edge = std::max({distance(a, b), distance(b, c), distance(c, a)});
@@ -39,7 +39,7 @@ double reach_of(const RefinementMesh& mesh, std::uint32_t t, double least) {
   return std::max({0.8, least, std::min(edge, 2 * std::abs(dot(n / norm(n), mesh.triangles[t].ball.center - a)))});
 }
 
-TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
+TEST(CoverageTargets, MissedAreThoseThatNoTriangleIsNear) {
   Rng rng(5);
   for (const double size : {1.0, 8.0}) {
     SurfaceMesh soup;
@@ -66,12 +66,12 @@ TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
         t.ball.squared_radius = std::max(t.ball.squared_radius, squared_distance(p, t.ball.center));
     }
     const BallOf ball_of = [&](std::uint32_t t) { return mesh.triangles[t].ball; };
-    std::vector<Vec3> landmarks(1000);
-    for (Vec3& p : landmarks) p = {40 * rng.uniform() - 10, 30 * rng.uniform() - 5, 20 * rng.uniform()};
+    std::vector<Vec3> coverage_targets(1000);
+    for (Vec3& p : coverage_targets) p = {40 * rng.uniform() - 10, 30 * rng.uniform() - 5, 20 * rng.uniform()};
     for (const double least : {0.1, 1.5}) {
-      const std::vector<MissedLandmark> missed = missed_landmarks(landmarks, mesh, ball_of, least, 1);
+      const std::vector<MissedTarget> missed = missed_targets(coverage_targets, mesh, ball_of, least, 1);
       std::size_t expected = 0;
-      for (const Vec3& p : landmarks) {
+      for (const Vec3& p : coverage_targets) {
         double nearest = std::numeric_limits<double>::infinity();
         bool is_near = false;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -80,8 +80,7 @@ TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
         }
         if (is_near || nearest >= 6) continue;
         ++expected;
-        const auto at =
-            std::find_if(missed.begin(), missed.end(), [&](const MissedLandmark& m) { return m.point == p; });
+        const auto at = std::find_if(missed.begin(), missed.end(), [&](const MissedTarget& m) { return m.point == p; });
         ASSERT_NE(at, missed.end());
         EXPECT_NEAR(std::sqrt(at->squared_distance), nearest, 1e-12);
         EXPECT_NEAR(distance_to(mesh, at->triangle, p), nearest, 1e-12);
@@ -89,16 +88,16 @@ TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
       }
       EXPECT_EQ(missed.size(), expected);
       EXPECT_GT(expected, 40u);
-      EXPECT_TRUE(std::is_sorted(missed.begin(), missed.end(), [](const MissedLandmark& m, const MissedLandmark& n) {
+      EXPECT_TRUE(std::is_sorted(missed.begin(), missed.end(), [](const MissedTarget& m, const MissedTarget& n) {
         return m.squared_distance > n.squared_distance;
       }));
       // Asked about a few, fewer than triangles, it leaves out most triangles early; the answers are the same.
       std::size_t among_few = 0;
-      for (std::size_t first = 0; first < landmarks.size(); first += 10) {
-        const auto few = std::span<const Vec3>(landmarks).subspan(first, 10);
-        for (const MissedLandmark& m : missed_landmarks(few, mesh, ball_of, least, 1)) {
+      for (std::size_t first = 0; first < coverage_targets.size(); first += 10) {
+        const auto few = std::span<const Vec3>(coverage_targets).subspan(first, 10);
+        for (const MissedTarget& m : missed_targets(few, mesh, ball_of, least, 1)) {
           const auto at =
-              std::find_if(missed.begin(), missed.end(), [&](const MissedLandmark& n) { return n.point == m.point; });
+              std::find_if(missed.begin(), missed.end(), [&](const MissedTarget& n) { return n.point == m.point; });
           ASSERT_NE(at, missed.end());
           EXPECT_EQ(m.triangle, at->triangle);
           EXPECT_EQ(m.squared_distance, at->squared_distance);
@@ -110,7 +109,7 @@ TEST(Landmarks, MissedAreThoseThatNoTriangleIsNear) {
   }
 }
 
-TEST(Landmarks, MissedAreTheSameForAnyNumberOfThreads) {
+TEST(CoverageTargets, MissedAreTheSameForAnyNumberOfThreads) {
   Rng rng(6);
   SurfaceMesh soup;
   for (std::uint32_t t = 0; t < 3 * kBlockSize; ++t) {
@@ -122,11 +121,11 @@ TEST(Landmarks, MissedAreTheSameForAnyNumberOfThreads) {
   soup.pole_heights.resize(soup.points.size(), 1);
   const RefinementMesh mesh(soup);
   const BallOf ball_of = [&](std::uint32_t t) { return mesh.triangles[t].ball; };
-  std::vector<Vec3> landmarks(20000);
-  for (Vec3& p : landmarks) p = {50 * rng.uniform() - 5, 40 * rng.uniform(), 40 * rng.uniform()};
+  std::vector<Vec3> coverage_targets(20000);
+  for (Vec3& p : coverage_targets) p = {50 * rng.uniform() - 5, 40 * rng.uniform(), 40 * rng.uniform()};
   const auto found = [&](int threads) {
     std::vector<std::tuple<double, std::uint32_t, double>> all;
-    for (const MissedLandmark& m : missed_landmarks(landmarks, mesh, ball_of, 0, threads)) {
+    for (const MissedTarget& m : missed_targets(coverage_targets, mesh, ball_of, 0, threads)) {
       all.emplace_back(m.point.x, m.triangle, m.squared_distance);
     }
     return all;
@@ -138,7 +137,7 @@ TEST(Landmarks, MissedAreTheSameForAnyNumberOfThreads) {
 }
 
 // A wall with a finger on it, one sample wide, between the corners of large triangles.
-TEST(Landmarks, BringFingersBackThatRefinementWouldPassBy) {
+TEST(CoverageTargets, BringFingersBackThatRefinementWouldPassBy) {
   constexpr double kWall = 6.4;
   int passed_by = 0, brought_back = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -170,14 +169,14 @@ TEST(Landmarks, BringFingersBackThatRefinementWouldPassBy) {
     options.r_min = 0.2;
     SurfaceMesh without = start;
     testing::run(without, scene, options);
-    options.landmarks = crossings;
+    options.coverage_targets = crossings;
     SurfaceMesh with = start;
     const RefineStats stats = testing::run(with, scene, options);
     EXPECT_EQ(testing::surface_mesh_defect(with), "");
     EXPECT_EQ(self_intersections(TriangleMesh{with.points, with.triangles}).crossing_pairs, 0);
     if (farthest(without) <= 1) continue;
     ++passed_by;
-    brought_back += farthest(with) <= 0.9 && stats.landmarks > 0 ? 1 : 0;
+    brought_back += farthest(with) <= 0.9 && stats.coverage_targets > 0 ? 1 : 0;
   }
   EXPECT_GT(passed_by, 5);
   EXPECT_EQ(brought_back, passed_by);

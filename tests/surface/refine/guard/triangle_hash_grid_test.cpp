@@ -1,4 +1,4 @@
-#include "surface/refine/guard/tight_triangles.h"
+#include "surface/refine/guard/triangle_hash_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Box3 random_box(Rng& rng, double side, double size) {
 Box3 widened(const Box3& box, double by) { return {box.low - Vec3{by, by, by}, box.high + Vec3{by, by, by}}; }
 
 // What a search finds is what meets the box, and maybe what misses it by the rounding to floats.
-void expect_what_is_near(TightTriangles& tight, const std::vector<Box3>& boxes, const std::vector<bool>& held,
+void expect_what_is_near(TriangleHashGrid& tight, const std::vector<Box3>& boxes, const std::vector<bool>& held,
                          const Box3& box) {
   std::vector<std::uint32_t> found;
   tight.append_near(box, found);
@@ -45,10 +45,10 @@ void expect_what_is_near(TightTriangles& tight, const std::vector<Box3>& boxes, 
 
 // Searches in small boxes look at cells one by one, in larger ones block by block, in the largest at all blocks; and
 // far from the origin cells run together.
-TEST(TightTriangles, FindsWhatIsNearWhileTheSetChanges) {
+TEST(TriangleHashGrid, FindsWhatIsNearWhileTheSetChanges) {
   for (const double side : {50.0, 3000.0, 1e8}) {
     Rng rng(static_cast<std::uint64_t>(side));
-    TightTriangles tight;
+    TriangleHashGrid tight;
     std::vector<Box3> boxes;
     std::vector<bool> held;
     for (int round = 0; round < 60; ++round) {
@@ -70,9 +70,9 @@ TEST(TightTriangles, FindsWhatIsNearWhileTheSetChanges) {
 }
 
 // Far apart along an axis, at places whose distance is a power of two: no cell may be taken for another one.
-TEST(TightTriangles, FindsWhatIsFarFromTheOriginInBoxesOfAnySize) {
+TEST(TriangleHashGrid, FindsWhatIsFarFromTheOriginInBoxesOfAnySize) {
   for (int power = 10; power <= 40; ++power) {
-    TightTriangles tight;
+    TriangleHashGrid tight;
     const Vec3 step{std::ldexp(1.0, power), 0, 0};
     const Box3 here{{1, 1, 1}, {1.5, 1.5, 1.5}};
     const Box3 there{here.low + step, here.high + step};
@@ -86,8 +86,8 @@ TEST(TightTriangles, FindsWhatIsFarFromTheOriginInBoxesOfAnySize) {
   }
 }
 
-TEST(TightTriangles, AnEmptySetHasNothingNear) {
-  TightTriangles tight;
+TEST(TriangleHashGrid, AnEmptySetHasNothingNear) {
+  TriangleHashGrid tight;
   std::vector<std::uint32_t> found;
   tight.append_near({{0, 0, 0}, {1e9, 1e9, 1e9}}, found);
   EXPECT_TRUE(found.empty());

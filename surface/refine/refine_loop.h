@@ -29,10 +29,10 @@ struct RefinementChange {
   void redo(RefinementMesh& mesh) const;
 };
 
-class Refinement {
+class RefineLoop {
  public:
   // Of a mesh whose vertices have clearances.
-  Refinement(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
+  RefineLoop(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
       : part_(part),
         mesh_(part.mesh),
         isosurface_(isosurface),
@@ -61,7 +61,7 @@ class Refinement {
   [[nodiscard]] bool is_wanted(std::uint32_t triangle) const;
   void queue_coarse_triangles();
   void refine_queued(Controls& controls);
-  bool insert_landmarks(Controls& controls, int threads);
+  bool insert_coverage_targets(Controls& controls, int threads);
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
