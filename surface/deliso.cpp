@@ -16,7 +16,7 @@
 #include "surface/mesh/surface_mesh.h"
 #include "surface/recover/coverage.h"
 #include "surface/recover/initial_triangulation.h"
-#include "surface/repair/diagnosis/surface_facts.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/restricted_delaunay.h"
 #include "surface/restricted/sides_of_facets.h"
@@ -144,7 +144,7 @@ bool take_sides_of_facets(RestrictedDelaunay& restricted) {
 }
 
 // The surface mesh that stage 2 starts from, with pole heights.
-SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::unique_ptr<SurfaceFacts> facts,
+SurfaceMesh surface_from(std::unique_ptr<RestrictedDelaunay> restricted, std::unique_ptr<ExactSurfaceCache> facts,
                          const MeshingOptions& options, Controls& controls, MeshingResult& result) {
   const Parameters& parameters = options.parameters;
   if (repairs(parameters)) {
@@ -222,7 +222,8 @@ void run_pipeline(const ScalarGrid& grid, double isovalue, const MeshingOptions&
   const Lengths lengths = lengths_of(parameters, isosurface->box());
   result.r_min_voxels = lengths.r_min_stage2;
   // What repair will want to know is found beside stage 1.
-  auto facts = std::make_unique<SurfaceFacts>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
+  auto facts =
+      std::make_unique<ExactSurfaceCache>(grid, *isosurface, topology, repairs(parameters) ? options.threads : 1);
 
   controls.enter("initial");
   auto restricted = timed(result.initial, [&] {

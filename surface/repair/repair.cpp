@@ -27,7 +27,7 @@ constexpr std::size_t kMostPairs = 256;
 
 class Repair {
  public:
-  Repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
+  Repair(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
       : facts_(facts),
         isosurface_(restricted->isosurface()),
         threads_(threads),
@@ -65,7 +65,7 @@ class Repair {
   void polygonize_rest();
   bool take_intruders_out();
 
-  const SurfaceFacts& facts_;
+  const ExactSurfaceCache& facts_;
   const Isosurface& isosurface_;
   int threads_;
   RepairStats& stats_;
@@ -227,7 +227,7 @@ bool Repair::take_intruders_out() {
 
 }  // namespace
 
-SurfaceMesh repair(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+SurfaceMesh repair(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
                    int threads, Controls& controls, RepairStats& stats) {
   return Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostPairs = 4096;
 
 // Drops the pieces of the pairs whose components are not polygonized yet; these are marked and returned.
-std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const SurfaceFacts& facts,
+std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurfaceCache& facts,
                               const Isosurface& isosurface, std::vector<bool>& is_polygonized) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   std::vector<bool> dropped(is_polygonized.size(), false);
@@ -36,7 +36,7 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
 }
 
 // Drops the pieces that count for one of these components, or for none at all.
-void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const SurfaceFacts& facts,
+void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurfaceCache& facts,
                     const Isosurface& isosurface) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
@@ -52,7 +52,7 @@ void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, cons
 
 }  // namespace
 
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
                                  std::vector<bool>& is_polygonized, int threads) {
   const AssignmentFaults faults =
       assignment_faults(mesh, facts.grid(), isosurface.isovalue(), isosurface.step(), facts.topology(), threads);
@@ -62,17 +62,17 @@ bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, c
     for (const std::uint32_t c : *components) replaced[c] = is_polygonized[c] = true;
   }
   drop_pieces_of(replaced, mesh, facts, isosurface);
-  const PolygonizedSurface& cubes = facts.polygonized();
+  const ExactPolygonization& cubes = facts.polygonized();
   append_pieces(cubes.mesh, cubes.component, replaced, mesh);
   return true;
 }
 
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const SurfaceFacts& facts, const Isosurface& isosurface,
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
                                 std::vector<bool>& is_polygonized, int threads, Controls& controls) {
   while (!controls.poll()) {
     const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostPairs, threads);
     if (found.crossing_pairs == 0) return;
-    const PolygonizedSurface& cubes = facts.polygonized();
+    const ExactPolygonization& cubes = facts.polygonized();
     const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts, isosurface, is_polygonized);
     if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
       // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.

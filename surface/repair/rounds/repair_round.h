@@ -15,7 +15,7 @@
 
 #include "surface/extract/facet_pairing.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/diagnosis/specks.h"
+#include "surface/repair/diagnosis/small_components.h"
 #include "surface/repair/lattice/raised_cells.h"
 #include "surface/repair/signs/critical_places.h"
 #include "surface/repair/signs/flat_signs.h"
@@ -108,7 +108,7 @@ class RepairRound {
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& raised_;
-  Specks specks_;
+  SmallComponents specks_;
   int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;

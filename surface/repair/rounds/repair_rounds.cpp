@@ -8,8 +8,8 @@
 #include "delaunay/base/parallel.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/pinch_separation.h"
+#include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/diagnosis/trouble.h"
 #include "surface/repair/finish/left_out.h"
 #include "surface/repair/rounds/sign_trials.h"
 #include "surface/repair/signs/sign_rules.h"
@@ -30,7 +30,7 @@ constexpr std::int32_t kRoundOfAllTrouble = 3;
 
 }  // namespace
 
-RepairRounds::RepairRounds(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
+RepairRounds::RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
                            RepairStats& stats)
     : facts_(facts),
       grid_(facts.grid()),
@@ -57,7 +57,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
-    std::vector<CellName> cells = cells_in_trouble(
+    std::vector<CellName> cells = defect_cells(
         {grid_, topology_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
          places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
          round != kRoundOfAllTrouble, round_->evidence(), round_->located(), threads_});
@@ -190,7 +190,7 @@ void RepairRounds::try_rules(Controls& controls) {
 // Single signs near the places where a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
-  const std::vector<Places> places = places_of_difference(kMostPlaces, stats_.rounds + 1 >= kRoundOfAllTrouble);
+  const std::vector<IndexRanges> places = places_of_difference(kMostPlaces, stats_.rounds + 1 >= kRoundOfAllTrouble);
   std::optional<SignTrials> trials;
   for (std::uint32_t c = 0; c < places.size(); ++c) {
     if (kept_.done()[c] || places[c].all.empty()) continue;

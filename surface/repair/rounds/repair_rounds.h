@@ -12,9 +12,9 @@
 #include "surface/base/controls.h"
 #include "surface/base/stage_stats.h"
 #include "surface/intersection/self_intersection.h"
+#include "surface/repair/diagnosis/euler_differences.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/diagnosis/mesh_differences.h"
-#include "surface/repair/diagnosis/surface_facts.h"
 #include "surface/repair/lattice/raised_cells.h"
 #include "surface/repair/lattice/repair_samples.h"
 #include "surface/repair/lattice/sample_lattice.h"
@@ -26,7 +26,8 @@ namespace deliso {
 class RepairRounds {
  public:
   // `restricted` is what stage 1 left: its mesh is the first one kept. Keeps references to facts and counts.
-  RepairRounds(const SurfaceFacts& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats);
+  RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
+               RepairStats& stats);
 
   // Until every component is done, there have been `max_rounds`, or ends(), asked before each of them, says so: true
   // for that.
@@ -71,11 +72,11 @@ class RepairRounds {
   bool take(RepairRound::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
-  const std::vector<Places>& places_of_difference(std::size_t most, bool takes_curvature) {
+  const std::vector<IndexRanges>& places_of_difference(std::size_t most, bool takes_curvature) {
     return differences_.find(mesh_, kept_.done(), {most, takes_curvature});
   }
 
-  const SurfaceFacts& facts_;
+  const ExactSurfaceCache& facts_;
   const ScalarGrid& grid_;
   const Isosurface& isosurface_;
   const IsosurfaceTopology& topology_;
@@ -89,7 +90,7 @@ class RepairRounds {
   RepairSamples samples_;              // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   KeptMeshes kept_;
-  MeshDifferences differences_;
+  EulerDifferences differences_;
 };
 
 }  // namespace deliso

@@ -61,7 +61,7 @@ std::int64_t amount(const ComponentTopology& missing) {
 }  // namespace
 
 SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
-                       std::span<const SignRule> rules, const std::vector<Places>& places)
+                       std::span<const SignRule> rules, const std::vector<IndexRanges>& places)
     : round_(round), topology_(topology), cells_(cells), places_(places) {
   const TetSigns signs = round_.restricted().signs();
   for (const SignRule rule : rules) {
@@ -82,9 +82,9 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 }
 
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
-std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) const {
+std::vector<DisputedCluster> SignTrials::clusters_near(const IndexRanges& places) const {
   const SignedDelaunay& restricted = round_.restricted();
-  const DistanceFromPlaces distance_from_places(places.likely, cells_.dims(), kReach);
+  const DistanceFromRanges distance_from_places(places.likely, cells_.dims(), kReach);
   const auto distance = [&](TetId t) {
     const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
@@ -103,10 +103,10 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const Places& places) con
 void SignTrials::find_undecided() {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
-  std::vector<std::pair<std::uint32_t, DistanceFromPlaces>> distances;  // from the places of components
+  std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the places of components
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
     if (places_[c].likely.empty()) continue;
-    distances.emplace_back(c, DistanceFromPlaces(places_[c].likely, cells_.dims(), kReachOfSingles));
+    distances.emplace_back(c, DistanceFromRanges(places_[c].likely, cells_.dims(), kReachOfSingles));
   }
   struct Near {
     TetId tet;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "surface/base/controls.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/diagnosis/places.h"
 #include "surface/repair/lattice/raised_cells.h"
 #include "surface/repair/rounds/repair_round.h"
 #include "surface/repair/signs/disputed_signs.h"
@@ -25,7 +25,7 @@ class SignTrials {
  public:
   // Keeps references. `places`: of each component, those at which its main piece parts from it.
   SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
-             std::span<const SignRule> rules, const std::vector<Places>& places);
+             std::span<const SignRule> rules, const std::vector<IndexRanges>& places);
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
@@ -38,12 +38,12 @@ class SignTrials {
                std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls);
   void find_undecided();
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
-  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const Places& places) const;
+  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const IndexRanges& places) const;
 
   RepairRound& round_;
   const IsosurfaceTopology& topology_;
   const RaisedCells& cells_;
-  const std::vector<Places>& places_;
+  const std::vector<IndexRanges>& places_;
   std::vector<TetSigns> signs_by_rule_;
   struct Single {
     TetId tet;

@@ -12,7 +12,7 @@
 #include "delaunay/constructions.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/search/covering_triangles.h"
 #include "surface/search/mesh_cover.h"
 #include "tests/support/surface_fields.h"

@@ -14,7 +14,7 @@ namespace {
 // Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
 TEST(CrossingPieces, AreMeshedAgainUntilNothingCrosses) {
   const auto scene = testing::field_scene("shells", 48);
-  const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, 1);
+  const ExactSurfaceCache facts(scene->grid, *scene->isosurface, scene->topology, 1);
   const std::size_t components = scene->topology.components.size();
   ASSERT_GT(components, 1u);
   SurfaceMesh mesh = facts.polygonized().mesh;

@@ -8,7 +8,7 @@
 #include "surface/certificate/certificate.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/verification/surface_distance.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/mesh_fields.h"
@@ -171,7 +171,7 @@ TEST(Dents, TopologyStaysAndNoCrossingsCome) {
   std::int64_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const auto scene = testing::noise_scene({9, 8, 9}, seed);
-    SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+    SurfaceMesh mesh = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
     Rng rng(seed);
     for (Vec3& p : mesh.points) {
       if (rng.uniform() > 0.05) continue;

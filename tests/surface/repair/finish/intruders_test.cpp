@@ -9,7 +9,7 @@
 
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -19,7 +19,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 struct Swallowing {
   std::unique_ptr<testing::Scene> scene = testing::field_scene("bubbles", 26);
-  PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
+  ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
 
   Intruders remove() { return remove_intruders(surface.mesh, surface.component); }
   // A triangle is split at a new corner, at the place of a vertex of another component.

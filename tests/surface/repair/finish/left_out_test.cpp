@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "surface/base/parallel_blocks.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/search/mesh_cover.h"
 #include "tests/support/surface_fields.h"
 
@@ -20,7 +20,7 @@ using testing::field_scene;
 
 // Marching cubes with a hole of some voxels.
 SurfaceMesh with_hole(const testing::Scene& scene, const Vec3& center, double radius) {
-  SurfaceMesh mesh = polygonized_surface(scene.grid, *scene.isosurface, scene.topology).mesh;
+  SurfaceMesh mesh = exact_polygonization(scene.grid, *scene.isosurface, scene.topology).mesh;
   std::erase_if(mesh.triangles, [&](const auto& t) { return distance(mesh.points[t[0]], center) < radius; });
   mesh.neighbours.clear();
   return mesh;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/repair/diagnosis/surface_facts.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -24,7 +24,7 @@ struct MendedScene {
     std::vector<Vec3> points = scene->start();
     const std::vector<Vec3> crossings = testing::crossing_points(*scene);
     for (std::size_t i = 0; i < crossings.size(); i += 3) points.push_back(crossings[i]);
-    facts = std::make_unique<SurfaceFacts>(scene->grid, *scene->isosurface, scene->topology, threads);
+    facts = std::make_unique<ExactSurfaceCache>(scene->grid, *scene->isosurface, scene->topology, threads);
     rounds = std::make_unique<RepairRounds>(
         *facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), threads, stats);
     mend();
@@ -47,7 +47,7 @@ struct MendedScene {
   }
 
   std::unique_ptr<testing::Scene> scene;
-  std::unique_ptr<SurfaceFacts> facts;
+  std::unique_ptr<ExactSurfaceCache> facts;
   RepairStats stats;
   Controls controls{{}, nullptr, {}};
   std::unique_ptr<RepairRounds> rounds;

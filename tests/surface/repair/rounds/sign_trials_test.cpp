@@ -150,11 +150,11 @@ std::int64_t amount_missing(const MatchedMesh& mesh, const ComponentTopology& wa
          std::abs(want.boundary_loops - have.boundary_loops);
 }
 
-Places places_at(const RaisedCells& cells, const Tetrahedralization& delaunay, TetId t) {
+IndexRanges places_at(const RaisedCells& cells, const Tetrahedralization& delaunay, TetId t) {
   Vec3 centre;
   for (const VertexId v : delaunay.vertices(t)) centre += 0.25 * delaunay.point(v);
   const CellIndex cell = cells.cell_of(centre);
-  Places places;
+  IndexRanges places;
   places.all.emplace_back();
   for (std::size_t axis = 0; axis < 3; ++axis) places.all[0][axis] = {cell[axis] + 1, cell[axis] + 1};
   places.likely = places.all;
@@ -191,7 +191,7 @@ TEST(SignTrials, MendASpoiltPlace) {
         };
         Controls controls(BudgetParameters{}, nullptr, {});
         const std::array<SignRule, 1> rules = {SignRule::kCircumcenter};
-        std::vector<Places> places(scene->topology.components.size());
+        std::vector<IndexRanges> places(scene->topology.components.size());
         places[c] = places_at(cells, delaunay, spoilt[0]);
         SignTrials(round, scene->topology, cells, rules, places)
             .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);

@@ -1,5 +1,5 @@
 // What lies of the isosurface below a plane that sweeps along an axis: the exact side of
-// surface/repair/diagnosis/sweep_difference.h.
+// surface/repair/diagnosis/euler_curve.h.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
-#include "surface/repair/diagnosis/places.h"
-#include "surface/repair/diagnosis/sweep_difference.h"
+#include "surface/repair/diagnosis/euler_curve.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -24,11 +24,11 @@ void for_each_exact_change(const ScalarGrid& grid, double isovalue, const Isosur
 
 // The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
 // such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.
-class SurfaceSweeps {
+class ExactEulerCurves {
  public:
-  SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
+  ExactEulerCurves(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
 
-  [[nodiscard]] SweptCharacteristics of(std::uint32_t component) const;
+  [[nodiscard]] EulerCurves of(std::uint32_t component) const;
 
  private:
   struct Layers {

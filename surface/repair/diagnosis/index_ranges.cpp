@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/places.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ std::int32_t distance_from(const LayerRange& range, std::int32_t layer) {
 }
 
 // Along the axis along which it is farthest.
-std::int32_t distance_from(const Place& place, const CellIndex& cell) {
+std::int32_t distance_from(const IndexBox& place, const CellIndex& cell) {
   std::int32_t farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) farthest = std::max(farthest, distance_from(place[axis], cell[axis]));
   return farthest;
@@ -21,26 +21,26 @@ std::int32_t distance_from(const Place& place, const CellIndex& cell) {
 
 }  // namespace
 
-DistanceFromPlaces::DistanceFromPlaces(std::vector<Place> places, const std::array<std::int32_t, 3>& dims,
+DistanceFromRanges::DistanceFromRanges(std::vector<IndexBox> places, const std::array<std::int32_t, 3>& dims,
                                        std::int32_t reach)
     : places_(std::move(places)), reach_(reach) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     at_least_[axis].assign(static_cast<std::size_t>(dims[axis]), std::numeric_limits<std::int32_t>::max());
     for (std::int32_t layer = 0; layer < dims[axis]; ++layer) {
       std::int32_t& nearest = at_least_[axis][static_cast<std::size_t>(layer)];
-      for (const Place& place : places_) nearest = std::min(nearest, distance_from(place[axis], layer));
+      for (const IndexBox& place : places_) nearest = std::min(nearest, distance_from(place[axis], layer));
     }
   }
 }
 
-std::int32_t DistanceFromPlaces::operator()(const CellIndex& cell) const {
+std::int32_t DistanceFromRanges::operator()(const CellIndex& cell) const {
   std::int32_t at_least = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     at_least = std::max(at_least, at_least_[axis][static_cast<std::size_t>(cell[axis])]);
   }
   if (at_least > reach_ || places_.size() == 1) return at_least;
   std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
-  for (const Place& place : places_) nearest = std::min(nearest, distance_from(place, cell));
+  for (const IndexBox& place : places_) nearest = std::min(nearest, distance_from(place, cell));
   return nearest;
 }
 

@@ -12,11 +12,11 @@
 namespace deliso {
 
 // The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
-struct PolygonizedSurface {
+struct ExactPolygonization {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
 };
-PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
-                                       const IsosurfaceTopology& topology);
+ExactPolygonization exact_polygonization(const ScalarGrid& grid, const Isosurface& isosurface,
+                                         const IsosurfaceTopology& topology);
 
 }  // namespace deliso

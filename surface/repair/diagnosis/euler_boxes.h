@@ -12,15 +12,15 @@
 #include <optional>
 #include <vector>
 
-#include "surface/repair/diagnosis/places.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 
 namespace deliso {
 
-class PlaceBoxes {
+class EulerBoxes {
  public:
   // `layers`: along each axis, ascending, in a volume with so many samples. None when one is empty or there would be
   // too many boxes.
-  static std::optional<PlaceBoxes> around(const std::array<std::vector<std::int32_t>, 3>& layers,
+  static std::optional<EulerBoxes> around(const std::array<std::vector<std::int32_t>, 3>& layers,
                                           const std::array<std::int32_t, 3>& dims);
 
   [[nodiscard]] std::size_t count() const { return ranges_[0].size() * ranges_[1].size() * ranges_[2].size(); }
@@ -32,7 +32,7 @@ class PlaceBoxes {
   // Something that counts from these layers on, in the mesh, or with the other sign on the surface.
   void add(const std::array<std::int32_t, 3>& layers, std::int32_t amount);
   // All, and as the likely ones those where what has been added is not zero, by the median of the sizes.
-  [[nodiscard]] Places places() const;
+  [[nodiscard]] IndexRanges places() const;
 
  private:
   [[nodiscard]] bool differs(std::size_t box) const;

@@ -1,6 +1,6 @@
 // Pieces that one of two meshes has and the other has not must be found where they are; other triangulations of the
 // same surface must give nothing.
-#include "surface/repair/diagnosis/curvature_lattice.h"
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "surface/deliso.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/raycast_fields.h"
 #include "tests/support/surface_fields.h"
 
@@ -22,7 +22,7 @@ constexpr std::size_t kMany = 1000;
 
 bool takes_all(std::uint32_t) { return true; }
 
-bool holds(const Place& place, const Vec3& p, double margin) {
+bool holds(const IndexBox& place, const Vec3& p, double margin) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (p[axis] < place[axis].first - margin || p[axis] > place[axis].last + margin) return false;
   }
@@ -39,11 +39,11 @@ std::unique_ptr<Scene> balls(const std::vector<Vec3>& centers, double radius, co
   return std::make_unique<Scene>("balls", testing::sampled_grid<float>(dims, {1, 1, 1}, depth), 0.0);
 }
 
-PolygonizedSurface polygonized(const Scene& scene) {
-  return polygonized_surface(scene.grid, *scene.isosurface, scene.topology);
+ExactPolygonization polygonized(const Scene& scene) {
+  return exact_polygonization(scene.grid, *scene.isosurface, scene.topology);
 }
 
-TEST(CurvatureLattice, FindsPiecesThatCancelInAll) {
+TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
   const std::vector<Vec3> centers = {{9.3, 10.1, 11.2}, {37.6, 12.4, 30.8}, {20.2, 35.1, 21.7}};
   const auto scene = balls(centers, 3.2, {48, 46, 44});
   const auto [mesh, component] = polygonized(*scene);
@@ -55,19 +55,19 @@ TEST(CurvatureLattice, FindsPiecesThatCancelInAll) {
       return squared_distance(a, mesh.points[v]) < squared_distance(b, mesh.points[v]);
     });
   }
-  CurvatureLattice difference(scene->grid.dims(), scene->isosurface->step());
+  AngleDefectGrid difference(scene->grid.dims(), scene->isosurface->step());
   difference.add(
       mesh, [&, &component = component](std::uint32_t v) { return component[v] != 0; }, 1);
   difference.add(
       mesh, [&, &component = component](std::uint32_t v) { return component[v] != 1; }, -1);
-  const std::vector<Place> too_much = difference.places(true, kMany), missing = difference.places(false, kMany);
+  const std::vector<IndexBox> too_much = difference.places(true, kMany), missing = difference.places(false, kMany);
   ASSERT_EQ(too_much.size(), 1u);
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_TRUE(holds(too_much.front(), center_of[1], 2));
   EXPECT_TRUE(holds(missing.front(), center_of[0], 2));
 }
 
-TEST(CurvatureLattice, FindsHandles) {
+TEST(AngleDefectGrid, FindsHandles) {
   // A torus and a ball as large.
   const Vec3 center{19.7, 20.2, 12.4};
   const auto depth = [&](double i, double j, double k) {
@@ -78,16 +78,16 @@ TEST(CurvatureLattice, FindsHandles) {
       std::make_unique<Scene>("torus", testing::sampled_grid<float>({40, 40, 26}, {1, 1, 1}, depth), 0.0);
   const auto ball = balls({center}, 5, {40, 40, 26});
   ASSERT_EQ(torus->topology.components.front().euler_characteristic, 0);
-  CurvatureLattice difference(torus->grid.dims(), torus->isosurface->step());
+  AngleDefectGrid difference(torus->grid.dims(), torus->isosurface->step());
   difference.add(polygonized(*torus).mesh, takes_all, 1);
   difference.add(polygonized(*ball).mesh, takes_all, -1);
   EXPECT_TRUE(difference.places(true, kMany).empty());
-  const std::vector<Place> missing = difference.places(false, kMany);
+  const std::vector<IndexBox> missing = difference.places(false, kMany);
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_TRUE(holds(missing.front(), center, 2));
 }
 
-TEST(CurvatureLattice, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
+TEST(AngleDefectGrid, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
   for (const char* name : {"gyroid", "bubbles", "double_torus", "blobs"}) {
     SCOPED_TRACE(name);
     const auto scene = testing::field_scene(name, 40);
@@ -97,7 +97,7 @@ TEST(CurvatureLattice, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
     for (const Vec3& p : result.mesh.points) mesh.points.push_back(from_world(p, scene->grid, step));
     mesh.triangles = result.mesh.triangles;
     set_side_adjacency(mesh);
-    CurvatureLattice difference(scene->grid.dims(), step);
+    AngleDefectGrid difference(scene->grid.dims(), step);
     difference.add(mesh, takes_all, 1);
     ASSERT_FALSE(difference.places(true, kMany).empty() && difference.places(false, kMany).empty());
     difference.add(polygonized(*scene).mesh, takes_all, -1);
@@ -106,21 +106,21 @@ TEST(CurvatureLattice, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
   }
 }
 
-TEST(CurvatureLattice, GivesTheLargestDifferencesFirstAndNoMoreThanAskedFor) {
+TEST(AngleDefectGrid, GivesTheLargestDifferencesFirstAndNoMoreThanAskedFor) {
   const std::vector<Vec3> centers = {{8, 9, 10}, {40, 9, 10}, {8, 40, 10}, {40, 40, 35}};
   const auto scene = balls(centers, 2.6, {50, 50, 46});
   const auto [mesh, component] = polygonized(*scene);
-  CurvatureLattice sums(scene->grid.dims(), scene->isosurface->step());
+  AngleDefectGrid sums(scene->grid.dims(), scene->isosurface->step());
   sums.add(mesh, takes_all, 1);
   // Once more.
   sums.add(
       mesh, [&, &component = component](std::uint32_t v) { return component[v] == 2; }, 1);
-  const std::vector<Place> all = sums.places(true, kMany);
+  const std::vector<IndexBox> all = sums.places(true, kMany);
   ASSERT_EQ(all.size(), centers.size());
   const auto of_second = std::find(component.begin(), component.end(), 2u);
   ASSERT_NE(of_second, component.end());
   EXPECT_TRUE(holds(all.front(), mesh.points[static_cast<std::size_t>(of_second - component.begin())], 5));
-  const std::vector<Place> two = sums.places(true, 2);
+  const std::vector<IndexBox> two = sums.places(true, 2);
   ASSERT_EQ(two.size(), 2u);
   EXPECT_EQ(two[0], all[0]);
   EXPECT_EQ(two[1], all[1]);

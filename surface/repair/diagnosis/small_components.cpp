@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/specks.h"
+#include "surface/repair/diagnosis/small_components.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ constexpr double kFarthest = 0.8;
 
 }  // namespace
 
-Specks::Specks(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step)
-    : speck_of_(topology.components.size(), kNoSpeck) {
+SmallComponents::SmallComponents(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step)
+    : speck_of_(topology.components.size(), kNoSmallComponent) {
   std::vector<std::int64_t> count(topology.components.size(), 0);
   for (const EdgeCrossing& crossing : topology.crossings) ++count[crossing.component];
   for (std::uint32_t c = 0; c < count.size(); ++c) {
@@ -30,7 +30,7 @@ Specks::Specks(const ScalarGrid& grid, const IsosurfaceTopology& topology, const
   }
   for (const EdgeCrossing& crossing : topology.crossings) {
     const std::uint32_t speck = speck_of_[crossing.component];
-    if (speck != kNoSpeck) specks_[speck].crossings.push_back(scaled(crossing_position(grid, crossing), step));
+    if (speck != kNoSmallComponent) specks_[speck].crossings.push_back(scaled(crossing_position(grid, crossing), step));
   }
   for (Speck& speck : specks_) {
     Box3 box;
@@ -39,7 +39,7 @@ Specks::Specks(const ScalarGrid& grid, const IsosurfaceTopology& topology, const
   }
 }
 
-std::vector<std::uint32_t> Specks::missed_by(const MatchedMesh& mesh) const {
+std::vector<std::uint32_t> SmallComponents::missed_by(const MatchedMesh& mesh) const {
   // The triangles of the specks' main pieces.
   using Corners = std::array<Vec3, 3>;
   std::vector<std::vector<Corners>> triangles(specks_.size());
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> Specks::missed_by(const MatchedMesh& mesh) const {
   for (const auto& [a, b, c] : mesh.built.mesh.triangles) {
     const std::uint32_t piece = match.piece_of[a];
     const std::uint32_t component = match.pieces[piece].component;
-    if (speck_of_[component] == kNoSpeck || match.main_piece[component] != piece) continue;
+    if (speck_of_[component] == kNoSmallComponent || match.main_piece[component] != piece) continue;
     const std::vector<Vec3>& points = mesh.built.mesh.points;
     triangles[speck_of_[component]].push_back({points[a], points[b], points[c]});
   }

@@ -1,11 +1,11 @@
 // Where the meshes of repair differ from the surface: all components at once must be like one after the other.
-#include "surface/repair/diagnosis/mesh_differences.h"
+#include "surface/repair/diagnosis/euler_differences.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "surface/repair/diagnosis/curvature_lattice.h"
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/rounds/repair_round.h"
 #include "tests/support/surface_fields.h"
@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kMany = 1u << 30;
 
-class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
+class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
  protected:
-  explicit MeshDifferencesOfNoise(const Dims& dims = {12, 11, 10})
+  explicit EulerDifferencesOfNoise(const Dims& dims = {12, 11, 10})
       : scene_(testing::noise_scene(dims, GetParam())), facts_(scene_->grid, *scene_->isosurface, scene_->topology, 1) {
     std::vector<Vec3> samples;
     for (std::size_t i = 0; i < scene_->topology.crossings.size(); i += 2) {
@@ -32,16 +32,15 @@ class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
   // What one component's main piece and its part of the surface alone give, both as whole meshes.
-  [[nodiscard]] Places places_of(std::uint32_t c) const {
-    const PolygonizedSurface& exact = facts_.polygonized();
+  [[nodiscard]] IndexRanges places_of(std::uint32_t c) const {
+    const ExactPolygonization& exact = facts_.polygonized();
     const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);
     const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
     const Vec3& step = scene_->isosurface->step();
     const Dims& dims = scene_->grid.dims();
-    auto boxes =
-        PlaceBoxes::around(jumps_between(swept_characteristics(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
-                                         swept_characteristics(exact.mesh, on_surface, 1, step, dims).front()),
-                           dims);
+    auto boxes = EulerBoxes::around(jumps_between(euler_curves(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
+                                                  euler_curves(exact.mesh, on_surface, 1, step, dims).front()),
+                                    dims);
     if (!boxes) return {};
     const auto adds = [&](std::int32_t sign) {
       return
@@ -58,49 +57,50 @@ class MeshDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
   }
 
   std::unique_ptr<testing::Scene> scene_;
-  SurfaceFacts facts_;
+  ExactSurfaceCache facts_;
   std::shared_ptr<MatchedMesh> mesh_;
 };
 
-TEST_P(MeshDifferencesOfNoise, AreThoseOfEachComponentAlone) {
-  MeshDifferences differences(facts_, *scene_->isosurface);
-  const std::vector<Places> places = differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
+TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
+  EulerDifferences differences(facts_, *scene_->isosurface);
+  const std::vector<IndexRanges> places =
+      differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
   ASSERT_EQ(places.size(), components());
   int wrong = 0;
   for (std::uint32_t c = 0; c < components(); ++c) {
     const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
-    EXPECT_EQ(places[c], is_wrong ? places_of(c) : Places()) << c;
+    EXPECT_EQ(places[c], is_wrong ? places_of(c) : IndexRanges()) << c;
     wrong += is_wrong ? 1 : 0;
   }
   EXPECT_GT(wrong, 0);
 }
 
-TEST_P(MeshDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
-  MeshDifferences differences(facts_, *scene_->isosurface);
+TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
+  EulerDifferences differences(facts_, *scene_->isosurface);
   const std::vector<bool> none_done(components(), false);
-  const std::vector<Places> all = differences.find(mesh_, none_done, {kMany, false});
+  const std::vector<IndexRanges> all = differences.find(mesh_, none_done, {kMany, false});
   std::size_t most = 0;
-  for (const Places& places : all) most = std::max(most, places.all.size());
+  for (const IndexRanges& places : all) most = std::max(most, places.all.size());
   ASSERT_GT(most, 0u);
-  const std::vector<Places> fewer = differences.find(mesh_, none_done, {most - 1, false});
+  const std::vector<IndexRanges> fewer = differences.find(mesh_, none_done, {most - 1, false});
   for (std::size_t c = 0; c < components(); ++c) {
-    EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : Places());
+    EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : IndexRanges());
   }
-  const std::vector<Places> again = differences.find(mesh_, none_done, {kMany, false});
+  const std::vector<IndexRanges> again = differences.find(mesh_, none_done, {kMany, false});
   for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
-  MeshDifferences others(facts_, *scene_->isosurface);
-  for (const Places& places : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
+  EulerDifferences others(facts_, *scene_->isosurface);
+  for (const IndexRanges& places : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
     EXPECT_TRUE(places.all.empty());
   }
 }
 
 // So much that sweeps tell of many places or of wide ones.
-class MeshDifferencesOfMuchNoise : public MeshDifferencesOfNoise {
+class EulerDifferencesOfMuchNoise : public EulerDifferencesOfNoise {
  protected:
-  MeshDifferencesOfMuchNoise() : MeshDifferencesOfNoise({26, 25, 24}) {}
+  EulerDifferencesOfMuchNoise() : EulerDifferencesOfNoise({26, 25, 24}) {}
 };
 
-TEST_P(MeshDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSweepsDoNotTell) {
+TEST_P(EulerDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSweepsDoNotTell) {
   const Vec3& step = scene_->isosurface->step();
   const auto& [exact, component_of] = facts_.polygonized();
   int found = 0;
@@ -109,18 +109,18 @@ TEST_P(MeshDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSwe
     if (main == kNoPiece || mesh_->match.agreement[c] != Agreement::kNone) continue;
     std::vector<bool> others_done(components(), true);
     others_done[c] = false;
-    MeshDifferences differences(facts_, *scene_->isosurface);
-    const Places swept = differences.find(mesh_, others_done, {kMany, false})[c];
-    const Places both = differences.find(mesh_, others_done, {kMany, true})[c];
-    CurvatureLattice lattice(scene_->grid.dims(), step);
+    EulerDifferences differences(facts_, *scene_->isosurface);
+    const IndexRanges swept = differences.find(mesh_, others_done, {kMany, false})[c];
+    const IndexRanges both = differences.find(mesh_, others_done, {kMany, true})[c];
+    AngleDefectGrid lattice(scene_->grid.dims(), step);
     lattice.add(
         mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; }, 1);
     lattice.add(
         exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; }, -1);
     const std::int64_t too_much =
         mesh_->match.pieces[main].topology.euler_characteristic - scene_->topology.components[c].euler_characteristic;
-    const std::vector<Place> places = lattice.places(too_much > 0, 16);
-    const auto is_narrow = [](const Place& place) {
+    const std::vector<IndexBox> places = lattice.places(too_much > 0, 16);
+    const auto is_narrow = [](const IndexBox& place) {
       return std::all_of(place.begin(), place.end(),
                          [](const LayerRange& range) { return range.last - range.first < 16; });
     };
@@ -132,14 +132,15 @@ TEST_P(MeshDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSwe
     }
     ++found;
     EXPECT_EQ(both.likely, places);
-    for (const Place& place : swept.all) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
-    for (const Place& place : places) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+    for (const IndexBox& place : swept.all)
+      EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
+    for (const IndexBox& place : places) EXPECT_NE(std::find(both.all.begin(), both.all.end(), place), both.all.end());
   }
   EXPECT_GT(found, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
-INSTANTIATE_TEST_SUITE_P(Seeds, MeshDifferencesOfMuchNoise, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, EulerDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, EulerDifferencesOfMuchNoise, ::testing::Values(1, 2));
 
 }  // namespace
 }  // namespace deliso

@@ -18,14 +18,14 @@ struct LayerRange {
 };
 
 // A range along each axis.
-using Place = std::array<LayerRange, 3>;
+using IndexBox = std::array<LayerRange, 3>;
 
 // Where a component and its main piece part.
-struct Places {
-  std::vector<Place> all;     // empty when there is no telling
-  std::vector<Place> likely;  // some of them, or all
+struct IndexRanges {
+  std::vector<IndexBox> all;     // empty when there is no telling
+  std::vector<IndexBox> likely;  // some of them, or all
 
-  friend bool operator==(const Places&, const Places&) = default;
+  friend bool operator==(const IndexRanges&, const IndexRanges&) = default;
 };
 
 // Some layers of the cells of a volume along each axis, and with them the cells that lie in such layers along all axes.
@@ -66,9 +66,9 @@ class CellLayers {
 
 // How many layers a cell is away from the nearest of some places, along the axis along which it is farthest: for many
 // cells of a volume with so many samples.
-class DistanceFromPlaces {
+class DistanceFromRanges {
  public:
-  DistanceFromPlaces(std::vector<Place> places, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
+  DistanceFromRanges(std::vector<IndexBox> places, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
   // Exact as far as the reach, which is all that is asked of what is farther away.
   [[nodiscard]] std::int32_t operator()(const CellIndex& cell) const;
   [[nodiscard]] bool reaches(const CellIndex& cell) const { return (*this)(cell) <= reach_; }
@@ -78,7 +78,7 @@ class DistanceFromPlaces {
   }
 
  private:
-  std::vector<Place> places_;
+  std::vector<IndexBox> places_;
   std::int32_t reach_;
   std::array<std::vector<std::int32_t>, 3> at_least_;  // along each axis, of each layer: what that axis alone tells
 };

@@ -1,9 +1,9 @@
-#include "surface/repair/diagnosis/mesh_differences.h"
+#include "surface/repair/diagnosis/euler_differences.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "surface/repair/diagnosis/curvature_lattice.h"
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 
 namespace deliso {
@@ -19,8 +19,8 @@ constexpr std::int32_t kWidest = 16;
 constexpr std::size_t kFewComponents = 8;
 constexpr std::size_t kMostByCurvature = 16;
 
-bool tell(const std::vector<Place>& swept) {
-  const auto is_narrow = [](const Place& place) {
+bool tell(const std::vector<IndexBox>& swept) {
+  const auto is_narrow = [](const IndexBox& place) {
     return std::all_of(place.begin(), place.end(),
                        [](const auto& range) { return range.last - range.first < kWidest; });
   };
@@ -29,8 +29,8 @@ bool tell(const std::vector<Place>& swept) {
 
 }  // namespace
 
-const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
-                                                 const std::vector<bool>& done, const Effort& effort) {
+const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
+                                                       const std::vector<bool>& done, const Effort& effort) {
   if (of_.lock() == mesh && effort_ == effort) return places_;
   of_.reset();
   effort_ = effort;
@@ -53,26 +53,26 @@ const std::vector<Places>& MeshDifferences::find(const std::shared_ptr<MatchedMe
 }
 
 // Places that have too much are of no use where something is missing in all, nor the other way.
-void MeshDifferences::add_by_curvature(const MatchedMesh& mesh, std::uint32_t component) {
+void EulerDifferences::add_by_curvature(const MatchedMesh& mesh, std::uint32_t component) {
   const ComponentMatch& match = mesh.match;
   const std::uint32_t main = match.main_piece[component];
   const std::int64_t too_much =
       match.pieces[main].topology.euler_characteristic - facts_.topology().components[component].euler_characteristic;
   if (too_much == 0) return;
   const auto& [exact, component_of] = facts_.polygonized();
-  CurvatureLattice difference(facts_.grid().dims(), isosurface_.step());
+  AngleDefectGrid difference(facts_.grid().dims(), isosurface_.step());
   difference.add(
       mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
   difference.add(
       exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; }, -1);
-  const std::vector<Place> found = difference.places(too_much > 0, kMostByCurvature);
+  const std::vector<IndexBox> found = difference.places(too_much > 0, kMostByCurvature);
   if (found.empty()) return;
-  Places& places = places_[component];
+  IndexRanges& places = places_[component];
   places.likely = found;
   places.all.insert(places.all.end(), found.begin(), found.end());
 }
 
-void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
+void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
   const ComponentMatch& match = mesh.match;
   std::vector<std::uint32_t> part_of_piece(match.pieces.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) part_of_piece[match.main_piece[components[i]]] = i;
@@ -80,13 +80,13 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
   for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
     if (match.piece_of[v] != kNoPiece) part_of_vertex[v] = part_of_piece[match.piece_of[v]];
   }
-  const std::vector<SweptCharacteristics> swept = swept_characteristics(
-      mesh.built.mesh, part_of_vertex, components.size(), isosurface_.step(), facts_.grid().dims());
+  const std::vector<EulerCurves> swept =
+      euler_curves(mesh.built.mesh, part_of_vertex, components.size(), isosurface_.step(), facts_.grid().dims());
   const Dims& dims = facts_.grid().dims();
-  std::vector<std::optional<PlaceBoxes>> boxes(components.size());
+  std::vector<std::optional<EulerBoxes>> boxes(components.size());
   std::vector<std::uint32_t> part_of_component(places_.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) {
-    auto around = PlaceBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
+    auto around = EulerBoxes::around(jumps_between(swept[i], facts_.sweeps().of(components[i])), dims);
     if (!around || around->count() > effort_.most_places) continue;
     if (around->count() == 1) {
       places_[components[i]] = around->places();
@@ -102,9 +102,9 @@ void MeshDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uin
 }
 
 // Which places differ indeed is to be found out where there are several.
-void MeshDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
-                                     const std::vector<std::uint32_t>& part_of_component,
-                                     std::vector<std::optional<PlaceBoxes>>& boxes) const {
+void EulerDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                                      const std::vector<std::uint32_t>& part_of_component,
+                                      std::vector<std::optional<EulerBoxes>>& boxes) const {
   if (std::none_of(boxes.begin(), boxes.end(), [](const auto& box) { return box.has_value(); })) return;
   const Dims& dims = facts_.grid().dims();
   // The cells whose corners' layers may count in some of the boxes, and few others.

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "surface/mesh/surface_mesh.h"
-#include "surface/repair/diagnosis/places.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 
 namespace deliso {
 
-class CurvatureLattice {
+class AngleDefectGrid {
  public:
   // Over a volume with so many samples; `step` is the size of a voxel in mesh space.
-  CurvatureLattice(const std::array<std::int32_t, 3>& dims, const Vec3& step);
+  AngleDefectGrid(const std::array<std::int32_t, 3>& dims, const Vec3& step);
 
   // Adds the curvature at the vertices of some pieces of a mesh, as often as `factor` says. `is_taken(vertex)` is the
   // same for all vertices of a piece.
@@ -29,7 +29,7 @@ class CurvatureLattice {
 
   // The windows with at least half a handle in sum, of this sign: the largest first, none close to a larger one, at
   // most so many.
-  [[nodiscard]] std::vector<Place> places(bool is_positive, std::size_t most) const;
+  [[nodiscard]] std::vector<IndexBox> places(bool is_positive, std::size_t most) const;
 
  private:
   [[nodiscard]] std::vector<float> window_sums() const;

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/curvature_lattice.h"
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ std::vector<float> sums_of_three(const std::vector<float>& values, std::size_t s
 
 }  // namespace
 
-CurvatureLattice::CurvatureLattice(const std::array<std::int32_t, 3>& dims, const Vec3& step) : dims_(dims) {
+AngleDefectGrid::AngleDefectGrid(const std::array<std::int32_t, 3>& dims, const Vec3& step) : dims_(dims) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     nodes_per_unit_[axis] = 1 / (kSpacing * step[axis]);
     // Two nodes below the first sample and two above the last one: sums of three need not look for the rim.
@@ -43,7 +43,7 @@ CurvatureLattice::CurvatureLattice(const std::array<std::int32_t, 3>& dims, cons
   sums_.assign(nodes_[0] * nodes_[1] * nodes_[2], 0);
 }
 
-void CurvatureLattice::add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken, float factor) {
+void AngleDefectGrid::add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken, float factor) {
   constexpr double kTurn = 2 * std::numbers::pi;
   // In turns: what the angles add up to at each vertex, and half of what a vertex of the boundary has less to fill.
   std::vector<float> filled(mesh.points.size(), -1);
@@ -65,7 +65,7 @@ void CurvatureLattice::add(const SurfaceMesh& mesh, const std::function<bool(std
   }
 }
 
-void CurvatureLattice::spread(const Vec3& p, float amount) {
+void AngleDefectGrid::spread(const Vec3& p, float amount) {
   std::array<std::size_t, 3> first{};
   std::array<std::array<float, 3>, 3> weight;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -83,11 +83,11 @@ void CurvatureLattice::spread(const Vec3& p, float amount) {
   }
 }
 
-std::vector<float> CurvatureLattice::window_sums() const {
+std::vector<float> AngleDefectGrid::window_sums() const {
   return sums_of_three(sums_of_three(sums_of_three(sums_, 1), nodes_[0]), nodes_[0] * nodes_[1]);
 }
 
-std::vector<Place> CurvatureLattice::places(bool is_positive, std::size_t most) const {
+std::vector<IndexBox> AngleDefectGrid::places(bool is_positive, std::size_t most) const {
   struct Window {
     float sum;
     std::array<std::int32_t, 3> node;
@@ -105,7 +105,7 @@ std::vector<Place> CurvatureLattice::places(bool is_positive, std::size_t most) 
   std::stable_sort(windows.begin(), windows.end(), [](const Window& a, const Window& b) { return a.sum > b.sum; });
 
   std::vector<std::array<std::int32_t, 3>> taken;
-  std::vector<Place> places;
+  std::vector<IndexBox> places;
   for (const Window& window : windows) {
     if (places.size() == most) break;
     const auto is_close = [&](const auto& other) {
@@ -117,7 +117,7 @@ std::vector<Place> CurvatureLattice::places(bool is_positive, std::size_t most) 
     };
     if (std::any_of(taken.begin(), taken.end(), is_close)) continue;
     taken.push_back(window.node);
-    Place& place = places.emplace_back();
+    IndexBox& place = places.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t middle = kSpacing * (window.node[axis] - 2), last = dims_[axis] - 1;
       place[axis] = {std::clamp(middle - kSpacing / 2, 0, last), std::clamp(middle + kSpacing / 2, 0, last)};

@@ -1,11 +1,11 @@
 // The exact surface swept cell by cell must be like its marching-cubes mesh swept as a whole.
-#include "surface/repair/diagnosis/surface_sweeps.h"
+#include "surface/repair/diagnosis/exact_euler_curves.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -25,7 +25,7 @@ void to_index_space(SurfaceMesh& mesh, const Vec3& step) {
 }
 
 void expect_characteristics(const testing::Scene& scene) {
-  const SurfaceSweeps sweeps(scene.grid, scene.isosurface->isovalue(), scene.topology);
+  const ExactEulerCurves sweeps(scene.grid, scene.isosurface->isovalue(), scene.topology);
   for (std::uint32_t c = 0; c < scene.topology.components.size(); ++c) {
     for (const auto& along : sweeps.of(c)) {
       EXPECT_EQ(along.back(), scene.topology.components[c].euler_characteristic) << c;
@@ -34,18 +34,17 @@ void expect_characteristics(const testing::Scene& scene) {
 }
 
 void expect_those_of_the_mesh(const testing::Scene& scene) {
-  PolygonizedSurface surface = polygonized_surface(scene.grid, *scene.isosurface, scene.topology);
+  ExactPolygonization surface = exact_polygonization(scene.grid, *scene.isosurface, scene.topology);
   to_index_space(surface.mesh, scene.isosurface->step());
   const std::size_t components = scene.topology.components.size();
-  const auto expected =
-      swept_characteristics(surface.mesh, surface.component, components, {1, 1, 1}, scene.grid.dims());
-  const SurfaceSweeps sweeps(scene.grid, scene.isosurface->isovalue(), scene.topology);
+  const auto expected = euler_curves(surface.mesh, surface.component, components, {1, 1, 1}, scene.grid.dims());
+  const ExactEulerCurves sweeps(scene.grid, scene.isosurface->isovalue(), scene.topology);
   for (std::uint32_t c = 0; c < components; ++c) EXPECT_EQ(sweeps.of(c), expected[c]) << c;
   expect_characteristics(scene);
 }
 
 // Cut by the box in many arcs, with tunnels and disks that need inner points.
-TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshOfNoise) {
+TEST(ExactEulerCurves, AreThoseOfTheMarchingCubesMeshOfNoise) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE(seed);
     const auto scene = noise_scene({14, 13, 12}, seed);
@@ -54,7 +53,7 @@ TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshOfNoise) {
   }
 }
 
-TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshOfThinVolumes) {
+TEST(ExactEulerCurves, AreThoseOfTheMarchingCubesMeshOfThinVolumes) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE(seed);
     expect_those_of_the_mesh(*noise_scene({2, 9, 7}, seed));
@@ -62,14 +61,14 @@ TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshOfThinVolumes) {
   }
 }
 
-TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshOfSmoothFields) {
+TEST(ExactEulerCurves, AreThoseOfTheMarchingCubesMeshOfSmoothFields) {
   for (const char* field : {"gyroid", "bubbles"}) {
     SCOPED_TRACE(field);
     expect_those_of_the_mesh(*field_scene(field, 26));
   }
 }
 
-TEST(SurfaceSweeps, AreThoseOfTheMarchingCubesMeshWithAnySpacing) {
+TEST(ExactEulerCurves, AreThoseOfTheMarchingCubesMeshWithAnySpacing) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     expect_those_of_the_mesh(*testing::wave_scene({15, 14, 13}, {0.7, 1.3, 0.9}, seed));

@@ -1,5 +1,5 @@
 // Facts of the surface, and what repair makes of them: found before or when asked for, on any number of threads.
-#include "surface/repair/diagnosis/surface_facts.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -53,12 +53,12 @@ std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<Critic
   return cells;
 }
 
-TEST(SurfaceFacts, AreTheSameForAnyNumberOfThreads) {
+TEST(ExactSurfaceCache, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({14, 13, 12}, 4);
-  const PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
-  const SurfaceSweeps sweeps(scene->grid, scene->isovalue, scene->topology);
+  const ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
+  const ExactEulerCurves sweeps(scene->grid, scene->isovalue, scene->topology);
   for (const int threads : {1, 2, 3, 5}) {
-    const SurfaceFacts facts(scene->grid, *scene->isosurface, scene->topology, threads);
+    const ExactSurfaceCache facts(scene->grid, *scene->isosurface, scene->topology, threads);
     EXPECT_EQ(facts.polygonized().mesh.points, surface.mesh.points) << threads;
     EXPECT_EQ(facts.polygonized().mesh.triangles, surface.mesh.triangles) << threads;
     EXPECT_EQ(facts.polygonized().component, surface.component) << threads;
@@ -68,9 +68,9 @@ TEST(SurfaceFacts, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(SurfaceFacts, NobodyHasToAsk) {
+TEST(ExactSurfaceCache, NobodyHasToAsk) {
   const auto scene = field_scene("gyroid", 32);
-  for (int i = 0; i < 20; ++i) SurfaceFacts(scene->grid, *scene->isosurface, scene->topology, 2);
+  for (int i = 0; i < 20; ++i) ExactSurfaceCache(scene->grid, *scene->isosurface, scene->topology, 2);
 }
 
 std::vector<CellIndex> active_cells(const Scene& scene) {

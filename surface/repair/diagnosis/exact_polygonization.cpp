@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace deliso {
 
-PolygonizedSurface polygonized_surface(const ScalarGrid& grid, const Isosurface& isosurface,
-                                       const IsosurfaceTopology& topology) {
+ExactPolygonization exact_polygonization(const ScalarGrid& grid, const Isosurface& isosurface,
+                                         const IsosurfaceTopology& topology) {
   MarchingCubesMesh cubes =
       marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
-  PolygonizedSurface surface;
+  ExactPolygonization surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
   std::vector<std::uint32_t>& component = surface.component;

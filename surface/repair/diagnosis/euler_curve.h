@@ -16,7 +16,7 @@
 namespace deliso {
 
 // Along each axis, for each sample layer, the Euler characteristic of what lies below it.
-using SweptCharacteristics = std::array<std::vector<std::int64_t>, 3>;
+using EulerCurves = std::array<std::vector<std::int64_t>, 3>;
 
 // A sample layer along each axis.
 using SampleLayers = std::array<std::int32_t, 3>;
@@ -36,14 +36,11 @@ void for_each_mesh_change(const SurfaceMesh& mesh, const std::vector<std::uint32
 
 // Of several parts of a mesh, in one go over its triangles. `part_of_vertex`: as above, below `parts`. `step` is the
 // size of a voxel in mesh space, `dims` the number of samples.
-std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
-                                                        const std::vector<std::uint32_t>& part_of_vertex,
-                                                        std::size_t parts, const Vec3& step,
-                                                        const std::array<std::int32_t, 3>& dims);
+std::vector<EulerCurves> euler_curves(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                                      std::size_t parts, const Vec3& step, const std::array<std::int32_t, 3>& dims);
 
 // Along each axis the sample layers (ascending) at which the two part for good or meet again.
-std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristics& mesh,
-                                                       const SweptCharacteristics& exact);
+std::array<std::vector<std::int32_t>, 3> jumps_between(const EulerCurves& mesh, const EulerCurves& exact);
 
 // V - E + F: each simplex counts from the highest layers of its vertices on.
 template <class Visit>

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/trouble.h"
+#include "surface/repair/diagnosis/defect_cells.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,7 @@ constexpr std::size_t kFewPlaces = 64;  // where all active cells are taken, at 
 
 class TroubleFinder {
  public:
-  explicit TroubleFinder(const TroubleContext& context)
+  explicit TroubleFinder(const DefectContext& context)
       : grid_(context.grid),
         topology_(context.topology),
         restricted_(context.restricted),
@@ -88,20 +88,20 @@ class TroubleFinder {
   const RaisedCells& cells_;
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
-  const std::vector<Places>& places_;  // of each exact component
+  const std::vector<IndexRanges>& places_;  // of each exact component
   std::span<const std::uint8_t> evidence_;
   LocatedPlaces& critical_;
   int threads_;
-  std::vector<std::optional<DistanceFromPlaces>> near_places_;  // of each exact component
+  std::vector<std::optional<DistanceFromRanges>> near_places_;  // of each exact component
   std::vector<bool> has_sign_;                                  // of each exact component
   std::vector<CellName> found_;
 };
 
 void TroubleFinder::flag_places() {
   for (std::uint32_t c = 0; c < places_.size(); ++c) {
-    const std::vector<Place>& likely = places_[c].likely;
+    const std::vector<IndexBox>& likely = places_[c].likely;
     if (done_[c] || likely.empty() || likely.size() > kFewPlaces) continue;
-    for (const Place& place : likely) {
+    for (const IndexBox& place : likely) {
       const CellLayers near(grid_.dims(), [&](std::size_t axis, std::int32_t layer) {
         return place[axis].first - kVeryNear <= layer && layer <= place[axis].last + kVeryNear;
       });
@@ -232,6 +232,6 @@ std::optional<std::uint32_t> TroubleFinder::open_component_in(const CellIndex& c
 
 }  // namespace
 
-std::vector<CellName> cells_in_trouble(const TroubleContext& context) { return TroubleFinder(context).find(); }
+std::vector<CellName> defect_cells(const DefectContext& context) { return TroubleFinder(context).find(); }
 
 }  // namespace deliso

@@ -1,8 +1,8 @@
-#include "surface/repair/diagnosis/sweep_difference.h"
+#include "surface/repair/diagnosis/euler_curve.h"
 
 #include <gtest/gtest.h>
 
-#include "surface/repair/diagnosis/polygonized_components.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -10,22 +10,22 @@ namespace {
 
 using testing::field_scene;
 
-SweptCharacteristics swept(const SurfaceMesh& mesh, const std::array<std::int32_t, 3>& dims) {
-  return swept_characteristics(mesh, std::vector<std::uint32_t>(mesh.points.size(), 0), 1, {1, 1, 1}, dims).front();
+EulerCurves swept(const SurfaceMesh& mesh, const std::array<std::int32_t, 3>& dims) {
+  return euler_curves(mesh, std::vector<std::uint32_t>(mesh.points.size(), 0), 1, {1, 1, 1}, dims).front();
 }
 
-TEST(SweepDifference, EqualMeshesNeverPart) {
+TEST(EulerCurve, EqualMeshesNeverPart) {
   const auto scene = field_scene("gyroid", 24);
-  const SurfaceMesh mesh = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+  const SurfaceMesh mesh = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
   for (const auto& layers : jumps_between(swept(mesh, scene->grid.dims()), swept(mesh, scene->grid.dims()))) {
     EXPECT_TRUE(layers.empty());
   }
 }
 
 // A hole in the mesh changes its Euler characteristic by one, for good: the sweeps must find where.
-TEST(SweepDifference, FindsWhereAHoleIsPunched) {
+TEST(EulerCurve, FindsWhereAHoleIsPunched) {
   const auto scene = field_scene("gyroid", 32);
-  const SurfaceMesh exact = polygonized_surface(scene->grid, *scene->isosurface, scene->topology).mesh;
+  const SurfaceMesh exact = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
   // The same surface with a patch of a few triangles punched out: the Euler characteristic falls by one there.
   SurfaceMesh punched = exact;
   const Vec3 place = exact.points[exact.triangles[exact.triangles.size() / 2][0]];
@@ -54,16 +54,16 @@ TEST(SweepDifference, FindsWhereAHoleIsPunched) {
   }
 }
 
-TEST(SweepDifference, PartsSweptAtOnceAreLikePartsSweptAlone) {
+TEST(EulerCurve, PartsSweptAtOnceAreLikePartsSweptAlone) {
   const auto scene = field_scene("bubbles", 26);
-  const PolygonizedSurface surface = polygonized_surface(scene->grid, *scene->isosurface, scene->topology);
+  const ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
   const std::size_t parts = scene->topology.components.size();
   ASSERT_GT(parts, 1u);
-  const auto all = swept_characteristics(surface.mesh, surface.component, parts, {1, 1, 1}, scene->grid.dims());
+  const auto all = euler_curves(surface.mesh, surface.component, parts, {1, 1, 1}, scene->grid.dims());
   for (std::uint32_t c = 0; c < parts; ++c) {
     std::vector<std::uint32_t> alone(surface.component.size(), kNoPart);
     for (std::size_t v = 0; v < alone.size(); ++v) alone[v] = surface.component[v] == c ? 0 : kNoPart;
-    EXPECT_EQ(swept_characteristics(surface.mesh, alone, 1, {1, 1, 1}, scene->grid.dims()).front(), all[c]);
+    EXPECT_EQ(euler_curves(surface.mesh, alone, 1, {1, 1, 1}, scene->grid.dims()).front(), all[c]);
     for (const auto& along : all[c]) EXPECT_EQ(along.back(), scene->topology.components[c].euler_characteristic);
   }
 }

@@ -1,27 +1,27 @@
 // Places: distances from them, and which of them the boxes around them find to differ.
-#include "surface/repair/diagnosis/places.h"
+#include "surface/repair/diagnosis/index_ranges.h"
 
 #include <gtest/gtest.h>
 
 #include "delaunay/base/rng.h"
-#include "surface/repair/diagnosis/place_boxes.h"
+#include "surface/repair/diagnosis/euler_boxes.h"
 
 namespace deliso {
 namespace {
 
-TEST(Places, DistancesAreThoseFromTheNearest) {
+TEST(IndexRanges, DistancesAreThoseFromTheNearest) {
   Rng rng(3);
   const std::array<std::int32_t, 3> dims = {9, 12, 7};
   for (int round = 0; round < 40; ++round) {
-    std::vector<Place> places(rng.below(5) + 1);
-    for (Place& place : places) {
+    std::vector<IndexBox> places(rng.below(5) + 1);
+    for (IndexBox& place : places) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto first = static_cast<std::int32_t>(rng.below(static_cast<std::uint64_t>(dims[axis])));
         place[axis] = {first, std::min(first + static_cast<std::int32_t>(rng.below(3)), dims[axis] - 1)};
       }
     }
     const auto reach = static_cast<std::int32_t>(rng.below(6));
-    const DistanceFromPlaces distance(places, dims, reach);
+    const DistanceFromRanges distance(places, dims, reach);
     for (std::int32_t k = 0; k < dims[2]; ++k) {
       for (std::int32_t j = 0; j < dims[1]; ++j) {
         for (std::int32_t i = 0; i < dims[0]; ++i) {
@@ -77,15 +77,15 @@ TEST(CellLayers, HaveTheActiveCellsInThem) {
 
 using Layers = std::array<std::int32_t, 3>;
 
-Place place_at(const Layers& at) {
+IndexBox place_at(const Layers& at) {
   return {LayerRange{at[0], at[0]}, LayerRange{at[1], at[1]}, LayerRange{at[2], at[2]}};
 }
 
 // Of eight crossings of layers two differ; what differs in shape is the same and the contrary side by side.
-TEST(PlaceBoxes, FindWhereSomethingDiffersIndeed) {
+TEST(EulerBoxes, FindWhereSomethingDiffersIndeed) {
   const std::array<std::int32_t, 3> dims = {60, 60, 60};
   const Layers here = {12, 40, 11}, there = {45, 13, 44};
-  auto boxes = PlaceBoxes::around({{{12, 45}, {13, 40}, {11, 44}}}, dims);
+  auto boxes = EulerBoxes::around({{{12, 45}, {13, 40}, {11, 44}}}, dims);
   ASSERT_TRUE(boxes);
   EXPECT_EQ(boxes->count(), 8u);
   boxes->add({13, 39, 12}, -2);
@@ -94,29 +94,29 @@ TEST(PlaceBoxes, FindWhereSomethingDiffersIndeed) {
     boxes->add({i, 13, 11}, 1);
     boxes->add({i + 1, 13, 11}, -1);
   }
-  const Places places = boxes->places();
+  const IndexRanges places = boxes->places();
   EXPECT_EQ(places.all.size(), 8u);
-  EXPECT_EQ(places.likely, (std::vector<Place>{place_at(here), place_at(there)}));
+  EXPECT_EQ(places.likely, (std::vector<IndexBox>{place_at(here), place_at(there)}));
 }
 
-TEST(PlaceBoxes, AllPlacesAreLikelyWhenNoneIs) {
-  const auto boxes = PlaceBoxes::around({{{12, 45}, {13}, {11}}}, {60, 60, 60});
+TEST(EulerBoxes, AllPlacesAreLikelyWhenNoneIs) {
+  const auto boxes = EulerBoxes::around({{{12, 45}, {13}, {11}}}, {60, 60, 60});
   ASSERT_TRUE(boxes);
-  EXPECT_EQ(boxes->places().likely, (std::vector<Place>{place_at({12, 13, 11}), place_at({45, 13, 11})}));
+  EXPECT_EQ(boxes->places().likely, (std::vector<IndexBox>{place_at({12, 13, 11}), place_at({45, 13, 11})}));
 }
 
-TEST(PlaceBoxes, LayersThatAreCloseBelongTogether) {
-  const auto boxes = PlaceBoxes::around({{{12, 15, 17, 25}, {0}, {59}}}, {60, 60, 60});
+TEST(EulerBoxes, LayersThatAreCloseBelongTogether) {
+  const auto boxes = EulerBoxes::around({{{12, 15, 17, 25}, {0}, {59}}}, {60, 60, 60});
   ASSERT_TRUE(boxes);
-  const Place close = {LayerRange{12, 17}, LayerRange{0, 0}, LayerRange{59, 59}};
-  EXPECT_EQ(boxes->places().all, (std::vector<Place>{close, place_at({25, 0, 59})}));
+  const IndexBox close = {LayerRange{12, 17}, LayerRange{0, 0}, LayerRange{59, 59}};
+  EXPECT_EQ(boxes->places().all, (std::vector<IndexBox>{close, place_at({25, 0, 59})}));
 }
 
-TEST(PlaceBoxes, NeedALayerAlongEachAxisAndAreNotTooMany) {
-  EXPECT_FALSE(PlaceBoxes::around({{{12}, {}, {11}}}, {60, 60, 60}));
+TEST(EulerBoxes, NeedALayerAlongEachAxisAndAreNotTooMany) {
+  EXPECT_FALSE(EulerBoxes::around({{{12}, {}, {11}}}, {60, 60, 60}));
   std::vector<std::int32_t> many;
   for (std::int32_t layer = 0; layer < 400; layer += 10) many.push_back(layer);
-  EXPECT_FALSE(PlaceBoxes::around({{many, many, many}}, {400, 400, 400}));
+  EXPECT_FALSE(EulerBoxes::around({{many, many, many}}, {400, 400, 400}));
 }
 
 }  // namespace

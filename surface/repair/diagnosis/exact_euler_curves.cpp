@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/surface_sweeps.h"
+#include "surface/repair/diagnosis/exact_euler_curves.h"
 
 #include <algorithm>
 #include <array>
@@ -138,9 +138,9 @@ void for_each_exact_change(const ScalarGrid& grid, double isovalue, const Isosur
 }
 
 // Adds up what is visited by layers.
-class SurfaceSweeps::Changes {
+class ExactEulerCurves::Changes {
  public:
-  explicit Changes(SurfaceSweeps& sweeps) : sweeps_(sweeps) {}
+  explicit Changes(ExactEulerCurves& sweeps) : sweeps_(sweeps) {}
 
   void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
     for (std::size_t axis = 0; axis < 3; ++axis) *from(component, axis, at[axis]) += twice;
@@ -162,10 +162,10 @@ class SurfaceSweeps::Changes {
     return &sweeps_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
   }
 
-  SurfaceSweeps& sweeps_;
+  ExactEulerCurves& sweeps_;
 };
 
-SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
+ExactEulerCurves::ExactEulerCurves(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
     : dims_(grid.dims()) {
   find_layers(topology);
   Changes changes(*this);
@@ -175,7 +175,7 @@ SurfaceSweeps::SurfaceSweeps(const ScalarGrid& grid, double isovalue, const Isos
 }
 
 // Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.
-void SurfaceSweeps::find_layers(const IsosurfaceTopology& topology) {
+void ExactEulerCurves::find_layers(const IsosurfaceTopology& topology) {
   using Reach = std::pair<std::int32_t, std::int32_t>;
   std::vector<std::array<Reach, 3>> reach(topology.components.size());
   for (auto& along : reach) along.fill({std::numeric_limits<std::int32_t>::max(), 0});
@@ -198,8 +198,8 @@ void SurfaceSweeps::find_layers(const IsosurfaceTopology& topology) {
   twice_changes_.assign(total, 0);
 }
 
-SweptCharacteristics SurfaceSweeps::of(std::uint32_t component) const {
-  SweptCharacteristics swept;
+EulerCurves ExactEulerCurves::of(std::uint32_t component) const {
+  EulerCurves swept;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Layers& layers = layers_[component][axis];
     std::vector<std::int64_t>& along = swept[axis];

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/specks.h"
+#include "surface/repair/diagnosis/small_components.h"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,13 @@ MatchedMesh matched(const TriangleMesh& mesh, const IsosurfaceTopology& topology
   return matched;
 }
 
-TEST(Specks, AreMissedWhereACrossingIsFarForTheirSize) {
+TEST(SmallComponents, AreMissedWhereACrossingIsFarForTheirSize) {
   const ScalarGrid grid = two_specks();
   const IsosurfaceTopology topology = exact_topology(grid, 1);
   ASSERT_EQ(topology.components.size(), 2u);
   const MarchingCubesMesh cubes = marching_cubes(grid, 1);
   const TriangleMesh mesh{cubes.points, cubes.triangles};
-  const Specks specks(grid, topology, {1, 1, 1});
+  const SmallComponents specks(grid, topology, {1, 1, 1});
   EXPECT_TRUE(specks.missed_by(matched(mesh, topology)).empty());
 
   // One corner of the small octahedron is drawn in to the middle: nearer than a tenth of a voxel, but half of it.
@@ -69,7 +69,7 @@ TEST(Specks, AreMissedWhereACrossingIsFarForTheirSize) {
 }
 
 // A quarter of a long one would be more than a crossing may be off anywhere.
-TEST(Specks, MayBeOffByNoMoreThanAnyOtherPartOfTheSurface) {
+TEST(SmallComponents, MayBeOffByNoMoreThanAnyOtherPartOfTheSurface) {
   std::vector<double> samples(5 * 10 * 5, 0);
   for (std::size_t y = 2; y < 8; ++y) samples[2 + 5 * (y + 10 * 2)] = 3;
   const ScalarGrid grid({5, 10, 5}, samples);
@@ -77,7 +77,7 @@ TEST(Specks, MayBeOffByNoMoreThanAnyOtherPartOfTheSurface) {
   ASSERT_EQ(topology.components.size(), 1u);
   ASSERT_EQ(topology.crossings.size(), 26u);
   const MarchingCubesMesh cubes = marching_cubes(grid, 1);
-  const Specks specks(grid, topology, {1, 1, 1});
+  const SmallComponents specks(grid, topology, {1, 1, 1});
   for (const double cut : {0.0, 0.6, 1.0, 1.3}) {
     TriangleMesh mesh{cubes.points, cubes.triangles};
     for (Vec3& p : mesh.points) p.y = std::min(p.y, 7 + 2.0 / 3 - cut);

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "raycast/isosurface.h"
-#include "surface/repair/diagnosis/polygonized_components.h"
-#include "surface/repair/diagnosis/surface_sweeps.h"
+#include "surface/repair/diagnosis/exact_euler_curves.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -14,23 +14,24 @@ namespace deliso {
 
 // Each fact is found when it is first asked for; with more than one thread a thread of its own finds the sweeps
 // beforehand, while others build the mesh that they are for. The facts are the same either way.
-class SurfaceFacts {
+class ExactSurfaceCache {
  public:
   // Keeps references.
-  SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology, int threads);
+  ExactSurfaceCache(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
+                    int threads);
 
   [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
   [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
-  [[nodiscard]] const SurfaceSweeps& sweeps() const { return sweeps_.get(); }
+  [[nodiscard]] const ExactEulerCurves& sweeps() const { return sweeps_.get(); }
   // Needed by few surfaces, and large: never found beforehand.
-  [[nodiscard]] const PolygonizedSurface& polygonized() const { return polygonized_.get(); }
+  [[nodiscard]] const ExactPolygonization& polygonized() const { return polygonized_.get(); }
 
  private:
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
   // Deferred: whoever asks first does the work, anyone else waits for it.
-  std::shared_future<SurfaceSweeps> sweeps_;
-  std::shared_future<PolygonizedSurface> polygonized_;
+  std::shared_future<ExactEulerCurves> sweeps_;
+  std::shared_future<ExactPolygonization> polygonized_;
   std::jthread finder_;
 };
 

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/place_boxes.h"
+#include "surface/repair/diagnosis/euler_boxes.h"
 
 #include <algorithm>
 
@@ -26,9 +26,9 @@ std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
 
 }  // namespace
 
-std::optional<PlaceBoxes> PlaceBoxes::around(const std::array<std::vector<std::int32_t>, 3>& layers,
+std::optional<EulerBoxes> EulerBoxes::around(const std::array<std::vector<std::int32_t>, 3>& layers,
                                              const std::array<std::int32_t, 3>& dims) {
-  PlaceBoxes boxes;
+  EulerBoxes boxes;
   for (std::size_t axis = 0; axis < 3; ++axis) boxes.ranges_[axis] = ranges_of(layers[axis]);
   if (boxes.count() == 0 || boxes.count() > kMostBoxes) return std::nullopt;
   for (std::size_t size = 0; size < kSizes; ++size) {
@@ -47,7 +47,7 @@ std::optional<PlaceBoxes> PlaceBoxes::around(const std::array<std::vector<std::i
   return boxes;
 }
 
-void PlaceBoxes::add(const std::array<std::int32_t, 3>& layers, std::int32_t amount) {
+void EulerBoxes::add(const std::array<std::int32_t, 3>& layers, std::int32_t amount) {
   if (!reach(0, layers[0]) || !reach(1, layers[1]) || !reach(2, layers[2])) return;
   for (std::size_t size = 0; size < kSizes; ++size) {
     const auto near = [&](std::size_t axis) { return near_[size][axis][static_cast<std::size_t>(layers[axis])]; };
@@ -61,8 +61,8 @@ void PlaceBoxes::add(const std::array<std::int32_t, 3>& layers, std::int32_t amo
   }
 }
 
-Places PlaceBoxes::places() const {
-  Places places;
+IndexRanges EulerBoxes::places() const {
+  IndexRanges places;
   std::size_t box = 0;
   for (const LayerRange& z : ranges_[2]) {
     for (const LayerRange& y : ranges_[1]) {
@@ -76,7 +76,7 @@ Places PlaceBoxes::places() const {
   return places;
 }
 
-bool PlaceBoxes::differs(std::size_t box) const {
+bool EulerBoxes::differs(std::size_t box) const {
   std::array<std::int32_t, kSizes> votes{};
   for (std::size_t size = 0; size < kSizes; ++size) votes[size] = sums_[size][box];
   std::nth_element(votes.begin(), votes.begin() + kSizes / 2, votes.end());

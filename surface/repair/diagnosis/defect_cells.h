@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/diagnosis/places.h"
 #include "surface/repair/lattice/raised_cells.h"
 #include "surface/repair/signs/critical_places.h"
 #include "surface/restricted/signed_delaunay.h"
@@ -15,7 +15,7 @@
 namespace deliso {
 
 // What trouble is looked for in. References must outlive the search.
-struct TroubleContext {
+struct DefectContext {
   const ScalarGrid& grid;
   const IsosurfaceTopology& topology;
   const SignedDelaunay& restricted;
@@ -23,7 +23,7 @@ struct TroubleContext {
   const RaisedCells& cells;
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
-  const std::vector<Places>& places;                      // of each exact component
+  const std::vector<IndexRanges>& places;                 // of each exact component
   bool is_near_places = true;              // of components with places, trouble counts near these alone: sweeps err
   std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (evidence.h); may be empty
   LocatedPlaces& critical;                 // of the volume, in the triangulation
@@ -37,6 +37,6 @@ struct TroubleContext {
 // tells of its missing part, or of the vertices it shares with others, counts. For a component without any sign its
 // saddles are taken, and when there are none all its crossings. Of a component with known places only cells near them
 // are taken, if wanted, and all active ones very near the likely ones.
-std::vector<CellName> cells_in_trouble(const TroubleContext& context);
+std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

@@ -13,16 +13,16 @@ namespace deliso {
 
 // The components with few grid-edge crossings, and where these are. The mesh of one must come near each of them: a
 // piece may have the right topology and be as flat as a leaf, when the crossings on one side of it are left out.
-class Specks {
+class SmallComponents {
  public:
   // `step`: mesh-space units per index step.
-  Specks(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step);
+  SmallComponents(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step);
 
   // The specks whose main piece lies away from some crossing by more than a part of the speck's size, ascending.
   [[nodiscard]] std::vector<std::uint32_t> missed_by(const MatchedMesh& mesh) const;
 
  private:
-  static constexpr std::uint32_t kNoSpeck = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kNoSmallComponent = 0xFFFFFFFFu;
   struct Speck {
     std::uint32_t component = 0;
     double farthest = 0;  // that a crossing may be away from the mesh

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/sweep_difference.h"
+#include "surface/repair/diagnosis/euler_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,27 +57,24 @@ SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::in
   return layers;
 }
 
-std::vector<SweptCharacteristics> swept_characteristics(const SurfaceMesh& mesh,
-                                                        const std::vector<std::uint32_t>& part_of_vertex,
-                                                        std::size_t parts, const Vec3& step,
-                                                        const std::array<std::int32_t, 3>& dims) {
-  SweptCharacteristics none;
+std::vector<EulerCurves> euler_curves(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                                      std::size_t parts, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
+  EulerCurves none;
   for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
-  std::vector<SweptCharacteristics> changes(parts, none);
+  std::vector<EulerCurves> changes(parts, none);
   for_each_mesh_change(mesh, part_of_vertex, step, dims,
                        [&](std::uint32_t part, const SampleLayers& at, std::int32_t change) {
                          for (std::size_t axis = 0; axis < 3; ++axis) {
                            changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
                          }
                        });
-  for (SweptCharacteristics& change : changes) {
+  for (EulerCurves& change : changes) {
     for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
   }
   return changes;
 }
 
-std::array<std::vector<std::int32_t>, 3> jumps_between(const SweptCharacteristics& mesh,
-                                                       const SweptCharacteristics& exact) {
+std::array<std::vector<std::int32_t>, 3> jumps_between(const EulerCurves& mesh, const EulerCurves& exact) {
   std::array<std::vector<std::int32_t>, 3> jumps;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<std::int64_t> gap = mesh[axis];

@@ -1,19 +1,19 @@
-#include "surface/repair/diagnosis/surface_facts.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
 
 #include <exception>
 #include <stop_token>
 
 namespace deliso {
 
-SurfaceFacts::SurfaceFacts(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
-                           int threads)
+ExactSurfaceCache::ExactSurfaceCache(const ScalarGrid& grid, const Isosurface& isosurface,
+                                     const IsosurfaceTopology& topology, int threads)
     : grid_(grid),
       topology_(topology),
-      sweeps_(
-          std::async(std::launch::deferred,
-                     [&grid, &isosurface, &topology] { return SurfaceSweeps(grid, isosurface.isovalue(), topology); })),
+      sweeps_(std::async(
+          std::launch::deferred,
+          [&grid, &isosurface, &topology] { return ExactEulerCurves(grid, isosurface.isovalue(), topology); })),
       polygonized_(std::async(std::launch::deferred, [&grid, &isosurface, &topology] {
-        return polygonized_surface(grid, isosurface, topology);
+        return exact_polygonization(grid, isosurface, topology);
       })) {
   if (threads < 2) return;
   try {
