@@ -60,8 +60,8 @@ Json repair_json(const RepairStats& repair) {
               {"components_mixed", repair.components_mixed},
               {"components_stray", repair.components_stray},
               {"components_polygonized", repair.components_polygonized},
-              {"intruders_removed", repair.intruders_removed},
-              {"dents_removed", repair.dents_removed},
+              {"foreign_vertices_removed", repair.foreign_vertices_removed},
+              {"inverted_umbrellas_removed", repair.inverted_umbrellas_removed},
               {"vertices_before", repair.vertices_before},
               {"vertices_after", repair.vertices_after}};
 }

@@ -10,14 +10,14 @@ struct StageStats {
 };
 
 struct RepairStats : StageStats {
-  std::int64_t rounds = 0;                  // resamplings made
-  std::int64_t components_before = 0;       // exact components that the mesh of stage 1 did not agree with
-  std::int64_t components_mixed = 0;        // taken with vertices of another component at last
-  std::int64_t components_stray = 0;        // done after stray pieces were dropped
-  std::int64_t components_polygonized = 0;  // taken from marching cubes at last
-  std::int64_t intruders_removed = 0;       // vertices taken out of such components (intruders.h)
-  std::int64_t dents_removed = 0;           // vertices taken out of the mesh at last (dents.h)
-  std::int64_t vertices_before = 0;         // of the mesh of stage 1
+  std::int64_t rounds = 0;                      // resamplings made
+  std::int64_t components_before = 0;           // exact components that the mesh of stage 1 did not agree with
+  std::int64_t components_mixed = 0;            // taken with vertices of another component at last
+  std::int64_t components_stray = 0;            // done after stray pieces were dropped
+  std::int64_t components_polygonized = 0;      // taken from marching cubes at last
+  std::int64_t foreign_vertices_removed = 0;    // vertices taken out of such components (foreign_vertices.h)
+  std::int64_t inverted_umbrellas_removed = 0;  // vertices taken out of the mesh at last (inverted_umbrellas.h)
+  std::int64_t vertices_before = 0;             // of the mesh of stage 1
   std::int64_t vertices_after = 0;
 };
 

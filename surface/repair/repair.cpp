@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "surface/intersection/self_intersection.h"
-#include "surface/repair/finish/crossing_pieces.h"
-#include "surface/repair/finish/dents.h"
-#include "surface/repair/finish/intruders.h"
-#include "surface/repair/finish/left_out.h"
+#include "surface/repair/finish/foreign_vertices.h"
+#include "surface/repair/finish/inverted_umbrellas.h"
+#include "surface/repair/finish/marching_cubes_fallback.h"
+#include "surface/repair/finish/missed_crossings.h"
 #include "surface/repair/rounds/kept_meshes.h"
 #include "surface/repair/rounds/repair_rounds.h"
 
@@ -56,7 +56,7 @@ class Repair {
     return self_intersections(result_.mesh.points, result_.mesh.triangles, kMostPairs, threads_);
   }
   [[nodiscard]] std::vector<std::uint32_t> left_out(std::span<const Box3> boxes) const {
-    return crossings_left_out(result_.mesh, boxes, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
+    return missed_crossings(result_.mesh, boxes, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
   }
   Ending take_ending();
   void return_to(Ending ending);
@@ -108,10 +108,10 @@ void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& contro
     if (!assemble(kept)) polygonize_rest();
     if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
   }
-  stats_.dents_removed = 0;
+  stats_.inverted_umbrellas_removed = 0;
   if (controls.poll()) return;
-  auto [removed, left] = remove_dents(result_.mesh, isosurface_, threads_);
-  stats_.dents_removed = removed;
+  auto [removed, left] = remove_inverted_umbrellas(result_.mesh, isosurface_, threads_);
+  stats_.inverted_umbrellas_removed = removed;
   dents_ = std::move(left);
 }
 
@@ -164,7 +164,7 @@ std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t>
 Repair::Ending Repair::take_ending() {
   Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), std::exchange(is_apart_, false),
                 stats_};
-  stats_.intruders_removed = stats_.dents_removed = 0;
+  stats_.foreign_vertices_removed = stats_.inverted_umbrellas_removed = 0;
   return ending;
 }
 
@@ -187,7 +187,7 @@ bool Repair::ends_without_intruders() {
   if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};
   is_apart_ = false;
-  stats_.intruders_removed = 0;
+  stats_.foreign_vertices_removed = 0;
   return false;
 }
 
@@ -212,7 +212,7 @@ bool Repair::take_intruders_out() {
     return self_intersections(mesh.points, mesh.triangles, 0, threads_).crossing_pairs > 0;
   };
   SurfaceMesh without = result_.mesh;
-  const auto [removed, left] = remove_intruders(without, result_.component);
+  const auto [removed, left] = remove_foreign_vertices(without, result_.component);
   if (removed == 0 && left > 0) return false;
   is_apart_ = !crosses(without);
   if (removed == 0) return is_apart_;
@@ -220,7 +220,7 @@ bool Repair::take_intruders_out() {
     is_apart_ = true;  // as it is
     return false;
   }
-  stats_.intruders_removed = removed;
+  stats_.foreign_vertices_removed = removed;
   result_ = {std::move(without), {}};
   return left == 0 && is_apart_;
 }

@@ -7,10 +7,10 @@
 // angle_defect_grid.h) and turn over single disputed signs (sign_trials.h). A component is done when its main piece has
 // its topology, holds no vertex of another component and lies near all of it. At the end each component is taken from
 // the latest mesh that has it at its best; one that no mesh has right is meshed by marching cubes, whose topology is
-// exact, and reported. Vertices of other components (intruders.h) and dents (dents.h) are removed from what that makes;
-// when the former are all that is wrong, that is the end. Where dents that have to stay leave parts of the surface out
-// (left_out.h), the rounds go on, with samples around these. Components whose triangles cross others are meshed by
-// marching cubes, too, until none do (crossing_pieces.h).
+// exact, and reported. Vertices of other components (foreign_vertices.h) and dents (inverted_umbrellas.h) are removed
+// from what that makes; when the former are all that is wrong, that is the end. Where dents that have to stay leave
+// parts of the surface out (missed_crossings.h), the rounds go on, with samples around these. Components whose
+// triangles cross others are meshed by marching cubes, too, until none do (marching_cubes_fallback.h).
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/finish/left_out.h"
+#include "surface/repair/finish/missed_crossings.h"
 #include "surface/repair/rounds/sign_trials.h"
 #include "surface/repair/signs/sign_rules.h"
 #include "surface/restricted/poles.h"

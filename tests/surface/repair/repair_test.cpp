@@ -57,7 +57,7 @@ TEST(Repair, EndsWhenVerticesOfOtherComponentsAreAllThatIsWrong) {
     const MeshingResult result = mesh_isosurface(scene->grid, scene->isovalue, options);
     EXPECT_EQ(result.certificate.verdict, Verdict::kHomeomorphic);
     if (result.repair.rounds == options.parameters.repair.max_rounds) continue;
-    removed += result.repair.intruders_removed;
+    removed += result.repair.foreign_vertices_removed;
     EXPECT_EQ(mixed_pieces(*result.stage1_mesh, *scene), 0u);
   }
   EXPECT_GT(removed, 0);

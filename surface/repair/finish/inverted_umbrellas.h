@@ -16,7 +16,7 @@
 
 namespace deliso {
 
-struct DentRemoval {
+struct InvertedUmbrellaRemoval {
   std::int64_t removed = 0;  // vertices
   std::vector<Box3> left;    // around the links of those that had to stay
 };
@@ -26,6 +26,6 @@ struct DentRemoval {
 // it than before is far from the surface that faces the same way, and if it meets no other triangle and has no edge
 // that the mesh has elsewhere; or else the vertex stays. A disk replaces a disk, so the mesh stays homeomorphic to what
 // it was. The mesh may have pole heights or none. The same for any number of threads.
-DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface, int threads = 1);
+InvertedUmbrellaRemoval remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads = 1);
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-#include "surface/repair/finish/crossing_pieces.h"
+#include "surface/repair/finish/marching_cubes_fallback.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace deliso {
 namespace {
 
 // Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
-TEST(CrossingPieces, AreMeshedAgainUntilNothingCrosses) {
+TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
   const auto scene = testing::field_scene("shells", 48);
   const ExactSurfaceCache facts(scene->grid, *scene->isosurface, scene->topology, 1);
   const std::size_t components = scene->topology.components.size();

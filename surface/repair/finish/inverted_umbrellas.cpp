@@ -1,4 +1,4 @@
-#include "surface/repair/finish/dents.h"
+#include "surface/repair/finish/inverted_umbrellas.h"
 
 #include <algorithm>
 #include <array>
@@ -31,11 +31,12 @@ constexpr std::size_t kTrianglesAtOnce = 32;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-class Dents {
+class InvertedUmbrellas {
  public:
-  Dents(SurfaceMesh& mesh, const Isosurface& isosurface) : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
+  InvertedUmbrellas(SurfaceMesh& mesh, const Isosurface& isosurface)
+      : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
 
-  DentRemoval remove_all(int threads);
+  InvertedUmbrellaRemoval remove_all(int threads);
 
  private:
   // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
@@ -84,12 +85,12 @@ class Dents {
   SearchCounters search_;
 };
 
-DentRemoval Dents::remove_all(int threads) {
+InvertedUmbrellaRemoval InvertedUmbrellas::remove_all(int threads) {
   find_apexes(threads);
   if (apexes_.empty()) return {};
   find_surroundings();
   // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
-  DentRemoval result;
+  InvertedUmbrellaRemoval result;
   for (std::int64_t before = -1; before != result.removed;) {
     before = result.removed;
     for (std::size_t a = 0; a < apexes_.size(); ++a) {
@@ -102,7 +103,7 @@ DentRemoval Dents::remove_all(int threads) {
 }
 
 // Of the apexes there are, those with triangles far from the surface.
-std::vector<Box3> Dents::boxes_of_dents() {
+std::vector<Box3> InvertedUmbrellas::boxes_of_dents() {
   std::vector<Box3> boxes;
   for (const Apex& apex : apexes_) {
     VertexFan fan;
@@ -112,14 +113,14 @@ std::vector<Box3> Dents::boxes_of_dents() {
   return boxes;
 }
 
-Triangles Dents::triangles_of(const VertexFan& fan) const {
+Triangles InvertedUmbrellas::triangles_of(const VertexFan& fan) const {
   Triangles triangles;
   for (const std::uint32_t t : fan.triangles) triangles.push_back(mesh_.triangles[t]);
   return triangles;
 }
 
 // Inner vertices with a long edge whose triangles face against the surface on the whole.
-void Dents::find_apexes(int threads) {
+void InvertedUmbrellas::find_apexes(int threads) {
   std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
   std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -142,7 +143,7 @@ void Dents::find_apexes(int threads) {
 }
 
 // That of any cell at the vertex tells.
-bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
+bool InvertedUmbrellas::is_against(std::uint32_t v, const Vec3& normals) const {
   bool is_against = false;
   for_each_gradient_at(isosurface_, mesh_.points[v],
                        [&](const Vec3& gradient) { is_against |= dot(normals, gradient) > 0; });
@@ -150,7 +151,7 @@ bool Dents::is_against(std::uint32_t v, const Vec3& normals) const {
 }
 
 // For all apexes at once: what is near them or meets the box of their links.
-void Dents::find_surroundings() {
+void InvertedUmbrellas::find_surroundings() {
   std::vector<Box3> boxes;
   for (Apex& apex : apexes_) {
     VertexFan fan;
@@ -169,7 +170,7 @@ void Dents::find_surroundings() {
 }
 
 // The box in which all lies that may replace the triangles at a vertex or cover it.
-Box3 Dents::box_around(std::uint32_t v, const VertexFan& fan) const {
+Box3 InvertedUmbrellas::box_around(std::uint32_t v, const VertexFan& fan) const {
   Box3 box;
   for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
   const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
@@ -180,7 +181,7 @@ Box3 Dents::box_around(std::uint32_t v, const VertexFan& fan) const {
 
 // The same for one whose link is no longer the one it had. Triangles that are not where they were are among the renewed
 // ones, whatever the boxes say.
-void Dents::look_around(Apex& apex, const Box3& box) {
+void InvertedUmbrellas::look_around(Apex& apex, const Box3& box) {
   if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
   apex.box = box;
   apex.surroundings.clear();
@@ -194,7 +195,7 @@ void Dents::look_around(Apex& apex, const Box3& box) {
   }
 }
 
-bool Dents::remove(Apex& apex) {
+bool InvertedUmbrellas::remove(Apex& apex) {
   VertexFan fan;
   if (!fans_.find(apex.vertex, fan) || !can_be_filled(apex.vertex, fan)) return false;
   const MinimumAreaTriangulation least = fans_.least_filling(fan);
@@ -210,7 +211,7 @@ bool Dents::remove(Apex& apex) {
 }
 
 // The next ones of a ridge may show only now.
-void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
+void InvertedUmbrellas::append_apexes(const std::vector<std::uint32_t>& link) {
   for (const std::uint32_t v : link) {
     const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
     VertexFan fan;
@@ -219,7 +220,7 @@ void Dents::append_apexes(const std::vector<std::uint32_t>& link) {
 }
 
 // Also, what went around the vertex has not made it one that faces the right way.
-bool Dents::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
+bool InvertedUmbrellas::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
   if (!fans_.can_be_filled(fan)) return false;
   Vec3 sum;
   for (const std::uint32_t t : fan.triangles) sum += normal(mesh_.triangles[t]);
@@ -227,7 +228,7 @@ bool Dents::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
 }
 
 // The area of those of some triangles that have no surface which faces the same way near their middles.
-double Dents::far_area(const Triangles& triangles) {
+double InvertedUmbrellas::far_area(const Triangles& triangles) {
   double area = 0;
   for (const auto& t : triangles) {
     const Vec3 n = normal(t), middle = (mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3;
@@ -238,7 +239,7 @@ double Dents::far_area(const Triangles& triangles) {
 }
 
 // Whether the mesh without the vertex is still there where the vertex was: the surface is.
-bool Dents::is_covered(const Apex& apex, const Triangles& filling) const {
+bool InvertedUmbrellas::is_covered(const Apex& apex, const Triangles& filling) const {
   const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
     return squared_distance_to_triangle(mesh_.points[apex.vertex], mesh_.points[t[0]], mesh_.points[t[1]],
                                         mesh_.points[t[2]]) <= kFarthestCover * kFarthestCover;
@@ -247,7 +248,7 @@ bool Dents::is_covered(const Apex& apex, const Triangles& filling) const {
 }
 
 // Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
-bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
+bool InvertedUmbrellas::is_free(const Apex& apex, const Triangles& filling) const {
   const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
     return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;
   };
@@ -263,8 +264,8 @@ bool Dents::is_free(const Apex& apex, const Triangles& filling) const {
 
 }  // namespace
 
-DentRemoval remove_dents(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
-  return Dents(mesh, isosurface).remove_all(threads);
+InvertedUmbrellaRemoval remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
+  return InvertedUmbrellas(mesh, isosurface).remove_all(threads);
 }
 
 }  // namespace deliso

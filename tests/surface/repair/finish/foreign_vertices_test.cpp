@@ -1,5 +1,5 @@
 // Vertices of a small component that a large one is made to swallow must go, and all else must stay.
-#include "surface/repair/finish/intruders.h"
+#include "surface/repair/finish/foreign_vertices.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct Swallowing {
   std::unique_ptr<testing::Scene> scene = testing::field_scene("bubbles", 26);
   ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
 
-  Intruders remove() { return remove_intruders(surface.mesh, surface.component); }
+  ForeignVertices remove() { return remove_foreign_vertices(surface.mesh, surface.component); }
   // A triangle is split at a new corner, at the place of a vertex of another component.
   void swallow(std::uint32_t triangle, std::uint32_t vertex) {
     SurfaceMesh& mesh = surface.mesh;
@@ -63,7 +63,7 @@ struct Swallowing {
   }
 };
 
-TEST(Intruders, AMeshWithoutAnyStaysAsItIs) {
+TEST(ForeignVertices, AMeshWithoutAnyStaysAsItIs) {
   Swallowing mesh;
   ASSERT_GT(mesh.scene->topology.components.size(), 1u);
   const std::vector<Triangle> before = mesh.triangles();
@@ -73,7 +73,7 @@ TEST(Intruders, AMeshWithoutAnyStaysAsItIs) {
   EXPECT_EQ(mesh.triangles(), before);
 }
 
-TEST(Intruders, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
+TEST(ForeignVertices, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
   for (const std::size_t count : {1, 4}) {
     SCOPED_TRACE(count);
     Swallowing mesh;
@@ -88,7 +88,7 @@ TEST(Intruders, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
   }
 }
 
-TEST(Intruders, AVertexOnNoComponentIsNone) {
+TEST(ForeignVertices, AVertexOnNoComponentIsNone) {
   Swallowing mesh;
   const std::vector<Triangle> before = mesh.triangles();
   mesh.surface.component[mesh.surface.mesh.triangles[mesh.host()][0]] = kNoComponent;
@@ -98,7 +98,7 @@ TEST(Intruders, AVertexOnNoComponentIsNone) {
   EXPECT_EQ(mesh.triangles(), before);
 }
 
-TEST(Intruders, AVertexStaysWhenNothingElseIsNearOnItsComponent) {
+TEST(ForeignVertices, AVertexStaysWhenNothingElseIsNearOnItsComponent) {
   Swallowing mesh;
   const std::uint32_t host = mesh.host();
   const std::uint32_t guest = mesh.guests(host, 1).front();
@@ -119,7 +119,7 @@ TEST(Intruders, AVertexStaysWhenNothingElseIsNearOnItsComponent) {
     ++next;
   }
   ASSERT_EQ(component.size(), mesh.surface.mesh.points.size());
-  const auto [removed, left] = remove_intruders(mesh.surface.mesh, component);
+  const auto [removed, left] = remove_foreign_vertices(mesh.surface.mesh, component);
   EXPECT_EQ(removed, 0);
   EXPECT_EQ(left, 1);
 }

@@ -1,4 +1,4 @@
-#include "surface/repair/finish/left_out.h"
+#include "surface/repair/finish/missed_crossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ constexpr std::int32_t kLayers = 3;  // of cells around a crossing
 
 }  // namespace
 
-std::vector<std::uint32_t> crossings_left_out(const SurfaceMesh& mesh, std::span<const Box3> boxes,
-                                              const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                              const Vec3& step, int threads) {
+std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<const Box3> boxes,
+                                            const ScalarGrid& grid, const IsosurfaceTopology& topology,
+                                            const Vec3& step, int threads) {
   if (boxes.empty()) return {};
   const BoxTree tree(boxes);
   std::vector<std::uint32_t> inside;

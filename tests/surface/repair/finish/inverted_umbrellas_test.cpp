@@ -1,4 +1,4 @@
-#include "surface/repair/finish/dents.h"
+#include "surface/repair/finish/inverted_umbrellas.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ void expect_good_sphere(const SurfaceMesh& mesh, const Scene& scene, std::uint32
   EXPECT_LT(points_to_mesh(testing::crossing_points(scene), triangles, 100).max_voxels, 0.6) << trial;
 }
 
-TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
+TEST(InvertedUmbrellas, ATriangleDrawnThroughABodyComesBack) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) {
@@ -67,7 +67,7 @@ TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
     mesh.triangles.push_back({b, c, apex});
     mesh.triangles.push_back({c, a, apex});
     set_side_adjacency(mesh);
-    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << t;
+    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 1) << t;
     expect_good_sphere(mesh, scene, t);
     EXPECT_EQ(mesh.points, whole.points) << t;
     EXPECT_EQ(mesh.pole_heights, whole.pole_heights) << t;
@@ -80,19 +80,19 @@ TEST(Dents, ATriangleDrawnThroughABodyComesBack) {
   }
 }
 
-TEST(Dents, AVertexDrawnThroughABodyGoes) {
+TEST(InvertedUmbrellas, AVertexDrawnThroughABodyGoes) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
     SurfaceMesh mesh = whole;
     mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
-    ASSERT_EQ(remove_dents(mesh, *scene.isosurface).removed, 1) << v;
+    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 1) << v;
     EXPECT_EQ(mesh.points.size(), whole.points.size() - 1) << v;
     expect_good_sphere(mesh, scene, v);
   }
 }
 
-TEST(Dents, ARidgeGoesVertexByVertex) {
+TEST(InvertedUmbrellas, ARidgeGoesVertexByVertex) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 3);
   for (std::uint32_t t = 0; t < whole.triangles.size(); t += 7) {
@@ -101,17 +101,17 @@ TEST(Dents, ARidgeGoesVertexByVertex) {
       mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
     }
     // Vertices at the foot of the ridge may go, too.
-    const std::int64_t removed = remove_dents(mesh, *scene.isosurface).removed;
+    const std::int64_t removed = remove_inverted_umbrellas(mesh, *scene.isosurface).removed;
     EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
     expect_good_sphere(mesh, scene, t);
   }
 }
 
-TEST(Dents, VerticesThatNothingElseCoversStay) {
+TEST(InvertedUmbrellas, VerticesThatNothingElseCoversStay) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   SurfaceMesh untouched = whole;
-  EXPECT_EQ(remove_dents(untouched, *scene.isosurface).removed, 0);
+  EXPECT_EQ(remove_inverted_umbrellas(untouched, *scene.isosurface).removed, 0);
   EXPECT_EQ(untouched.triangles, whole.triangles);
   EXPECT_EQ(untouched.points, whole.points);
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
@@ -119,12 +119,12 @@ TEST(Dents, VerticesThatNothingElseCoversStay) {
     // Half a voxel short of the other side.
     const Vec3 there = whole.points[opposite(whole, v)];
     mesh.points[v] = there + 0.5 / distance(there, kCenter) * (kCenter - there);
-    EXPECT_EQ(remove_dents(mesh, *scene.isosurface).removed, 0) << v;
+    EXPECT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 0) << v;
     EXPECT_EQ(mesh.triangles, whole.triangles) << v;
   }
 }
 
-TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
+TEST(InvertedUmbrellas, NothingGoesWhereAnotherPieceIsInTheWay) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
@@ -153,7 +153,7 @@ TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
     mesh.pole_heights.resize(mesh.points.size(), 1);
     set_side_adjacency(mesh);
     const auto before = mesh.triangles;
-    const auto [removed, left] = remove_dents(mesh, *scene.isosurface);
+    const auto [removed, left] = remove_inverted_umbrellas(mesh, *scene.isosurface);
     EXPECT_EQ(removed, 0) << v;
     EXPECT_EQ(mesh.triangles, before) << v;
     // It tells of the dent that stays, and where its rim is.
@@ -167,7 +167,7 @@ TEST(Dents, NothingGoesWhereAnotherPieceIsInTheWay) {
 }
 
 // Whatever the mesh: here a good one with some vertices drawn to others anywhere.
-TEST(Dents, TopologyStaysAndNoCrossingsCome) {
+TEST(InvertedUmbrellas, TopologyStaysAndNoCrossingsCome) {
   std::int64_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const auto scene = testing::noise_scene({9, 8, 9}, seed);
@@ -179,7 +179,7 @@ TEST(Dents, TopologyStaysAndNoCrossingsCome) {
       if (distance(other, p) < 4) p = other + 1e-4 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
     }
     const TriangleMesh before{mesh.points, mesh.triangles};
-    removed += remove_dents(mesh, *scene->isosurface).removed;
+    removed += remove_inverted_umbrellas(mesh, *scene->isosurface).removed;
     const TriangleMesh after{mesh.points, mesh.triangles};
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << "seed " << seed;
     EXPECT_EQ(component_topologies(after), component_topologies(before)) << "seed " << seed;

@@ -1,4 +1,4 @@
-#include "surface/repair/finish/crossing_pieces.h"
+#include "surface/repair/finish/marching_cubes_fallback.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -11,7 +11,7 @@
 
 namespace deliso {
 
-struct Intruders {
+struct ForeignVertices {
   std::int64_t removed = 0;
   std::int64_t left = 0;  // that had to stay
 };
@@ -21,6 +21,6 @@ struct Intruders {
 // stays where there is none, and where no piece of its own component is near: it may stand for a part of that. A disk
 // replaces a disk, so the mesh stays homeomorphic to what it was. `component_of`: the exact component of each vertex,
 // or kNoComponent (mesh_pieces.h).
-Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of);
+ForeignVertices remove_foreign_vertices(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of);
 
 }  // namespace deliso

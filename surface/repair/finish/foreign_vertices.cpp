@@ -1,4 +1,4 @@
-#include "surface/repair/finish/intruders.h"
+#include "surface/repair/finish/foreign_vertices.h"
 
 #include <algorithm>
 #include <map>
@@ -49,9 +49,9 @@ Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> com
 
 }  // namespace
 
-Intruders remove_intruders(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
+ForeignVertices remove_foreign_vertices(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
   const Found found = find_intruders(mesh, component_of);
-  Intruders counted{0, static_cast<std::int64_t>(found.vertices.size())};
+  ForeignVertices counted{0, static_cast<std::int64_t>(found.vertices.size())};
   std::vector<std::uint32_t> intruders = found.vertices;
   std::erase_if(intruders, [&](std::uint32_t v) {
     const std::vector<std::uint32_t>& own = found.triangles_on.at(component_of[v]);

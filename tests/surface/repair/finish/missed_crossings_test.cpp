@@ -1,5 +1,5 @@
 // The crossings that a mesh leaves out, found again by measuring all triangles; and the cells around them.
-#include "surface/repair/finish/left_out.h"
+#include "surface/repair/finish/missed_crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ SurfaceMesh with_hole(const testing::Scene& scene, const Vec3& center, double ra
   return mesh;
 }
 
-TEST(LeftOut, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
+TEST(MissedCrossings, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
   const auto scene = field_scene("torus", 64);
   const Vec3 center = crossing_position(scene->grid, scene->topology.crossings[500]);
   const SurfaceMesh mesh = with_hole(*scene, center, 4);
@@ -45,14 +45,14 @@ TEST(LeftOut, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
   EXPECT_GT(expected.size(), 10u);
   const Vec3 step{1, 1, 1};
   for (const int threads : {1, 3}) {
-    EXPECT_EQ(crossings_left_out(mesh, boxes, scene->grid, scene->topology, step, threads), expected);
+    EXPECT_EQ(missed_crossings(mesh, boxes, scene->grid, scene->topology, step, threads), expected);
   }
-  EXPECT_TRUE(crossings_left_out(mesh, {}, scene->grid, scene->topology, step, 1).empty());
+  EXPECT_TRUE(missed_crossings(mesh, {}, scene->grid, scene->topology, step, 1).empty());
   const SurfaceMesh whole = with_hole(*scene, center, 0);
-  EXPECT_TRUE(crossings_left_out(whole, boxes, scene->grid, scene->topology, step, 1).empty());
+  EXPECT_TRUE(missed_crossings(whole, boxes, scene->grid, scene->topology, step, 1).empty());
 }
 
-TEST(LeftOut, HaveTheActiveCellsAroundThem) {
+TEST(MissedCrossings, HaveTheActiveCellsAroundThem) {
   const auto scene = field_scene("gyroid", 16);
   const RaisedCells cells(scene->grid, *scene->isosurface);
   for (const std::uint32_t crossing : {0u, 100u, 300u}) {

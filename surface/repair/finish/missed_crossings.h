@@ -1,7 +1,7 @@
 // Parts of the surface that a repaired mesh has lost at its dents.
 //
 // Where repair joins two sheets at the wrong place, a tunnel for a tunnel, the topology may be right and yet one sheet
-// drawn far through a wall. Its vertices have to stay (dents.h), and no refinement brings it back.
+// drawn far through a wall. Its vertices have to stay (inverted_umbrellas.h), and no refinement brings it back.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace deliso {
 
 // The grid-edge crossings (places in topology.crossings) in some boxes of mesh space that a mesh does not cover (see
 // coverage.h), ascending. `step`: of the grid, in mesh space.
-std::vector<std::uint32_t> crossings_left_out(const SurfaceMesh& mesh, std::span<const Box3> boxes,
-                                              const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                              const Vec3& step, int threads);
+std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<const Box3> boxes,
+                                            const ScalarGrid& grid, const IsosurfaceTopology& topology,
+                                            const Vec3& step, int threads);
 
 // The active cells within three layers of one that holds a crossing, for some crossings; may repeat cells.
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
