@@ -85,7 +85,7 @@ class TroubleFinder {
   const IsosurfaceTopology& topology_;
   const SignedDelaunay& restricted_;
   const MatchedMesh& mesh_;
-  const RaisedCells& cells_;
+  const CellLevels& cells_;
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<IndexRanges>& places_;  // of each exact component

@@ -7,7 +7,7 @@
 
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/signs/critical_places.h"
 #include "surface/restricted/signed_delaunay.h"
 #include "volume/topology/exact_topology.h"
@@ -20,7 +20,7 @@ struct DefectContext {
   const IsosurfaceTopology& topology;
   const SignedDelaunay& restricted;
   const MatchedMesh& mesh;
-  const RaisedCells& cells;
+  const CellLevels& cells;
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   const std::vector<IndexRanges>& places;                 // of each exact component

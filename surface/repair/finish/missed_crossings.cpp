@@ -44,7 +44,7 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
 }
 
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
-                                   const IsosurfaceTopology& topology, const RaisedCells& cells) {
+                                   const IsosurfaceTopology& topology, const CellLevels& cells) {
   std::vector<CellName> found;
   for (const std::uint32_t crossing : crossings) {
     const Vec3 p = crossing_position(grid, topology.crossings[crossing]);

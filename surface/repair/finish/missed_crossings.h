@@ -10,7 +10,7 @@
 
 #include "delaunay/base/box3.h"
 #include "surface/mesh/surface_mesh.h"
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -24,6 +24,6 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
 
 // The active cells within three layers of one that holds a crossing, for some crossings; may repeat cells.
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
-                                   const IsosurfaceTopology& topology, const RaisedCells& cells);
+                                   const IsosurfaceTopology& topology, const CellLevels& cells);
 
 }  // namespace deliso

@@ -26,7 +26,7 @@ void make_partial(ComponentMatch& match, std::uint32_t component) {
 
 }  // namespace
 
-RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
+RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
                          std::unique_ptr<SignedDelaunay> restricted, int threads)
     : grid_(grid),
       topology_(topology),

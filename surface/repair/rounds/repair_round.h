@@ -16,7 +16,7 @@
 #include "surface/extract/facet_pairing.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/diagnosis/small_components.h"
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/signs/critical_places.h"
 #include "surface/repair/signs/flat_signs.h"
 #include "surface/repair/signs/founded_signs.h"
@@ -32,7 +32,7 @@ class RepairRound {
  public:
   // The signs of `restricted` are those of the circumcenters. Keeps references to the others. Nothing but the
   // time depends on the number of threads.
-  RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const RaisedCells& raised,
+  RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
               std::unique_ptr<SignedDelaunay> restricted, int threads);
 
   // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
@@ -107,7 +107,7 @@ class RepairRound {
 
   const ScalarGrid& grid_;
   const IsosurfaceTopology& topology_;
-  const RaisedCells& raised_;
+  const CellLevels& raised_;
   SmallComponents specks_;
   int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;

@@ -15,9 +15,9 @@
 #include "surface/repair/diagnosis/euler_differences.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/lattice/raised_cells.h"
-#include "surface/repair/lattice/repair_samples.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/lattice/sample_lattice.h"
+#include "surface/repair/lattice/samples.h"
 #include "surface/repair/rounds/kept_meshes.h"
 #include "surface/repair/rounds/repair_round.h"
 
@@ -85,9 +85,9 @@ class RepairRounds {
   std::int64_t rounds_around_ = 0;  // of them by mend_around()
   std::vector<CellName> along_;     // cells that the next round raises, too
   SampleLattice lattice_;
-  RaisedCells raised_;
+  CellLevels raised_;
   std::optional<RepairRound> round_;
-  RepairSamples samples_;              // its vertices
+  Samples samples_;                    // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   KeptMeshes kept_;
   EulerDifferences differences_;

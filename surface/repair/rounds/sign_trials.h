@@ -15,7 +15,7 @@
 #include "surface/base/controls.h"
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/rounds/repair_round.h"
 #include "surface/repair/signs/disputed_signs.h"
 
@@ -24,7 +24,7 @@ namespace deliso {
 class SignTrials {
  public:
   // Keeps references. `places`: of each component, those at which its main piece parts from it.
-  SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const RaisedCells& cells,
+  SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
              std::span<const SignRule> rules, const std::vector<IndexRanges>& places);
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
@@ -42,7 +42,7 @@ class SignTrials {
 
   RepairRound& round_;
   const IsosurfaceTopology& topology_;
-  const RaisedCells& cells_;
+  const CellLevels& cells_;
   const std::vector<IndexRanges>& places_;
   std::vector<TetSigns> signs_by_rule_;
   struct Single {

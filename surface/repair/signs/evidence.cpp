@@ -204,7 +204,7 @@ void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-void RaisedEvidence::update(const RaisedCells& raised, int threads) {
+void RaisedEvidence::update(const CellLevels& raised, int threads) {
   sides_.resize(restricted_.delaunay().tet_slots(), kNoEvidence);
   // Cells that have been raised once stay so.
   std::vector<Trace> traces;

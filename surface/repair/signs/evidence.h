@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/restricted/signed_delaunay.h"
 
 namespace deliso {
@@ -30,7 +30,7 @@ class RaisedEvidence {
   // Takes account of an exchange of points; update() is to follow.
   void renew(const ExchangedPoints& exchanged);
   // Takes account of the cells that are raised by now. The same for any number of threads.
-  void update(const RaisedCells& raised, int threads = 1);
+  void update(const CellLevels& raised, int threads = 1);
 
   // Of each slot.
   [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }

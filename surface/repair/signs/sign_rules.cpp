@@ -73,7 +73,7 @@ bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3
 
 }  // namespace
 
-SignRules::SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised, int threads)
+SignRules::SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads)
     : restricted_(restricted), raised_(raised), threads_(threads), evidence_(restricted, grid) {
   update();
 }
@@ -127,7 +127,7 @@ void SignRules::update_candidates() {
     const auto at = zones_.find(homes_[i]);
     if (at == zones_.end()) return;
     const Vec3 centroid = shape_of(restricted_, t).centroid;
-    const bool in_ring = at->second == RaisedCells::Zone::kRing;
+    const bool in_ring = at->second == CellLevels::Zone::kRing;
     candidates.push_back({t, in_ring, restricted_.isosurface().is_above(centroid),
                           !in_ring && has_opposed_gradients(restricted_, t, centroid)});
   };

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/signs/evidence.h"
 #include "surface/restricted/signed_delaunay.h"
 
@@ -33,7 +33,7 @@ inline constexpr std::array<SignRule, 5> kSignRules = {SignRule::kAsBefore, Sign
 class SignRules {
  public:
   // Keeps references. What is found does not depend on the number of threads.
-  SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const RaisedCells& raised, int threads);
+  SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads);
 
   // Takes account of an exchange of points; update() is to follow.
   void renew(const ExchangedPoints& exchanged);
@@ -60,14 +60,14 @@ class SignRules {
   void update_candidates();
 
   SignedDelaunay& restricted_;
-  const RaisedCells& raised_;
+  const CellLevels& raised_;
   int threads_;
   RaisedEvidence evidence_;
   std::vector<std::pair<TetId, bool>> overruled_;  // small tetrahedra with evidence of one side: whether it is above
   // Found when first needed:
   bool are_candidates_stale_ = true;
   std::vector<CellName> homes_;        // of each slot: the cell that holds a small tetrahedron's centroid
-  RaisedCells::Zones zones_;           // as they were when the candidates were found
+  CellLevels::Zones zones_;            // as they were when the candidates were found
   std::vector<TetId> renewed_;         // since then
   std::vector<Candidate> candidates_;  // for the sign of their centroid
 };

@@ -24,7 +24,7 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
       const EdgeCrossing& crossing = scene_->topology.crossings[i];
       samples.push_back(scaled(crossing_position(scene_->grid, crossing), scene_->isosurface->step()));
     }
-    RaisedCells cells(scene_->grid, *scene_->isosurface);
+    CellLevels cells(scene_->grid, *scene_->isosurface);
     RepairRound round(scene_->grid, scene_->topology, cells,
                       std::make_unique<SignedDelaunay>(*scene_->isosurface, samples), 1);
     round.take_plain_signs();

@@ -54,7 +54,7 @@ TEST(MissedCrossings, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
 
 TEST(MissedCrossings, HaveTheActiveCellsAroundThem) {
   const auto scene = field_scene("gyroid", 16);
-  const RaisedCells cells(scene->grid, *scene->isosurface);
+  const CellLevels cells(scene->grid, *scene->isosurface);
   for (const std::uint32_t crossing : {0u, 100u, 300u}) {
     ASSERT_LT(crossing, scene->topology.crossings.size());
     const Vec3 p = crossing_position(scene->grid, scene->topology.crossings[crossing]);

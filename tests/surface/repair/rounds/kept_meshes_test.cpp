@@ -63,7 +63,7 @@ struct Attempts {
       round.set_signs(before);
     }
   }
-  RaisedCells cells;
+  CellLevels cells;
   RepairRound round;
   std::vector<MatchedMesh> meshes;
   std::vector<TetSigns> signs;

@@ -119,7 +119,7 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
 }
 
 // Raises some active cells one level.
-void raise_some(const Scene& scene, RaisedCells& raised, Rng& rng) {
+void raise_some(const Scene& scene, CellLevels& raised, Rng& rng) {
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
     if (rng.below(40) == 0) cells.push_back(raised.name(cell));
@@ -130,7 +130,7 @@ void raise_some(const Scene& scene, RaisedCells& raised, Rng& rng) {
 void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool is_grown = false) {
   Rng rng(seed);
   const SampleLattice lattice(scene.grid, scene.isovalue, scene.topology);
-  RaisedCells raised(scene.grid, *scene.isosurface);
+  CellLevels raised(scene.grid, *scene.isosurface);
   const std::vector<Vec3> start = all_crossings(scene);
   RepairRound continued(scene.grid, scene.topology, raised,
                         is_grown ? grown(scene, start) : triangulation(scene, start), threads);
@@ -194,7 +194,7 @@ TEST(RepairRound, AttemptsAreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto scene = noise_scene({11, 10, 9}, seed);
     Rng rng(seed);
-    RaisedCells raised(scene->grid, *scene->isosurface);
+    CellLevels raised(scene->grid, *scene->isosurface);
     raise_some(*scene, raised, rng);
     const auto never = [](const MatchedMesh&) { return false; };
     for (const int threads : {1, 2, 3}) {
@@ -223,7 +223,7 @@ TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto scene = noise_scene({11, 10, 9}, seed);
     Rng rng(seed);
-    RaisedCells raised(scene->grid, *scene->isosurface);
+    CellLevels raised(scene->grid, *scene->isosurface);
     raise_some(*scene, raised, rng);
     RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
     round.take_signs(SignRule::kCentroid);
@@ -261,7 +261,7 @@ TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
 
 TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
   const auto scene = noise_scene({9, 9, 9}, 1);
-  const RaisedCells raised(scene->grid, *scene->isosurface);
+  const CellLevels raised(scene->grid, *scene->isosurface);
   RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
   round.take_signs(SignRule::kCircumcenter);
   ExchangedPoints exchanged;
@@ -277,7 +277,7 @@ TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
-  RaisedCells raised(scene->grid, *scene->isosurface);
+  CellLevels raised(scene->grid, *scene->isosurface);
   RepairRound round(scene->grid, scene->topology, raised, triangulation(*scene, points), 1);
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};

@@ -150,7 +150,7 @@ std::int64_t amount_missing(const MatchedMesh& mesh, const ComponentTopology& wa
          std::abs(want.boundary_loops - have.boundary_loops);
 }
 
-IndexRanges places_at(const RaisedCells& cells, const Tetrahedralization& delaunay, TetId t) {
+IndexRanges places_at(const CellLevels& cells, const Tetrahedralization& delaunay, TetId t) {
   Vec3 centre;
   for (const VertexId v : delaunay.vertices(t)) centre += 0.25 * delaunay.point(v);
   const CellIndex cell = cells.cell_of(centre);
@@ -167,7 +167,7 @@ TEST(SignTrials, MendASpoiltPlace) {
   int mended = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto scene = noise_scene({7, 7, 7}, seed);
-    const RaisedCells cells(scene->grid, *scene->isosurface);
+    const CellLevels cells(scene->grid, *scene->isosurface);
     RepairRound round(scene->grid, scene->topology, cells,
                       std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)), 1);
     round.take_signs(SignRule::kCircumcenter);

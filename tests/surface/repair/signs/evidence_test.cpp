@@ -15,14 +15,14 @@ using testing::noise_scene;
 using testing::Scene;
 
 std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const RaisedCells& raised, int threads = 1) {
+                                      const CellLevels& raised, int threads = 1) {
   RaisedEvidence evidence(restricted, grid);
   evidence.update(raised, threads);
   return evidence.sides();
 }
 
-RaisedCells everywhere(const Scene& scene) {
-  RaisedCells raised(scene.grid, *scene.isosurface);
+CellLevels everywhere(const Scene& scene) {
+  CellLevels raised(scene.grid, *scene.isosurface);
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell(
       [&](const CellIndex& cell, unsigned) { cells.push_back(raised.name(cell)); });
@@ -35,7 +35,7 @@ TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
-    const RaisedCells raised = everywhere(*scene);
+    const CellLevels raised = everywhere(*scene);
     const std::vector<std::uint8_t> evidence = evidence_in(signed_delaunay, scene->grid, raised);
     TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
     for (const auto& [name, level] : raised.levels()) {
@@ -63,7 +63,7 @@ TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
 TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
   for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
     const SignedDelaunay signed_delaunay = dense(*scene);
-    const RaisedCells raised = everywhere(*scene);
+    const CellLevels raised = everywhere(*scene);
     EXPECT_GT(raised.levels().size(), 4096u);
     const std::vector<std::uint8_t> one = evidence_in(signed_delaunay, scene->grid, raised);
     EXPECT_GT(std::count(one.begin(), one.end(), kAbove), 1000) << scene->name;
@@ -74,7 +74,7 @@ TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
 TEST(Evidence, IsNoneWithoutRaisedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
-  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, RaisedCells(scene->grid, *scene->isosurface))) {
+  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, CellLevels(scene->grid, *scene->isosurface))) {
     ASSERT_EQ(e, kNoEvidence);
   }
 }

@@ -15,9 +15,9 @@ namespace deliso {
 // The linear index of a cell's lowest sample names it.
 using CellName = std::uint64_t;
 
-class RaisedCells {
+class CellLevels {
  public:
-  RaisedCells(const ScalarGrid& grid, const Isosurface& isosurface) : grid_(grid), isosurface_(isosurface) {}
+  CellLevels(const ScalarGrid& grid, const Isosurface& isosurface) : grid_(grid), isosurface_(isosurface) {}
 
   [[nodiscard]] const Dims& dims() const { return grid_.dims(); }
   [[nodiscard]] CellName name(const CellIndex& c) const { return grid_.index(c[0], c[1], c[2]); }

@@ -1,4 +1,4 @@
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@ constexpr double kOnSide = 1e-6;
 
 }  // namespace
 
-CellIndex RaisedCells::cell(CellName name) const {
+CellIndex CellLevels::cell(CellName name) const {
   const auto nx = static_cast<std::uint64_t>(grid_.dims()[0]);
   const auto ny = static_cast<std::uint64_t>(grid_.dims()[1]);
   return {static_cast<std::int32_t>(name % nx), static_cast<std::int32_t>(name / nx % ny),
           static_cast<std::int32_t>(name / nx / ny)};
 }
 
-CellIndex RaisedCells::cell_of(const Vec3& p) const {
+CellIndex CellLevels::cell_of(const Vec3& p) const {
   CellIndex cell{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double last = grid_.dims()[axis] - 2;
@@ -32,7 +32,7 @@ CellIndex RaisedCells::cell_of(const Vec3& p) const {
   return cell;
 }
 
-void RaisedCells::append_cells_of(const Vec3& p, std::vector<CellName>& cells) const {
+void CellLevels::append_cells_of(const Vec3& p, std::vector<CellName>& cells) const {
   const Vec3 margin = kOnSide * isosurface_.step();
   const CellIndex low = cell_of(p - margin);
   const CellIndex high = cell_of(p + margin);
@@ -43,7 +43,7 @@ void RaisedCells::append_cells_of(const Vec3& p, std::vector<CellName>& cells) c
   }
 }
 
-void RaisedCells::raise(std::vector<CellName> cells) {
+void CellLevels::raise(std::vector<CellName> cells) {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   for (const CellName cell : cells) {
@@ -53,7 +53,7 @@ void RaisedCells::raise(std::vector<CellName> cells) {
   grade();
 }
 
-void RaisedCells::grade() {
+void CellLevels::grade() {
   std::vector<CellName> stack;
   for (const auto& [cell, level] : level_) {
     if (level >= kGradedLevel) stack.push_back(cell);
@@ -71,7 +71,7 @@ void RaisedCells::grade() {
   }
 }
 
-std::vector<CellName> RaisedCells::extend(Zones& zones) const {
+std::vector<CellName> CellLevels::extend(Zones& zones) const {
   std::vector<CellName> changed;
   for (const auto& [at, level] : level_) {
     const auto [zone, is_new] = zones.try_emplace(at, Zone::kRaised);
@@ -86,7 +86,7 @@ std::vector<CellName> RaisedCells::extend(Zones& zones) const {
 }
 
 template <class Visit>
-void RaisedCells::for_each_neighbour(const CellIndex& cell, Visit visit) const {
+void CellLevels::for_each_neighbour(const CellIndex& cell, Visit visit) const {
   for (std::int32_t dk = -1; dk <= 1; ++dk) {
     for (std::int32_t dj = -1; dj <= 1; ++dj) {
       for (std::int32_t di = -1; di <= 1; ++di) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/repair/lattice/raised_cells.h"
+#include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/lattice/sample_lattice.h"
 #include "surface/restricted/signed_delaunay.h"
 
@@ -25,17 +25,17 @@ struct Resampling {
 };
 
 // Always the vertices of the triangulation, in order, but for virtual ones, once the calls below have told of a change.
-class RepairSamples {
+class Samples {
  public:
   // All of them free.
-  explicit RepairSamples(const SignedDelaunay& restricted);
+  explicit Samples(const SignedDelaunay& restricted);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] std::vector<Vec3> points() const;
 
   // What raised cells ask for: free samples in them go, lattice samples come. Free samples on the box stay: they carry
   // its boundary curves.
-  [[nodiscard]] Resampling resampling(const RaisedCells& raised, const SampleLattice& lattice,
+  [[nodiscard]] Resampling resampling(const CellLevels& raised, const SampleLattice& lattice,
                                       const Isosurface& isosurface) const;
   // Whether so few samples change that they are best exchanged in the triangulation as it is.
   [[nodiscard]] bool changes_few(const Resampling& resampling) const;

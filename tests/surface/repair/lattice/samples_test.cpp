@@ -1,4 +1,4 @@
-#include "surface/repair/lattice/repair_samples.h"
+#include "surface/repair/lattice/samples.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::noise_scene;
 
 // The samples are the vertices, one by one, however they came to be: with lattice samples that equal free ones or stand
 // where one has gone.
-TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
+TEST(Samples, StayTheVerticesOfTheTriangulation) {
   int exchanges = 0;
   int rebuilds = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -22,9 +22,9 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
     const auto scene = noise_scene({9, 8, 9}, seed);
     std::vector<Vec3> points = testing::crossing_points(*scene);  // lattice samples of level 1 equal these
     auto restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, points);
-    RepairSamples samples(*restricted);
+    Samples samples(*restricted);
     const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
-    RaisedCells raised(scene->grid, *scene->isosurface);
+    CellLevels raised(scene->grid, *scene->isosurface);
     Rng rng(seed);
     for (int round = 0; round < 6; ++round) {
       std::vector<CellName> cells;
