@@ -13,8 +13,8 @@
 #include "surface/repair/finish/inverted_umbrellas.h"
 #include "surface/repair/finish/marching_cubes_fallback.h"
 #include "surface/repair/finish/missed_crossings.h"
-#include "surface/repair/rounds/kept_meshes.h"
-#include "surface/repair/rounds/repair_rounds.h"
+#include "surface/repair/rounds/component_selection.h"
+#include "surface/repair/rounds/rounds.h"
 
 namespace deliso {
 
@@ -61,7 +61,7 @@ class Repair {
   Ending take_ending();
   void return_to(Ending ending);
   bool ends_without_intruders();
-  bool assemble(const KeptMeshes& kept);
+  bool assemble(const ComponentSelection& kept);
   void polygonize_rest();
   bool take_intruders_out();
 
@@ -69,7 +69,7 @@ class Repair {
   const Isosurface& isosurface_;
   int threads_;
   RepairStats& stats_;
-  RepairRounds rounds_;
+  Rounds rounds_;
   AssembledMesh result_;              // at last
   std::vector<bool> is_polygonized_;  // of each component in it
   std::vector<Box3> dents_;           // left in it
@@ -103,7 +103,7 @@ bool Repair::mend(std::int32_t max_rounds, Controls& controls) {
 // The mesh of what has been mended, without its dents. What another round would need stays, if there may be one.
 void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& controls) {
   if (!is_assembled) {
-    const KeptMeshes& kept = rounds_.kept();
+    const ComponentSelection& kept = rounds_.kept();
     if (!rounds_.is_done() || !rounds_.may_go_on(max_rounds) || controls.poll()) rounds_.end();
     if (!assemble(kept)) polygonize_rest();
     if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
@@ -193,7 +193,7 @@ bool Repair::ends_without_intruders() {
 
 // Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
 // dropped. Whether that is all of them.
-bool Repair::assemble(const KeptMeshes& kept) {
+bool Repair::assemble(const ComponentSelection& kept) {
   result_ = kept.assemble(is_polygonized_, isosurface_.box(), threads_, stats_);
   return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
 }

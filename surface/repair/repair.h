@@ -4,7 +4,7 @@
 // each flagged cell one level of the sample lattice and exchange samples in the triangulation (its free samples go,
 // lattice samples come); take signs as they were before or by one rule after another and match the pieces of each mesh
 // with the exact components; where a few handles are wrong, find the places (euler_boxes.h, and from the third round on
-// angle_defect_grid.h) and turn over single disputed signs (sign_trials.h). A component is done when its main piece has
+// angle_defect_grid.h) and turn over single disputed signs (sign_search.h). A component is done when its main piece has
 // its topology, holds no vertex of another component and lies near all of it. At the end each component is taken from
 // the latest mesh that has it at its best; one that no mesh has right is meshed by marching cubes, whose topology is
 // exact, and reported. Vertices of other components (foreign_vertices.h) and dents (inverted_umbrellas.h) are removed

@@ -7,7 +7,7 @@
 
 #include "surface/repair/diagnosis/angle_defect_grid.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/rounds/repair_round.h"
+#include "surface/repair/rounds/round.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -25,8 +25,8 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
       samples.push_back(scaled(crossing_position(scene_->grid, crossing), scene_->isosurface->step()));
     }
     CellLevels cells(scene_->grid, *scene_->isosurface);
-    RepairRound round(scene_->grid, scene_->topology, cells,
-                      std::make_unique<SignedDelaunay>(*scene_->isosurface, samples), 1);
+    Round round(scene_->grid, scene_->topology, cells, std::make_unique<SignedDelaunay>(*scene_->isosurface, samples),
+                1);
     round.take_plain_signs();
     mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
   }

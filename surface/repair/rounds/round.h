@@ -28,12 +28,12 @@
 
 namespace deliso {
 
-class RepairRound {
+class Round {
  public:
   // The signs of `restricted` are those of the circumcenters. Keeps references to the others. Nothing but the
   // time depends on the number of threads.
-  RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
-              std::unique_ptr<SignedDelaunay> restricted, int threads);
+  Round(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
+        std::unique_ptr<SignedDelaunay> restricted, int threads);
 
   // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
   // SignedDelaunay::exchange; when that says no, this round is of no more use. `keeps_signs`: the signs as they

@@ -1,4 +1,4 @@
-#include "surface/repair/rounds/repair_round.h"
+#include "surface/repair/rounds/round.h"
 
 #include <algorithm>
 #include <atomic>
@@ -26,8 +26,8 @@ void make_partial(ComponentMatch& match, std::uint32_t component) {
 
 }  // namespace
 
-RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
-                         std::unique_ptr<SignedDelaunay> restricted, int threads)
+Round::Round(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
+             std::unique_ptr<SignedDelaunay> restricted, int threads)
     : grid_(grid),
       topology_(topology),
       raised_(raised),
@@ -42,7 +42,7 @@ RepairRound::RepairRound(const ScalarGrid& grid, const IsosurfaceTopology& topol
 }
 
 // Of the vertices from this one on.
-void RepairRound::find_components(std::size_t first_vertex) {
+void Round::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), 0);
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
@@ -58,8 +58,8 @@ void RepairRound::find_components(std::size_t first_vertex) {
   for_each_block(component_of_vertex_.size() - first_vertex, threads_, find, kVerticesAtOnce);
 }
 
-bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
-                           ExchangedPoints& exchanged) {
+bool Round::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
+                     ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
   forget_rules();
   at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
@@ -88,24 +88,24 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   return true;
 }
 
-void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
+void Round::keep_signs(const ExchangedPoints& exchanged) {
   as_before_ = restricted_->signs();
   rules_->take_signs(SignRule::kCentroidWithRing, at_circumcenters_);
   const TetSigns by_rule = restricted_->signs();
   for (const TetId t : exchanged.renewed) as_before_[t.index()] = by_rule[t.index()];
 }
 
-void RepairRound::settle_signs() {
+void Round::settle_signs() {
   flat_.settle(*restricted_);
   unfounded_.overturn(*restricted_);
 }
 
-void RepairRound::take_plain_signs() {
+void Round::take_plain_signs() {
   restricted_->set_signs(at_circumcenters_);
   settle_signs();
 }
 
-void RepairRound::take_signs(SignRule rule) {
+void Round::take_signs(SignRule rule) {
   TetSigns& known = signs_by_rule_[static_cast<std::size_t>(rule)];
   if (!known.empty()) return restricted_->set_signs(known);
   if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
@@ -114,13 +114,13 @@ void RepairRound::take_signs(SignRule rule) {
   known = restricted_->signs();
 }
 
-void RepairRound::overturn(std::span<const TetId> tets) {
+void Round::overturn(std::span<const TetId> tets) {
   for (const TetId t : tets) restricted_->overturn_sign(t);
   settle_signs();
 }
 
 // None when they would be the same as the last time in this round.
-std::optional<PairedTriangles> RepairRound::take_triangles(const TetSigns& signs) {
+std::optional<PairedTriangles> Round::take_triangles(const TetSigns& signs) {
   if (!pairing_) {
     pairing_.emplace(*restricted_, signs, threads_);
   } else if (!pairing_->update(signs) && has_assembled_) {
@@ -130,14 +130,14 @@ std::optional<PairedTriangles> RepairRound::take_triangles(const TetSigns& signs
   return pairing_->triangles();
 }
 
-std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
+std::optional<MatchedMesh> Round::assemble(const IsOfUse& is_of_use) {
   std::optional<PairedTriangles> triangles = take_triangles(restricted_->signs());
   if (!triangles) return std::nullopt;
   return finished(*std::move(triangles), is_of_use, threads_);
 }
 
-std::vector<RepairRound::Attempt> RepairRound::attempts(std::span<const SignRule> rules,
-                                                        const std::function<bool(const MatchedMesh&)>& is_last) {
+std::vector<Round::Attempt> Round::attempts(std::span<const SignRule> rules,
+                                            const std::function<bool(const MatchedMesh&)>& is_last) {
   std::vector<Attempt> attempts(rules.size());
   std::vector<std::optional<PairedTriangles>> triangles(rules.size());
   std::atomic<bool> has_last = false;
@@ -161,7 +161,7 @@ std::vector<RepairRound::Attempt> RepairRound::attempts(std::span<const SignRule
 }
 
 // Takes no account of signs, so that several threads may finish one mesh each while signs change.
-std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads) {
+std::optional<MatchedMesh> Round::finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads) {
   const std::vector<FacetId> facets = std::move(triangles.facets);
   MatchedMesh mesh{build_triangle_mesh(*restricted_, std::move(triangles)), {}, {}};
   mesh.component.reserve(mesh.built.vertex_of.size());
@@ -175,7 +175,7 @@ std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, cons
 
 // A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
 // tell: each must have one of their triangles near. `facets`: of the triangles, ascending, but for the last ones.
-void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads) {
+void Round::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads) {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
     const std::uint32_t piece = match.piece_of[v];
@@ -222,7 +222,7 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
 
 // The grid-edge crossings of components with strays in the cells that strays have vertices in: a stray may be a part of
 // the surface that has come off, larger than its few samples tell.
-std::vector<std::uint32_t> RepairRound::crossings_at_strays(const MatchedMesh& mesh) const {
+std::vector<std::uint32_t> Round::crossings_at_strays(const MatchedMesh& mesh) const {
   const ComponentMatch& match = mesh.match;
   std::vector<std::uint32_t> found;
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {

@@ -10,7 +10,7 @@
 #include "surface/certificate/component_match.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/rounds/repair_round.h"
+#include "surface/repair/rounds/round.h"
 
 namespace deliso {
 
@@ -20,9 +20,9 @@ struct AssembledMesh {
   std::vector<std::uint32_t> component;
 };
 
-class KeptMeshes {
+class ComponentSelection {
  public:
-  explicit KeptMeshes(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
+  explicit ComponentSelection(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
 
   // Of each exact component: needs no more work.
   [[nodiscard]] const std::vector<bool>& done() const { return done_; }
@@ -41,7 +41,7 @@ class KeptMeshes {
   // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes.
-  void give_poles(RepairRound& round);
+  void give_poles(Round& round);
   // Every component as the latest mesh that agrees with it at its best has it, less the copies of vertices that find no
   // place on the surface; unless no mesh has all of it or such a copy cannot be taken out: then it is `left`.
   // Precondition: the meshes have pole heights.

@@ -1,4 +1,4 @@
-#include "surface/repair/rounds/repair_rounds.h"
+#include "surface/repair/rounds/rounds.h"
 
 #include <algorithm>
 #include <set>
@@ -11,7 +11,7 @@
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/finish/missed_crossings.h"
-#include "surface/repair/rounds/sign_trials.h"
+#include "surface/repair/rounds/sign_search.h"
 #include "surface/repair/signs/sign_rules.h"
 #include "surface/restricted/poles.h"
 
@@ -30,8 +30,8 @@ constexpr std::int32_t kRoundOfAllTrouble = 3;
 
 }  // namespace
 
-RepairRounds::RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
-                           RepairStats& stats)
+Rounds::Rounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
+               RepairStats& stats)
     : facts_(facts),
       grid_(facts.grid()),
       isosurface_(restricted->isosurface()),
@@ -52,7 +52,7 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<Signe
   kept_.keep(mesh_, round_->restricted().signs());
 }
 
-bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls) {
+bool Rounds::mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls) {
   while (stats_.rounds < max_rounds && !kept_.is_done() && !controls.poll()) {
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
@@ -69,7 +69,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
 }
 
 // With these cells raised. False when signs alone did.
-bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
+bool Rounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   raised_.raise(std::move(cells));
   if (stats_.rounds == 0 && try_rule(SignRule::kCircumcenter)) return false;  // may do without new samples
   resample();
@@ -81,26 +81,25 @@ bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   return true;
 }
 
-void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
+void Rounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
   reopen(crossings);
   mend_once(cells_around(crossings, grid_, topology_, raised_), controls);
   ++rounds_around_;
 }
 
-void RepairRounds::take_along(std::span<const std::uint32_t> crossings) {
+void Rounds::take_along(std::span<const std::uint32_t> crossings) {
   reopen(crossings);
   along_ = cells_around(crossings, grid_, topology_, raised_);
 }
 
 // Their components.
-void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
+void Rounds::reopen(std::span<const std::uint32_t> crossings) {
   std::set<std::uint32_t> components;
   for (const std::uint32_t crossing : crossings) components.insert(topology_.crossings[crossing].component);
   for (const std::uint32_t c : components) kept_.reopen(c);
 }
 
-std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs,
-                                                      const SurfaceMesh& mesh) const {
+std::vector<std::uint32_t> Rounds::crossings_at(std::span<const TrianglePair> pairs, const SurfaceMesh& mesh) const {
   std::vector<std::uint32_t> triangles;
   for (const TrianglePair& pair : pairs) triangles.insert(triangles.end(), {pair.first, pair.second});
   std::vector<bool> is_met(topology_.components.size(), false);
@@ -119,7 +118,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
 }
 
 // Its copies moved apart, with the poles of the samples as they are.
-SurfaceMesh RepairRounds::as_it_is() {
+SurfaceMesh Rounds::as_it_is() {
   BuiltMesh built = mesh_->built;
   separate_pinches(built.mesh, built.groups, built.vertex_of, isosurface_.box());
   const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
@@ -130,7 +129,7 @@ SurfaceMesh RepairRounds::as_it_is() {
 
 // Exchanges samples: in the triangulation as it is when few change, else in one made anew, before the present one goes
 // where there are threads for both.
-void RepairRounds::resample() {
+void Rounds::resample() {
   const Resampling resampling = samples_.resampling(raised_, lattice_, isosurface_);
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || threads_ == 1) kept_.give_poles(*round_);
@@ -153,11 +152,11 @@ void RepairRounds::resample() {
 }
 
 // Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
-bool RepairRounds::try_rule(SignRule rule) {
+bool Rounds::try_rule(SignRule rule) {
   return take(round_->attempts(std::span(&rule, 1), [](const MatchedMesh&) { return true; }).front());
 }
 
-bool RepairRounds::take(RepairRound::Attempt& attempt) {
+bool Rounds::take(Round::Attempt& attempt) {
   if (!attempt.mesh) return false;
   mesh_ = std::make_shared<MatchedMesh>(*std::move(attempt.mesh));
   kept_.keep(mesh_, attempt.signs);
@@ -165,14 +164,14 @@ bool RepairRounds::take(RepairRound::Attempt& attempt) {
 }
 
 // One rule after another until every component is done; the mesh with the smallest error stays.
-void RepairRounds::try_rules(Controls& controls) {
+void Rounds::try_rules(Controls& controls) {
   std::shared_ptr<MatchedMesh> best;
   TetSigns signs;
   const std::span<const SignRule> rules = round_->rules();
   const std::size_t at_once = threads_ > 1 ? rules.size() : 1;
   bool is_over = false;
   for (std::size_t first = 0; first < rules.size() && !is_over; first += at_once) {
-    for (RepairRound::Attempt& attempt :
+    for (Round::Attempt& attempt :
          round_->attempts(rules.subspan(first, at_once), [&](const auto& m) { return kept_.would_be_done(m); })) {
       if (take(attempt)) return round_->set_signs(attempt.signs);
       is_over = controls.poll();
@@ -188,10 +187,10 @@ void RepairRounds::try_rules(Controls& controls) {
 }
 
 // Single signs near the places where a component is wrong.
-void RepairRounds::try_signs(Controls& controls) {
+void Rounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
   const std::vector<IndexRanges> places = places_of_difference(kMostPlaces, stats_.rounds + 1 >= kRoundOfAllTrouble);
-  std::optional<SignTrials> trials;
+  std::optional<SignSearch> trials;
   for (std::uint32_t c = 0; c < places.size(); ++c) {
     if (kept_.done()[c] || places[c].all.empty()) continue;
     if (!trials) trials.emplace(*round_, topology_, raised_, round_->rules(), places);

@@ -1,5 +1,5 @@
 // What is taken from the kept meshes at last must not depend on what was dropped of them meanwhile.
-#include "surface/repair/rounds/kept_meshes.h"
+#include "surface/repair/rounds/component_selection.h"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ struct Attempts {
     }
   }
   CellLevels cells;
-  RepairRound round;
+  Round round;
   std::vector<MatchedMesh> meshes;
   std::vector<TetSigns> signs;
 };
@@ -100,7 +100,7 @@ void expect_true_components(const AssembledMesh& assembled, const Scene& scene) 
   EXPECT_GT(2 * unmoved, assembled.component.size());
 }
 
-TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
+TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   std::size_t given_by_earlier = 0, mended = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -108,7 +108,7 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
     const std::size_t components = scene->topology.components.size();
     const Box3& box = scene->isosurface->box();
     Attempts attempts(*scene, seed);
-    KeptMeshes kept(components);
+    ComponentSelection kept(components);
     // The same by hand: which mesh gives each component.
     std::vector<Agreement> best(components, Agreement::kNone);
     std::vector<std::optional<std::size_t>> giver(components);
@@ -172,14 +172,14 @@ TEST(KeptMeshes, GiveEachComponentAsTheLatestOfTheBestHasIt) {
 }
 
 // A component that is opened again is given by later meshes alone.
-TEST(KeptMeshes, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
+TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   const auto scene = blobs(1);
   const Box3& box = scene->isosurface->box();
   const std::size_t components = scene->topology.components.size();
   Attempts attempts(*scene, 1);
   std::vector<bool> left;
   RepairStats stats;
-  KeptMeshes kept(components);
+  ComponentSelection kept(components);
   kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
   kept.give_poles(attempts.round);
   const AssembledMesh before = kept.assemble(left, box, 1, stats);
@@ -188,7 +188,7 @@ TEST(KeptMeshes, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
     const bool is_right = attempts.meshes[0].match.agreement[c] >= Agreement::kWithStrays;
     if (!is_right || left[c]) continue;
     ++reopened;
-    KeptMeshes again = kept;
+    ComponentSelection again = kept;
     again.reopen(c);
     EXPECT_FALSE(again.done()[c]);
     EXPECT_FALSE(again.is_done_but_for_mixing());

@@ -1,5 +1,5 @@
 // Rounds of repair that are asked to look at certain places, whatever else is wrong.
-#include "surface/repair/rounds/repair_rounds.h"
+#include "surface/repair/rounds/rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ struct MendedScene {
     const std::vector<Vec3> crossings = testing::crossing_points(*scene);
     for (std::size_t i = 0; i < crossings.size(); i += 3) points.push_back(crossings[i]);
     facts = std::make_unique<ExactSurfaceCache>(scene->grid, *scene->isosurface, scene->topology, threads);
-    rounds = std::make_unique<RepairRounds>(
-        *facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), threads, stats);
+    rounds = std::make_unique<Rounds>(*facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads),
+                                      threads, stats);
     mend();
   }
   void mend() {
@@ -50,7 +50,7 @@ struct MendedScene {
   std::unique_ptr<ExactSurfaceCache> facts;
   RepairStats stats;
   Controls controls{{}, nullptr, {}};
-  std::unique_ptr<RepairRounds> rounds;
+  std::unique_ptr<Rounds> rounds;
 };
 
 // Few crossings of the component that has the most of them.
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> some_crossings(const testing::Scene& scene) {
   return {};
 }
 
-TEST(RepairRounds, WhatIsTakenAlongIsSampledInTheNextRound) {
+TEST(Rounds, WhatIsTakenAlongIsSampledInTheNextRound) {
   int finer = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -85,7 +85,7 @@ TEST(RepairRounds, WhatIsTakenAlongIsSampledInTheNextRound) {
   EXPECT_GE(finer, 2);
 }
 
-TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
+TEST(Rounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   int finer = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -104,7 +104,7 @@ TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
 
 // Several threads try later rules beside the one that is taken. The signs are those of the latter all the same: pole
 // heights tell, and what the next round makes of them.
-TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
+TEST(Rounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
     MendedScene one(seed, {12, 11, 12}, 1), three(seed, {12, 11, 12}, 3);
@@ -123,7 +123,7 @@ TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(RepairRounds, CrossingsWhereTrianglesMeetAreThoseOfTheirCellAndComponent) {
+TEST(Rounds, CrossingsWhereTrianglesMeetAreThoseOfTheirCellAndComponent) {
   MendedScene mended(2);
   const AssembledMesh all = mended.assembled();
   const IsosurfaceTopology& topology = mended.scene->topology;

@@ -1,4 +1,4 @@
-#include "surface/repair/rounds/sign_trials.h"
+#include "surface/repair/rounds/sign_search.h"
 
 #include <gtest/gtest.h>
 
@@ -163,13 +163,13 @@ IndexRanges places_at(const CellLevels& cells, const Tetrahedralization& delauna
 
 // The sign of one tetrahedron is spoilt such that a component has a handle more or less; the rule that had it right is
 // asked.
-TEST(SignTrials, MendASpoiltPlace) {
+TEST(SignSearch, MendASpoiltPlace) {
   int mended = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto scene = noise_scene({7, 7, 7}, seed);
     const CellLevels cells(scene->grid, *scene->isosurface);
-    RepairRound round(scene->grid, scene->topology, cells,
-                      std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)), 1);
+    Round round(scene->grid, scene->topology, cells,
+                std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)), 1);
     round.take_signs(SignRule::kCircumcenter);
     const MatchedMesh before = *round.assemble();
     const TetSigns signs = round.restricted().signs();
@@ -193,7 +193,7 @@ TEST(SignTrials, MendASpoiltPlace) {
         const std::array<SignRule, 1> rules = {SignRule::kCircumcenter};
         std::vector<IndexRanges> places(scene->topology.components.size());
         places[c] = places_at(cells, delaunay, spoilt[0]);
-        SignTrials(round, scene->topology, cells, rules, places)
+        SignSearch(round, scene->topology, cells, rules, places)
             .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);
         ASSERT_NE(best, nullptr) << "seed " << seed << " tetrahedron " << i;
         EXPECT_LE(amount_missing(*best, want, c), amount_missing(before, want, c));

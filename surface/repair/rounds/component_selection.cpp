@@ -1,4 +1,4 @@
-#include "surface/repair/rounds/kept_meshes.h"
+#include "surface/repair/rounds/component_selection.h"
 
 #include <algorithm>
 #include <numeric>
@@ -131,21 +131,21 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 
 }  // namespace
 
-bool KeptMeshes::would_be_done(const MatchedMesh& mesh) const {
+bool ComponentSelection::would_be_done(const MatchedMesh& mesh) const {
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (!done_[c] && mesh.match.agreement[c] < Agreement::kWithStrays) return false;
   }
   return true;
 }
 
-void KeptMeshes::reopen(std::uint32_t component) {
+void ComponentSelection::reopen(std::uint32_t component) {
   done_[component] = false;
   best_[component] = Agreement::kPartial;
   drop_outdone();
 }
 
 // Keeps a mesh when some component agrees with it that agreed with no earlier one.
-void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
+void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (mesh->match.agreement[c] <= best_[c]) continue;
@@ -160,7 +160,7 @@ void KeptMeshes::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
 
 // Every component is taken from the latest mesh that may give it; drops the meshes from which none will be, and of the
 // others all that will not.
-void KeptMeshes::drop_outdone() {
+void ComponentSelection::drop_outdone() {
   std::vector<bool> given(done_.size(), false);
   for (auto kept = kept_.end(); kept != kept_.begin();) {
     --kept;
@@ -179,7 +179,7 @@ void KeptMeshes::drop_outdone() {
 
 // To the main pieces of the components that the mesh gives, and those that touch them: copies are going to be moved
 // apart.
-void KeptMeshes::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const {
+void ComponentSelection::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const {
   const MatchedMesh& whole = *kept.mesh;
   std::vector<bool> wanted(whole.match.pieces.size(), false);
   for (std::size_t c = 0; c < gives.size(); ++c) {
@@ -197,7 +197,7 @@ void KeptMeshes::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const 
 
 // Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
 // from them.
-void KeptMeshes::give_poles(RepairRound& round) {
+void ComponentSelection::give_poles(Round& round) {
   if (std::all_of(kept_.begin(), kept_.end(), [](const KeptMesh& kept) { return kept.signs.empty(); })) return;
   const TetSigns signs = round.restricted().signs();
   for (KeptMesh& kept : kept_) {
@@ -218,7 +218,8 @@ void KeptMeshes::give_poles(RepairRound& round) {
   round.set_signs(signs);
 }
 
-AssembledMesh KeptMeshes::assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const {
+AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& box, int threads,
+                                           RepairStats& stats) const {
   left.assign(done_.size(), true);
   stats.components_mixed = stats.components_stray = 0;
   std::vector<std::vector<bool>> wanted(kept_.size());  // pieces of each mesh

@@ -18,16 +18,15 @@
 #include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/lattice/sample_lattice.h"
 #include "surface/repair/lattice/samples.h"
-#include "surface/repair/rounds/kept_meshes.h"
-#include "surface/repair/rounds/repair_round.h"
+#include "surface/repair/rounds/component_selection.h"
+#include "surface/repair/rounds/round.h"
 
 namespace deliso {
 
-class RepairRounds {
+class Rounds {
  public:
   // `restricted` is what stage 1 left: its mesh is the first one kept. Keeps references to facts and counts.
-  RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads,
-               RepairStats& stats);
+  Rounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats);
 
   // Until every component is done, there have been `max_rounds`, or ends(), asked before each of them, says so: true
   // for that.
@@ -43,7 +42,7 @@ class RepairRounds {
                                                         const SurfaceMesh& mesh) const;
 
   // What the rounds have kept, with pole heights, to be put together.
-  const KeptMeshes& kept() {
+  const ComponentSelection& kept() {
     if (round_) {
       kept_.give_poles(*round_);
       round_->rest();
@@ -69,7 +68,7 @@ class RepairRounds {
   void reopen(std::span<const std::uint32_t> crossings);
   void resample();
   bool try_rule(SignRule rule);
-  bool take(RepairRound::Attempt& attempt);
+  bool take(Round::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
   const std::vector<IndexRanges>& places_of_difference(std::size_t most, bool takes_curvature) {
@@ -86,10 +85,10 @@ class RepairRounds {
   std::vector<CellName> along_;     // cells that the next round raises, too
   SampleLattice lattice_;
   CellLevels raised_;
-  std::optional<RepairRound> round_;
+  std::optional<Round> round_;
   Samples samples_;                    // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
-  KeptMeshes kept_;
+  ComponentSelection kept_;
   EulerDifferences differences_;
 };
 

@@ -16,16 +16,16 @@
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/rounds/repair_round.h"
+#include "surface/repair/rounds/round.h"
 #include "surface/repair/signs/disputed_signs.h"
 
 namespace deliso {
 
-class SignTrials {
+class SignSearch {
  public:
   // Keeps references. `places`: of each component, those at which its main piece parts from it.
-  SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
-             std::span<const SignRule> rules, const std::vector<IndexRanges>& places);
+  SignSearch(Round& round, const IsosurfaceTopology& topology, const CellLevels& cells, std::span<const SignRule> rules,
+             const std::vector<IndexRanges>& places);
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
@@ -40,7 +40,7 @@ class SignTrials {
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
   [[nodiscard]] std::vector<DisputedCluster> clusters_near(const IndexRanges& places) const;
 
-  RepairRound& round_;
+  Round& round_;
   const IsosurfaceTopology& topology_;
   const CellLevels& cells_;
   const std::vector<IndexRanges>& places_;

@@ -1,4 +1,4 @@
-#include "surface/repair/rounds/sign_trials.h"
+#include "surface/repair/rounds/sign_search.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -60,7 +60,7 @@ std::int64_t amount(const ComponentTopology& missing) {
 
 }  // namespace
 
-SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
+SignSearch::SignSearch(Round& round, const IsosurfaceTopology& topology, const CellLevels& cells,
                        std::span<const SignRule> rules, const std::vector<IndexRanges>& places)
     : round_(round), topology_(topology), cells_(cells), places_(places) {
   const TetSigns signs = round_.restricted().signs();
@@ -72,7 +72,7 @@ SignTrials::SignTrials(RepairRound& round, const IsosurfaceTopology& topology, c
 }
 
 // What the component has more than its main piece.
-ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t component) const {
+ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t component) const {
   ComponentTopology missing = topology_.components[component];
   const std::uint32_t main = mesh.match.main_piece[component];
   if (main == kNoPiece) return missing;
@@ -82,7 +82,7 @@ ComponentTopology SignTrials::missing(const MatchedMesh& mesh, std::uint32_t com
 }
 
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
-std::vector<DisputedCluster> SignTrials::clusters_near(const IndexRanges& places) const {
+std::vector<DisputedCluster> SignSearch::clusters_near(const IndexRanges& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const DistanceFromRanges distance_from_places(places.likely, cells_.dims(), kReach);
   const auto distance = [&](TetId t) {
@@ -100,7 +100,7 @@ std::vector<DisputedCluster> SignTrials::clusters_near(const IndexRanges& places
 }
 
 // Of all components at once: most of the time goes into asking where tetrahedra are.
-void SignTrials::find_undecided() {
+void SignSearch::find_undecided() {
   const SignedDelaunay& restricted = round_.restricted();
   const std::span<const std::uint8_t> evidence = round_.evidence();
   std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the places of components
@@ -133,7 +133,7 @@ void SignTrials::find_undecided() {
   }
 }
 
-void SignTrials::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
+void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
                       Controls& controls) {
   const std::vector<DisputedCluster> clusters = clusters_near(places_[component]);
   if (!try_all(clusters, kMostTrials, component, mesh, improved, controls)) return;
@@ -144,7 +144,7 @@ void SignTrials::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh
 }
 
 // Returns whether there is still something to mend.
-bool SignTrials::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
+bool SignSearch::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
                          std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls) {
   TetSigns signs = round_.restricted().signs();
   int trials = 0;
