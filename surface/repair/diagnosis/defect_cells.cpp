@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 #include "volume/topology/cell_crossings.h"
 #include "volume/topology/exact_topology_cell.h"
 
@@ -90,7 +90,7 @@ class TroubleFinder {
   const std::vector<bool>& done_;
   const std::vector<IndexRanges>& places_;  // of each exact component
   std::span<const std::uint8_t> evidence_;
-  LocatedPlaces& critical_;
+  LocatedCriticalPoints& critical_;
   int threads_;
   std::vector<std::optional<DistanceFromRanges>> near_places_;  // of each exact component
   std::vector<bool> has_sign_;                                  // of each exact component
@@ -161,7 +161,7 @@ void TroubleFinder::flag_critical_points() {
   std::vector<std::uint32_t> open;  // the component of each that is not done
   find_open_cells(cells, open);
   critical_.find(cells, threads_);
-  const std::vector<CriticalPlace>& places = critical_.places();
+  const std::vector<LocatedCriticalPoint>& places = critical_.places();
   std::vector<std::uint32_t> wanted;
   std::vector<std::uint32_t> component_of;  // of each of these
   for (std::size_t i = 0, at = 0; i < places.size(); ++i) {
@@ -173,7 +173,7 @@ void TroubleFinder::flag_critical_points() {
   }
   critical_.locate(wanted, threads_);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const CriticalPlace& place = places[wanted[k]];
+    const LocatedCriticalPoint& place = places[wanted[k]];
     if (restricted_.is_above(critical_.tet(wanted[k])) == place.is_above) continue;
     flag(place.point, component_of[k], Tells::kTopology);
   }

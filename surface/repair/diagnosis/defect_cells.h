@@ -8,7 +8,7 @@
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/critical_places.h"
+#include "surface/repair/signs/located_critical_points.h"
 #include "surface/restricted/signed_delaunay.h"
 #include "volume/topology/exact_topology.h"
 
@@ -25,8 +25,8 @@ struct DefectContext {
   const std::vector<bool>& done;                          // of each exact component: needs no more work
   const std::vector<IndexRanges>& places;                 // of each exact component
   bool is_near_places = true;              // of components with places, trouble counts near these alone: sweeps err
-  std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (evidence.h); may be empty
-  LocatedPlaces& critical;                 // of the volume, in the triangulation
+  std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (sign_constraints.h); may be empty
+  LocatedCriticalPoints& critical;         // of the volume, in the triangulation
   int threads = 1;                         // nothing but the time depends on it
 };
 

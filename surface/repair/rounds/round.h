@@ -17,11 +17,11 @@
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/diagnosis/small_components.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/critical_places.h"
-#include "surface/repair/signs/flat_signs.h"
-#include "surface/repair/signs/founded_signs.h"
-#include "surface/repair/signs/local_characteristic.h"
+#include "surface/repair/signs/euler_change.h"
+#include "surface/repair/signs/located_critical_points.h"
 #include "surface/repair/signs/sign_rules.h"
+#include "surface/repair/signs/sliver_signs.h"
+#include "surface/repair/signs/spurious_pockets.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/signed_delaunay.h"
 #include "volume/topology/exact_topology.h"
@@ -41,7 +41,8 @@ class Round {
   bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                 ExchangedPoints& exchanged);
 
-  // Takes the signs of the circumcenters, less folds (flat_signs.h) and signs without foundation (founded_signs.h).
+  // Takes the signs of the circumcenters, less folds (sliver_signs.h) and signs without foundation
+  // (spurious_pockets.h).
   void take_plain_signs();
   // Takes signs by a rule (with the cells as they are raised when the first rule is tried), less the same.
   void take_signs(SignRule rule);
@@ -53,9 +54,9 @@ class Round {
   }
   // Turns some signs over; then those of folds and those without foundation.
   void overturn(std::span<const TetId> tets);
-  // What that would change (local_characteristic.h).
-  [[nodiscard]] std::int64_t change_of_characteristic(std::span<const TetId> tets) {
-    return deliso::change_of_characteristic(*restricted_, tets);
+  // What that would change (euler_change.h).
+  [[nodiscard]] std::int64_t euler_change(std::span<const TetId> tets) {
+    return deliso::euler_change(*restricted_, tets);
   }
 
   // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
@@ -73,7 +74,7 @@ class Round {
   std::vector<Attempt> attempts(std::span<const SignRule> rules,
                                 const std::function<bool(const MatchedMesh&)>& is_last);
   // The saddles and critical samples of the volume in the triangulation, as far as they are asked for.
-  LocatedPlaces& located() { return located_ ? *located_ : located_.emplace(*restricted_, grid_); }
+  LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_, grid_); }
   // The pole heights of the wanted vertices for the signs as they stand.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
 
@@ -86,7 +87,7 @@ class Round {
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
-  // What is known of the sides in the tetrahedra (evidence.h); empty before the first rule is tried.
+  // What is known of the sides in the tetrahedra (sign_constraints.h); empty before the first rule is tried.
   [[nodiscard]] std::span<const std::uint8_t> evidence() const {
     return rules_ ? std::span<const std::uint8_t>(rules_->evidence()) : std::span<const std::uint8_t>();
   }
@@ -116,13 +117,13 @@ class Round {
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRules> rules_;
   std::array<TetSigns, kSignRules.size()> signs_by_rule_;  // in this round; empty for a rule that has not been tried
-  FlatSigns flat_;
-  UnfoundedPockets unfounded_;
+  SliverSigns flat_;
+  SpuriousPockets unfounded_;
   std::optional<FacetPairing> pairing_;
   bool has_assembled_ = false;  // in this round
   // Of each vertex: the facet of a triangle that covered it when it was last left out; kNoFacet when there was none.
   std::vector<std::uint32_t> covered_by_;
-  std::optional<LocatedPlaces> located_;
+  std::optional<LocatedCriticalPoints> located_;
   KnownPoles poles_;
 };
 

@@ -7,7 +7,7 @@
 
 #include "surface/base/parallel_blocks.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 
 namespace deliso {
 
@@ -51,7 +51,7 @@ bool touches_box(const SignedDelaunay& restricted, std::span<const TetId> tets) 
   });
 }
 
-bool is_nearer(const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; }
+bool is_nearer(const DisagreementCluster& a, const DisagreementCluster& b) { return a.distance < b.distance; }
 
 // How much is missing or too much in all.
 std::int64_t amount(const ComponentTopology& missing) {
@@ -82,16 +82,16 @@ ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t com
 }
 
 // Those on whose signs some rule disagrees with the signs as they stand; the nearest first.
-std::vector<DisputedCluster> SignSearch::clusters_near(const IndexRanges& places) const {
+std::vector<DisagreementCluster> SignSearch::clusters_near(const IndexRanges& places) const {
   const SignedDelaunay& restricted = round_.restricted();
   const DistanceFromRanges distance_from_places(places.likely, cells_.dims(), kReach);
   const auto distance = [&](TetId t) {
     const std::int32_t layers = distance_from_places(cells_.cell_of(centre_of(restricted, t)));
     return layers <= kReach ? layers : -1;
   };
-  std::vector<DisputedCluster> clusters;
+  std::vector<DisagreementCluster> clusters;
   for (const TetSigns& signs : signs_by_rule_) {
-    for (DisputedCluster& cluster : disputed_clusters(restricted, signs, distance)) {
+    for (DisagreementCluster& cluster : disagreement_clusters(restricted, signs, distance)) {
       clusters.push_back(std::move(cluster));
     }
   }
@@ -135,26 +135,26 @@ void SignSearch::find_undecided() {
 
 void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
                       Controls& controls) {
-  const std::vector<DisputedCluster> clusters = clusters_near(places_[component]);
+  const std::vector<DisagreementCluster> clusters = clusters_near(places_[component]);
   if (!try_all(clusters, kMostTrials, component, mesh, improved, controls)) return;
   if (undecided_.empty()) find_undecided();
-  std::vector<DisputedCluster> singles;
+  std::vector<DisagreementCluster> singles;
   for (const Single& single : undecided_[component]) singles.push_back({{single.tet}, single.layers});
   try_all(singles, kMostTrialsOfSingles, component, mesh, improved, controls);
 }
 
 // Returns whether there is still something to mend.
-bool SignSearch::try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
+bool SignSearch::try_all(const std::vector<DisagreementCluster>& clusters, int most, std::uint32_t component,
                          std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls) {
   TetSigns signs = round_.restricted().signs();
   int trials = 0;
-  for (const DisputedCluster& cluster : clusters) {
+  for (const DisagreementCluster& cluster : clusters) {
     const ComponentTopology lacks = missing(*mesh, component);
     if (lacks.euler_characteristic == 0 || controls.poll()) return false;
     if (trials == most) break;
     if (cluster.tets.size() > kLargestCluster) continue;
     if (!has_neighbour_of_other_sign(round_.restricted(), cluster.tets)) continue;
-    const std::int64_t change = round_.change_of_characteristic(cluster.tets);
+    const std::int64_t change = round_.euler_change(cluster.tets);
     if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) continue;
     // Too much is no better than too little, unless loops of the boundary come right.
     const bool comes_nearer = std::abs(lacks.euler_characteristic - change) < std::abs(lacks.euler_characteristic);

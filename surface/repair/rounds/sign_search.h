@@ -17,7 +17,7 @@
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/rounds/round.h"
-#include "surface/repair/signs/disputed_signs.h"
+#include "surface/repair/signs/sign_disagreement.h"
 
 namespace deliso {
 
@@ -34,11 +34,11 @@ class SignSearch {
   void mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved, Controls& controls);
 
  private:
-  bool try_all(const std::vector<DisputedCluster>& clusters, int most, std::uint32_t component,
+  bool try_all(const std::vector<DisagreementCluster>& clusters, int most, std::uint32_t component,
                std::shared_ptr<MatchedMesh>& mesh, const Improved& improved, Controls& controls);
   void find_undecided();
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
-  [[nodiscard]] std::vector<DisputedCluster> clusters_near(const IndexRanges& places) const;
+  [[nodiscard]] std::vector<DisagreementCluster> clusters_near(const IndexRanges& places) const;
 
   Round& round_;
   const IsosurfaceTopology& topology_;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 #include "surface/restricted/signed_delaunay.h"
 
 namespace deliso {
@@ -45,7 +45,7 @@ class SignRules {
   // circumcenters or, for kAsBefore, those before.
   void take_signs(SignRule rule, const TetSigns& start);
 
-  // What is known of the sides in each tetrahedron (evidence.h).
+  // What is known of the sides in each tetrahedron (sign_constraints.h).
   [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }
 
  private:
@@ -62,7 +62,7 @@ class SignRules {
   SignedDelaunay& restricted_;
   const CellLevels& raised_;
   int threads_;
-  RaisedEvidence evidence_;
+  SignConstraints evidence_;
   std::vector<std::pair<TetId, bool>> overruled_;  // small tetrahedra with evidence of one side: whether it is above
   // Found when first needed:
   bool are_candidates_stale_ = true;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "delaunay/base/rng.h"
-#include "surface/repair/signs/founded_signs.h"
 #include "surface/repair/signs/sample_locator.h"
+#include "surface/repair/signs/spurious_pockets.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -121,7 +121,7 @@ TEST(FacetPairing, PairsSidesOfTheSameEdgeWithEachOther) {
   }
 }
 
-TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
+TEST(SpuriousPockets, FollowChangedSignsAsIfSoughtAnew) {
   const auto sorted = [](std::vector<std::vector<TetId>> pockets) {
     for (auto& pocket : pockets) std::sort(pocket.begin(), pocket.end());
     std::sort(pockets.begin(), pockets.end());
@@ -131,13 +131,13 @@ TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({8, 7, 6}, seed);
     SignedDelaunay restricted = dense(*scene);
-    UnfoundedPockets pockets(restricted, scene->grid);
+    SpuriousPockets pockets(restricted, scene->grid);
     pockets.update();
     Rng rng(seed);
     for (const std::uint64_t count : {1u, 3u, 30u, 300u, 2u}) {
       turn_some(restricted, count, rng);
       pockets.update();
-      UnfoundedPockets anew(restricted, scene->grid);
+      SpuriousPockets anew(restricted, scene->grid);
       anew.update();
       EXPECT_EQ(sorted(pockets.pockets()), sorted(anew.pockets())) << "seed " << seed;
       found += anew.pockets().size();
@@ -147,14 +147,14 @@ TEST(UnfoundedPockets, FollowChangedSignsAsIfSoughtAnew) {
 }
 
 // Shares of the slots are looked at apart; pockets reach across their ends, for slots are filled in no order of place.
-TEST(UnfoundedPockets, AreTheSameForAnyNumberOfThreads) {
+TEST(SpuriousPockets, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto scene = noise_scene({23, 22, 22}, seed);
     SignedDelaunay restricted = dense(*scene);
     ASSERT_GT(restricted.delaunay().tet_slots(), 5 * kBlockSize);  // a share for each thread
     Rng rng(seed);
     turn_some(restricted, 3000, rng);
-    UnfoundedPockets one(restricted, scene->grid, 1);
+    SpuriousPockets one(restricted, scene->grid, 1);
     one.update();
     for (const int threads : {2, 3, 5}) {
       const Shares shares(restricted.delaunay().tet_slots(), threads);
@@ -167,7 +167,7 @@ TEST(UnfoundedPockets, AreTheSameForAnyNumberOfThreads) {
         }
       }
       EXPECT_GT(across, 3u) << "seed " << seed << ", " << threads << " threads";
-      UnfoundedPockets several(restricted, scene->grid, threads);
+      SpuriousPockets several(restricted, scene->grid, threads);
       several.update();
       EXPECT_EQ(several.pockets(), one.pockets()) << "seed " << seed << ", " << threads << " threads";
     }

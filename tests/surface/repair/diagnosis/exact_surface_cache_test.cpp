@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "surface/base/parallel_blocks.h"
-#include "surface/repair/signs/critical_places.h"
+#include "surface/repair/signs/located_critical_points.h"
 #include "tests/support/surface_fields.h"
 #include "volume/topology/critical_points.h"
 
@@ -44,9 +44,9 @@ std::vector<std::pair<CellIndex, std::size_t>> critical_cells_by_search(const Sc
   return cells;
 }
 
-std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<CriticalPlace>& places) {
+std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<LocatedCriticalPoint>& places) {
   std::vector<std::pair<CellIndex, std::size_t>> cells;
-  for (const CriticalPlace& place : places) {
+  for (const LocatedCriticalPoint& place : places) {
     if (cells.empty() || cells.back().first != place.cell) cells.push_back({place.cell, 0});
     ++cells.back().second;
   }
@@ -79,19 +79,19 @@ std::vector<CellIndex> active_cells(const Scene& scene) {
   return cells;
 }
 
-TEST(LocatedPlaces, AreFoundInTheCellsAskedFor) {
+TEST(LocatedCriticalPoints, AreFoundInTheCellsAskedFor) {
   const auto scene = noise_scene({14, 13, 12}, 4);
   const auto expected = critical_cells_by_search(*scene);
   ASSERT_GT(expected.size(), 100u);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
   for (const int threads : {1, 3}) {
-    LocatedPlaces places(restricted, scene->grid);
+    LocatedCriticalPoints places(restricted, scene->grid);
     places.find(cells, threads);
     EXPECT_EQ(cells_of(places.places()), expected) << threads;
   }
   // Some cells, others, and then all of them, many asked for again.
-  LocatedPlaces places(restricted, scene->grid);
+  LocatedCriticalPoints places(restricted, scene->grid);
   for (const std::size_t step : {7u, 3u}) {
     std::vector<CellIndex> some;
     for (std::size_t i = step / 2; i < cells.size(); i += step) some.push_back(cells[i]);
@@ -102,11 +102,11 @@ TEST(LocatedPlaces, AreFoundInTheCellsAskedFor) {
   EXPECT_EQ(cells_of(places.places()), expected);
 }
 
-TEST(LocatedPlaces, KeepTheirTetrahedraWhenMoreAreFound) {
+TEST(LocatedCriticalPoints, KeepTheirTetrahedraWhenMoreAreFound) {
   const auto scene = noise_scene({14, 13, 12}, 4);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
-  LocatedPlaces places(restricted, scene->grid);
+  LocatedCriticalPoints places(restricted, scene->grid);
   places.find(std::span(cells).subspan(cells.size() / 2), 1);
   const std::size_t count = places.places().size();
   std::vector<std::uint32_t> all(count);
@@ -122,18 +122,18 @@ TEST(LocatedPlaces, KeepTheirTetrahedraWhenMoreAreFound) {
 }
 
 // All at once on several threads, or a few at a time.
-TEST(LocatedPlaces, AreTheSameForAnyNumberOfThreads) {
+TEST(LocatedCriticalPoints, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({40, 39, 38}, 6);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
-  LocatedPlaces one(restricted, scene->grid);
+  LocatedCriticalPoints one(restricted, scene->grid);
   one.find(cells, 1);
   const std::size_t count = one.places().size();
   ASSERT_GT(count, 2 * kBlockSize);
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);
   one.locate(all, 1);
-  LocatedPlaces few(restricted, scene->grid);
+  LocatedCriticalPoints few(restricted, scene->grid);
   few.find(cells, 1);
   for (std::size_t i = 0; i < all.size(); i += 100) few.locate(std::span(all).subspan(i, 1), 1);
   for (std::uint32_t i = 0; i < count; i += 100) {
@@ -142,7 +142,7 @@ TEST(LocatedPlaces, AreTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(few.tet(i), one.tet(i));
   }
   for (const int threads : {2, 3, 5}) {
-    LocatedPlaces many(restricted, scene->grid);
+    LocatedCriticalPoints many(restricted, scene->grid);
     many.find(cells, threads);
     many.locate(all, threads);
     for (const std::uint32_t i : all) ASSERT_EQ(many.tet(i), one.tet(i)) << threads;

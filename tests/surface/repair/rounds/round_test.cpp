@@ -7,7 +7,7 @@
 
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/sample_lattice.h"
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 #include "surface/restricted/restricted_delaunay.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"

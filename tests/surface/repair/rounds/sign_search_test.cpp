@@ -67,7 +67,7 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
     for (int trial = 0; trial < 60; ++trial) {
       const std::vector<TetId> tets = some_tets(restricted, rng);
       const TetSigns signs = restricted.signs();
-      const std::int64_t change = change_of_characteristic(restricted, tets);
+      const std::int64_t change = euler_change(restricted, tets);
       EXPECT_EQ(restricted.signs(), signs);
       for (const TetId t : tets) restricted.overturn_sign(t);
       const std::int64_t after = characteristic(restricted);
@@ -91,7 +91,7 @@ TEST(LocalCharacteristic, OfEveryTetrahedronAloneAndWithANeighbour) {
       if (!delaunay.is_live(t)) continue;
       const TetId beside = delaunay.neighbour(t, i % 4);
       for (const std::vector<TetId>& tets : {std::vector<TetId>{t}, std::vector<TetId>{t, beside}}) {
-        const std::int64_t change = change_of_characteristic(restricted, tets);
+        const std::int64_t change = euler_change(restricted, tets);
         for (const TetId one : tets) restricted.overturn_sign(one);
         ASSERT_EQ(change, characteristic(restricted) - before) << scene->name << " tetrahedron " << i;
         for (const TetId one : tets) restricted.overturn_sign(one);
@@ -103,7 +103,7 @@ TEST(LocalCharacteristic, OfEveryTetrahedronAloneAndWithANeighbour) {
   EXPECT_GT(something, 50);
 }
 
-TEST(DisputedClusters, AreTheFacetConnectedSetsOfOtherSign) {
+TEST(DisagreementClusters, AreTheFacetConnectedSetsOfOtherSign) {
   const auto scene = noise_scene({8, 8, 8}, 3);
   SignedDelaunay restricted = dense(*scene);
   const Tetrahedralization& delaunay = restricted.delaunay();
@@ -116,7 +116,7 @@ TEST(DisputedClusters, AreTheFacetConnectedSetsOfOtherSign) {
   const auto distance = [](TetId t) { return static_cast<std::int32_t>(t.value % 7) - 1; };
   std::map<TetId, std::size_t> cluster_of;
   std::int32_t last = 0;
-  const std::vector<DisputedCluster> clusters = disputed_clusters(restricted, signs, distance);
+  const std::vector<DisagreementCluster> clusters = disagreement_clusters(restricted, signs, distance);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     EXPECT_GE(clusters[c].distance, last);
     last = clusters[c].distance;
@@ -177,7 +177,7 @@ TEST(SignSearch, MendASpoiltPlace) {
     for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
       const std::vector<TetId> spoilt = {TetId(i)};
       if (!delaunay.is_live(spoilt[0]) || delaunay.is_ghost(spoilt[0])) continue;
-      if (round.change_of_characteristic(spoilt) == 0) continue;
+      if (round.euler_change(spoilt) == 0) continue;
       round.overturn(spoilt);
       const std::optional<MatchedMesh> mesh = round.assemble();
       for (std::uint32_t c = 0; mesh && c < scene->topology.components.size(); ++c) {

@@ -1,4 +1,4 @@
-#include "surface/repair/signs/founded_signs.h"
+#include "surface/repair/signs/spurious_pockets.h"
 
 #include <gtest/gtest.h>
 
@@ -40,17 +40,17 @@ bool holds_any_sample(const Scene& scene, const std::array<Vec3, 4>& tet, double
   return false;
 }
 
-TEST(FoundedSigns, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
+TEST(SpuriousPockets, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
   for (const char* name : {"torus", "sheets"}) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = dense(*scene);
     const auto before = testing::signs_by_name(restricted);
-    EXPECT_EQ(UnfoundedPockets(restricted, scene->grid).overturn(restricted), 0) << name;
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 0) << name;
     EXPECT_EQ(testing::signs_by_name(restricted), before);
   }
 }
 
-TEST(FoundedSigns, ALoneTetrahedronWithoutASampleIsTurnedBack) {
+TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
   const auto scene = field_scene("torus", 12);
   SignedDelaunay restricted = dense(*scene);
   const Tetrahedralization& delaunay = restricted.delaunay();
@@ -66,7 +66,7 @@ TEST(FoundedSigns, ALoneTetrahedronWithoutASampleIsTurnedBack) {
     }
     if (!alone || holds_any_sample(*scene, testing::corners_of(delaunay, t), 1e-9)) continue;
     restricted.overturn_sign(t);
-    EXPECT_EQ(UnfoundedPockets(restricted, scene->grid).overturn(restricted), 1) << i;
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 1) << i;
     EXPECT_EQ(testing::signs_by_name(restricted), before) << i;
     if (::testing::Test::HasFailure()) return;
     ++turned;
@@ -74,7 +74,7 @@ TEST(FoundedSigns, ALoneTetrahedronWithoutASampleIsTurnedBack) {
   EXPECT_GT(turned, 10);
 }
 
-TEST(FoundedSigns, ALoneTetrahedronWithASampleOfItsSignStays) {
+TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
   // Coarse points: tetrahedra are large and hold samples. With all signs of one kind, a tetrahedron with a sample of
   // the other is founded when it is turned.
   const auto scene = field_scene("sphere", 16);
@@ -94,7 +94,7 @@ TEST(FoundedSigns, ALoneTetrahedronWithASampleOfItsSignStays) {
       has_sample = scene->grid.at(s[0], s[1], s[2]) > scene->isovalue &&
                    holds(testing::corners_of(delaunay, t), {double(s[0]), double(s[1]), double(s[2])}, -1e-9);
     }
-    const std::int64_t count = UnfoundedPockets(restricted, scene->grid).overturn(restricted);
+    const std::int64_t count = SpuriousPockets(restricted, scene->grid).overturn(restricted);
     if (has_sample) {
       EXPECT_EQ(count, 0);
       EXPECT_TRUE(restricted.is_above(t));
@@ -104,12 +104,12 @@ TEST(FoundedSigns, ALoneTetrahedronWithASampleOfItsSignStays) {
   EXPECT_GT(kept, 5);
 }
 
-TEST(FoundedSigns, NoiseEndsAfterFewPassesAndKeepsParity) {
+TEST(SpuriousPockets, NoiseEndsAfterFewPassesAndKeepsParity) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto scene = noise_scene({5, 5, 5}, seed);
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     int passes = 0;
-    while (UnfoundedPockets(restricted, scene->grid).overturn(restricted) > 0 && passes < 20) ++passes;
+    while (SpuriousPockets(restricted, scene->grid).overturn(restricted) > 0 && passes < 20) ++passes;
     EXPECT_LT(passes, 20) << "seed " << seed;
     EXPECT_EQ(testing::odd_edges(restricted), 0u);
   }

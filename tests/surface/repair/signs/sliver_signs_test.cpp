@@ -1,4 +1,4 @@
-#include "surface/repair/signs/flat_signs.h"
+#include "surface/repair/signs/sliver_signs.h"
 
 #include <gtest/gtest.h>
 
@@ -73,14 +73,14 @@ double restricted_area(const SignedDelaunay& restricted) {
   return area;
 }
 
-TEST(FlatSigns, WhateverTheyWereTheSurfacePassesOnce) {
+TEST(SliverSigns, WhateverTheyWereTheSurfacePassesOnce) {
   const ScalarGrid grid = plane_grid();
   const Isosurface isosurface(grid, kHeight, SearchOptions{});
   int folded = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Rng rng(seed);
     SignedDelaunay restricted(isosurface, plane_points(rng));
-    const FlatSigns flat(restricted);
+    const SliverSigns flat(restricted);
     EXPECT_EQ(flat.tets().size(), give_signs(restricted, rng)) << "seed " << seed;
     folded += restricted_area(restricted) > 1.01 * kLast * kLast ? 1 : 0;
     flat.settle(restricted);
@@ -92,19 +92,19 @@ TEST(FlatSigns, WhateverTheyWereTheSurfacePassesOnce) {
   EXPECT_GT(folded, 20);
 }
 
-TEST(FlatSigns, SignsOfOtherTetrahedraAreLeftAlone) {
+TEST(SliverSigns, SignsOfOtherTetrahedraAreLeftAlone) {
   for (const char* name : {"torus", "sheets"}) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = testing::dense(*scene);
     const TetSigns before = restricted.signs();
-    const FlatSigns flat(restricted);
+    const SliverSigns flat(restricted);
     flat.settle(restricted);
     restricted.for_each_difference(
         before, [&](TetId t) { EXPECT_TRUE(std::binary_search(flat.tets().begin(), flat.tets().end(), t)) << name; });
   }
 }
 
-TEST(FlatSigns, AfterAnExchangeOfPointsTheyAreThoseOfATriangulationMadeAnew) {
+TEST(SliverSigns, AfterAnExchangeOfPointsTheyAreThoseOfATriangulationMadeAnew) {
   const ScalarGrid grid = plane_grid();
   const Isosurface isosurface(grid, kHeight, SearchOptions{});
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -112,14 +112,14 @@ TEST(FlatSigns, AfterAnExchangeOfPointsTheyAreThoseOfATriangulationMadeAnew) {
     const std::vector<Vec3> points = plane_points(rng);
     std::vector<VertexId> vertex_of;
     SignedDelaunay restricted(isosurface, points, 1, &vertex_of);
-    FlatSigns flat(restricted);
+    SliverSigns flat(restricted);
     ExchangedPoints exchanged;
     ASSERT_TRUE(restricted.exchange(std::vector{vertex_of[points.size() / 2]},
                                     std::vector<Vec3>{{5, 5, kHeight}, {5.5, 4, kHeight + 0x1p-50}}, exchanged));
     flat.renew(exchanged);
     give_signs(restricted, rng);
     const TetSigns given = restricted.signs();
-    const FlatSigns anew(restricted);
+    const SliverSigns anew(restricted);
     EXPECT_EQ(flat.tets(), anew.tets()) << "seed " << seed;
     flat.settle(restricted);
     const TetSigns settled = restricted.signs();

@@ -13,7 +13,7 @@ struct Segment {
 };
 
 // The tetrahedron that holds some point of a segment.
-struct Passage {
+struct SegmentClip {
   TetId tet;
   // Points of the segment with 0 <= s <= 1 and from < s < to, as halving rounds them, lie strictly within it; none
   // where from >= to.
@@ -24,6 +24,6 @@ struct Passage {
 };
 
 // Precondition: the tetrahedron is finite.
-Passage passage_through(const Tetrahedralization& tets, TetId t, const Segment& segment);
+SegmentClip clip_segment(const Tetrahedralization& tets, TetId t, const Segment& segment);
 
 }  // namespace deliso

@@ -10,6 +10,6 @@ namespace deliso {
 
 // By how much the Euler characteristic of the mesh (build_triangle_mesh.h), all its pieces together, changes when the
 // signs of these tetrahedra are turned over. `restricted` is the same afterwards as before.
-std::int64_t change_of_characteristic(SignedDelaunay& restricted, std::span<const TetId> tets);
+std::int64_t euler_change(SignedDelaunay& restricted, std::span<const TetId> tets);
 
 }  // namespace deliso

@@ -12,14 +12,14 @@
 
 namespace deliso {
 
-struct DisputedCluster {
+struct DisagreementCluster {
   std::vector<TetId> tets;    // hang together over common facets
   std::int32_t distance = 0;  // of the nearest of them
 };
 
 // The tetrahedra with a sign other than in `signs` (by slot) that are near: distance(t) gives how far away one is, as a
 // negative number when it is too far to count. The nearest clusters come first.
-std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
-                                               const std::function<std::int32_t(TetId)>& distance);
+std::vector<DisagreementCluster> disagreement_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
+                                                       const std::function<std::int32_t(TetId)>& distance);
 
 }  // namespace deliso

@@ -1,12 +1,12 @@
-#include "surface/repair/signs/disputed_signs.h"
+#include "surface/repair/signs/sign_disagreement.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace deliso {
 
-std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
-                                               const std::function<std::int32_t(TetId)>& distance) {
+std::vector<DisagreementCluster> disagreement_clusters(const SignedDelaunay& restricted, const TetSigns& signs,
+                                                       const std::function<std::int32_t(TetId)>& distance) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   struct Disputed {
     TetId tet;
@@ -19,10 +19,10 @@ std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted,
     const std::int32_t away = distance(t);
     if (away >= 0) disputed.push_back({t, away});
   });
-  std::vector<DisputedCluster> clusters;
+  std::vector<DisagreementCluster> clusters;
   for (Disputed& seed : disputed) {
     if (seed.distance == kTaken) continue;
-    DisputedCluster cluster{{seed.tet}, std::exchange(seed.distance, kTaken)};
+    DisagreementCluster cluster{{seed.tet}, std::exchange(seed.distance, kTaken)};
     for (std::size_t at = 0; at < cluster.tets.size(); ++at) {
       for (unsigned face = 0; face < 4; ++face) {
         const TetId next = delaunay.neighbour(cluster.tets[at], face);
@@ -36,7 +36,7 @@ std::vector<DisputedCluster> disputed_clusters(const SignedDelaunay& restricted,
     clusters.push_back(std::move(cluster));
   }
   std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const DisputedCluster& a, const DisputedCluster& b) { return a.distance < b.distance; });
+                   [](const DisagreementCluster& a, const DisagreementCluster& b) { return a.distance < b.distance; });
   return clusters;
 }
 

@@ -18,14 +18,14 @@
 namespace deliso {
 
 // Of each tetrahedron (by slot): which sides segments of the raised cells that cross it lie on.
-enum Evidence : std::uint8_t { kNoEvidence = 0, kAbove = 1, kBelow = 2, kConflict = 3 };
+enum SignConstraint : std::uint8_t { kNoConstraint = 0, kAbove = 1, kBelow = 2, kConflict = 3 };
 
 // Keeps the evidence of the raised cells up to date as points are exchanged and cells raised: only cells that are new,
 // or whose segments cross tetrahedra that are, are gone through.
-class RaisedEvidence {
+class SignConstraints {
  public:
   // Keeps references.
-  RaisedEvidence(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
+  SignConstraints(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
 
   // Takes account of an exchange of points; update() is to follow.
   void renew(const ExchangedPoints& exchanged);

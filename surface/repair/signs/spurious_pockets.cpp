@@ -1,4 +1,4 @@
-#include "surface/repair/signs/founded_signs.h"
+#include "surface/repair/signs/spurious_pockets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,16 +52,16 @@ bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId 
 
 }  // namespace
 
-UnfoundedPockets::UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads)
+SpuriousPockets::SpuriousPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads)
     : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid), threads_(threads) {}
 
-void UnfoundedPockets::renew(const ExchangedPoints& exchanged) {
+void SpuriousPockets::renew(const ExchangedPoints& exchanged) {
   if (signs_.empty()) return;
   signs_.resize(delaunay_.tet_slots(), 0);
   renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
 }
 
-void UnfoundedPockets::update() {
+void SpuriousPockets::update() {
   if (signs_.empty()) return look_everywhere();
   std::vector<bool> touched(signs_.size(), false);
   std::vector<TetId> seeds;
@@ -88,7 +88,7 @@ void UnfoundedPockets::update() {
 
 // Every share of the slots is looked at apart from the others, also beyond its ends; a pocket belongs to the one that
 // holds its first slot, from which that one floods it.
-void UnfoundedPockets::look_everywhere() {
+void SpuriousPockets::look_everywhere() {
   signs_.assign(delaunay_.tet_slots(), 0);
   restricted_.for_each_change(signs_, [](TetId) {});
   const Shares shares(signs_.size(), threads_);
@@ -106,7 +106,7 @@ void UnfoundedPockets::look_everywhere() {
 
 // Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to
 // be left alone.
-bool UnfoundedPockets::floods_pocket(TetId seed, Look& look) const {
+bool SpuriousPockets::floods_pocket(TetId seed, Look& look) const {
   if (look.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
   Pocket& flood = look.flood;
   flood.assign(1, seed);
@@ -130,11 +130,11 @@ bool UnfoundedPockets::floods_pocket(TetId seed, Look& look) const {
   return is_pocket;
 }
 
-bool UnfoundedPockets::is_unfounded(const Pocket& pocket) const {
+bool SpuriousPockets::is_unfounded(const Pocket& pocket) const {
   return std::none_of(pocket.begin(), pocket.end(), [&](TetId t) { return is_founded(restricted_, grid_, t); });
 }
 
-std::int64_t UnfoundedPockets::overturn(SignedDelaunay& restricted) {
+std::int64_t SpuriousPockets::overturn(SignedDelaunay& restricted) {
   update();
   for (const auto& pocket : pockets_) {
     for (const TetId t : pocket) restricted.overturn_sign(t);

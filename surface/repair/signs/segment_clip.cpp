@@ -1,4 +1,4 @@
-#include "surface/repair/signs/passage.h"
+#include "surface/repair/signs/segment_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ constexpr double kParameterError = 1e-12;
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 // Keeps the part where values that go evenly from `at_a` to `at_b` are positive; none when they are no numbers.
-void keep_positive(double at_a, double at_b, Passage& passage) {
+void keep_positive(double at_a, double at_b, SegmentClip& passage) {
   if (at_a > 0 && at_b > 0) return;
   const double zero = at_a / (at_a - at_b);
   if (at_a > 0 && zero <= 1) {
@@ -32,7 +32,7 @@ void keep_positive(double at_a, double at_b, Passage& passage) {
 
 }  // namespace
 
-Passage passage_through(const Tetrahedralization& tets, TetId t, const Segment& segment) {
+SegmentClip clip_segment(const Tetrahedralization& tets, TetId t, const Segment& segment) {
   const auto& v = tets.vertices(t);
   const Vec3& corner = tets.point(v[0]);
   const std::array<Vec3, 3> side = {tets.point(v[1]) - corner, tets.point(v[2]) - corner, tets.point(v[3]) - corner};
@@ -45,7 +45,7 @@ Passage passage_through(const Tetrahedralization& tets, TetId t, const Segment& 
   const double off = kRoundings * kEpsilon * length * length * (length + largest(corner));
 
   // A point is within where the volumes that it makes up with the four sides, which come to the whole, are positive.
-  Passage passage{t, -1, 2};
+  SegmentClip passage{t, -1, 2};
   std::array<Vec3, 3> normal = {cross(side[1], side[2]), cross(side[2], side[0]), cross(side[0], side[1])};
   const double whole = dot(side[0], normal[0]);
   if (whole < 0) {

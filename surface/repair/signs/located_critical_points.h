@@ -16,7 +16,7 @@
 
 namespace deliso {
 
-struct CriticalPlace {
+struct LocatedCriticalPoint {
   Vec3 point;      // in mesh space
   CellIndex cell;  // that it was found in; a sample is found in each of its cells
   bool is_above = false;
@@ -27,10 +27,11 @@ inline bool is_before(const CellIndex& a, const CellIndex& b) {
   return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
 }
 
-class LocatedPlaces {
+class LocatedCriticalPoints {
  public:
   // Keeps references.
-  LocatedPlaces(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
+  LocatedCriticalPoints(const SignedDelaunay& restricted, const ScalarGrid& grid)
+      : restricted_(restricted), grid_(grid) {}
 
   // Takes account of an exchange of points.
   void renew(const ExchangedPoints& exchanged);
@@ -38,19 +39,19 @@ class LocatedPlaces {
   // Finds those of some cells (x fastest); the same for any number of threads.
   void find(std::span<const CellIndex> cells, int threads);
   // Of all cells that have been asked for, cell by cell, x fastest.
-  [[nodiscard]] const std::vector<CriticalPlace>& places() const { return places_; }
+  [[nodiscard]] const std::vector<LocatedCriticalPoint>& places() const { return places_; }
   // Finds the tetrahedra of these places (ascending); the same for any number of threads.
   void locate(std::span<const std::uint32_t> wanted, int threads);
   // That holds a place which has been located, towards its cell's center.
   [[nodiscard]] TetId tet(std::uint32_t place) const { return tets_[place]; }
 
  private:
-  void add(const std::vector<CriticalPlace>& found);
-  [[nodiscard]] TetId located(const CriticalPlace& place, TetId hint) const;
+  void add(const std::vector<LocatedCriticalPoint>& found);
+  [[nodiscard]] TetId located(const LocatedCriticalPoint& place, TetId hint) const;
 
   const SignedDelaunay& restricted_;
   const ScalarGrid& grid_;
-  std::vector<CriticalPlace> places_;
+  std::vector<LocatedCriticalPoint> places_;
   std::vector<TetId> tets_;  // of each place, as far as it has been asked for
 };
 

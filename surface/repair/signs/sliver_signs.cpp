@@ -1,4 +1,4 @@
-#include "surface/repair/signs/flat_signs.h"
+#include "surface/repair/signs/sliver_signs.h"
 
 #include <algorithm>
 #include <array>
@@ -136,7 +136,7 @@ class LeastCut {
 
 }  // namespace
 
-FlatSigns::FlatSigns(const SignedDelaunay& restricted, int threads) : restricted_(restricted) {
+SliverSigns::SliverSigns(const SignedDelaunay& restricted, int threads) : restricted_(restricted) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   flat_ = collect_in_blocks<TetId>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<TetId>& found) {
     if (is_flat(delaunay, TetId(i))) found.push_back(TetId(i));
@@ -144,7 +144,7 @@ FlatSigns::FlatSigns(const SignedDelaunay& restricted, int threads) : restricted
   find_layers();
 }
 
-void FlatSigns::renew(const ExchangedPoints& exchanged) {
+void SliverSigns::renew(const ExchangedPoints& exchanged) {
   flat_.insert(flat_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
   std::sort(flat_.begin(), flat_.end());
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
@@ -152,7 +152,7 @@ void FlatSigns::renew(const ExchangedPoints& exchanged) {
   find_layers();
 }
 
-void FlatSigns::find_layers() {
+void SliverSigns::find_layers() {
   layers_.clear();
   std::vector<bool> is_in_layer(flat_.size(), false);
   for (std::uint32_t seed = 0; seed < flat_.size(); ++seed) {
@@ -174,7 +174,7 @@ void FlatSigns::find_layers() {
   }
 }
 
-void FlatSigns::settle(SignedDelaunay& restricted) const {
+void SliverSigns::settle(SignedDelaunay& restricted) const {
   const auto meets_surface = [&](TetId t) {
     const auto is_restricted = [&](unsigned face) { return restricted.is_restricted(FacetId(t, face)); };
     return is_restricted(0) || is_restricted(1) || is_restricted(2) || is_restricted(3);

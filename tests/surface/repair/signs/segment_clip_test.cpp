@@ -1,4 +1,4 @@
-#include "surface/repair/signs/passage.h"
+#include "surface/repair/signs/segment_clip.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ void for_each_half(const Vec3& a, double s_a, const Vec3& b, double s_b, int lev
 
 // Exact orientations say of each point whether it lies within; the passage never says so wrongly, and hardly ever
 // misses it. Away from the origin roundings are coarser, and flat tetrahedra are nothing but roundings.
-TEST(Passage, HoldsOnlyWhatLiesStrictlyWithin) {
+TEST(SegmentClip, HoldsOnlyWhatLiesStrictlyWithin) {
   Rng rng(7);
   std::int64_t held = 0, missed = 0;
   for (const double away : {0.0, 1000.0, 1e6}) {
@@ -58,7 +58,7 @@ TEST(Passage, HoldsOnlyWhatLiesStrictlyWithin) {
         const Vec3 inside = 0.25 * (points[0] + points[1] + points[2] + points[3]);
         const Vec3 a = shift + 2.0 * random_point(rng) - Vec3{0.5, 0.5, 0.5};
         const Segment segment{a, inside + rng.uniform() * (inside - a)};
-        const Passage passage = passage_through(delaunay, t, segment);
+        const SegmentClip passage = clip_segment(delaunay, t, segment);
         for_each_half(segment.a, 0, segment.b, 1, 7, [&](double s, const Vec3& p) {
           const bool within = is_strictly_within(delaunay, t, p);
           if (passage.surely_holds(s)) {
@@ -76,7 +76,7 @@ TEST(Passage, HoldsOnlyWhatLiesStrictlyWithin) {
 }
 
 // Segments in the plane of a side, and along an edge: nothing lies strictly within.
-TEST(Passage, IsEmptyOnTheSides) {
+TEST(SegmentClip, IsEmptyOnTheSides) {
   const std::array<Vec3, 4> points = {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   BowyerWatson delaunay({{-9, -9, -9}, {9, 9, 9}});
   ASSERT_TRUE(delaunay.build(points));
@@ -84,10 +84,10 @@ TEST(Passage, IsEmptyOnTheSides) {
   while (delaunay.is_ghost(t)) t = TetId(t.index() + 1);
   for (const Segment& segment : {Segment{{0.1, 0.1, 0}, {0.3, 0.4, 0}}, Segment{{0, 0, 0}, {1, 0, 0}},
                                  Segment{{0.5, 0.5, 0}, {0, 0, 1}}, Segment{{2, 2, 2}, {3, 3, 3}}}) {
-    const Passage passage = passage_through(delaunay, t, segment);
+    const SegmentClip passage = clip_segment(delaunay, t, segment);
     for (const double s : {0.0, 0.25, 0.5, 1.0}) EXPECT_FALSE(passage.surely_holds(s)) << segment.b.x << " " << s;
   }
-  const Passage through = passage_through(delaunay, t, {{-0.2, 0.1, 0.1}, {0.8, 0.1, 0.1}});
+  const SegmentClip through = clip_segment(delaunay, t, {{-0.2, 0.1, 0.1}, {0.8, 0.1, 0.1}});
   EXPECT_NEAR(through.from, 0.2, 1e-9);
   EXPECT_NEAR(through.to, 1, 1e-9);
 }

@@ -1,4 +1,4 @@
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using testing::Scene;
 
 std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
                                       const CellLevels& raised, int threads = 1) {
-  RaisedEvidence evidence(restricted, grid);
+  SignConstraints evidence(restricted, grid);
   evidence.update(raised, threads);
   return evidence.sides();
 }
@@ -31,7 +31,7 @@ CellLevels everywhere(const Scene& scene) {
 }
 
 // Points strictly between two samples of one side lie on that side: whichever tetrahedron holds one must know.
-TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
+TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
@@ -60,7 +60,7 @@ TEST(Evidence, TetrahedraOnGridEdgesOfOneSideKnowIt) {
 }
 
 // Enough cells for several blocks. In the symmetric field many samples lie on sides of tetrahedra.
-TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
+TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
   for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
     const SignedDelaunay signed_delaunay = dense(*scene);
     const CellLevels raised = everywhere(*scene);
@@ -71,11 +71,11 @@ TEST(Evidence, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Evidence, IsNoneWithoutRaisedCells) {
+TEST(SignConstraint, IsNoneWithoutRaisedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
   for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, CellLevels(scene->grid, *scene->isosurface))) {
-    ASSERT_EQ(e, kNoEvidence);
+    ASSERT_EQ(e, kNoConstraint);
   }
 }
 

@@ -13,10 +13,10 @@ namespace deliso {
 // sample above it, and every region below holds one below. A small face-connected set of tetrahedra of one sign that
 // holds no sample of that sign is therefore an artefact. Sets with ghosts or more than a hundred tetrahedra are left
 // alone.
-class UnfoundedPockets {
+class SpuriousPockets {
  public:
   // Keeps references. The same for any number of threads.
-  UnfoundedPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads = 1);
+  SpuriousPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads = 1);
 
   // Finds the sets for the signs as they stand; looks only around those that have changed since the last update.
   void update();

@@ -1,4 +1,4 @@
-#include "surface/repair/signs/critical_places.h"
+#include "surface/repair/signs/located_critical_points.h"
 
 #include <bit>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPlacesAtOnce = 4096;
 
 void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const CellIndex& cell,
-                   std::vector<CriticalPlace>& places) {
+                   std::vector<LocatedCriticalPoint>& places) {
   const auto append = [&](const Vec3& uvw, bool is_above) {
     const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
     places.push_back({scaled(p, isosurface.step()), cell, is_above});
@@ -35,7 +35,7 @@ void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const C
 
 }  // namespace
 
-void LocatedPlaces::find(std::span<const CellIndex> cells, int threads) {
+void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) {
   // A cell whose places are known is left alone; one that was found to have none is asked again.
   std::vector<CellIndex> asked;
   auto known = places_.begin();
@@ -44,14 +44,15 @@ void LocatedPlaces::find(std::span<const CellIndex> cells, int threads) {
     if (known == places_.end() || known->cell != cell) asked.push_back(cell);
   }
   const Isosurface& isosurface = restricted_.isosurface();
-  add(collect_in_blocks<CriticalPlace>(asked.size(), threads, [&](std::size_t i, std::vector<CriticalPlace>& places) {
-    append_places(isosurface, grid_, asked[i], places);
-  }));
+  add(collect_in_blocks<LocatedCriticalPoint>(asked.size(), threads,
+                                              [&](std::size_t i, std::vector<LocatedCriticalPoint>& places) {
+                                                append_places(isosurface, grid_, asked[i], places);
+                                              }));
 }
 
 // Those of cells that had none.
-void LocatedPlaces::add(const std::vector<CriticalPlace>& found) {
-  std::vector<CriticalPlace> places;
+void LocatedCriticalPoints::add(const std::vector<LocatedCriticalPoint>& found) {
+  std::vector<LocatedCriticalPoint> places;
   std::vector<TetId> tets;
   places.reserve(places_.size() + found.size());
   tets.reserve(places.capacity());
@@ -69,7 +70,7 @@ void LocatedPlaces::add(const std::vector<CriticalPlace>& found) {
   tets_ = std::move(tets);
 }
 
-void LocatedPlaces::renew(const ExchangedPoints& exchanged) {
+void LocatedCriticalPoints::renew(const ExchangedPoints& exchanged) {
   std::vector<bool> is_renewed(restricted_.delaunay().tet_slots(), false);
   for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
   for (TetId& t : tets_) {
@@ -77,7 +78,7 @@ void LocatedPlaces::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-void LocatedPlaces::locate(std::span<const std::uint32_t> wanted, int threads) {
+void LocatedCriticalPoints::locate(std::span<const std::uint32_t> wanted, int threads) {
   for_each_block(
       wanted.size(), threads,
       [&](std::size_t first, std::size_t last) {
@@ -90,7 +91,7 @@ void LocatedPlaces::locate(std::span<const std::uint32_t> wanted, int threads) {
       kPlacesAtOnce);
 }
 
-TetId LocatedPlaces::located(const CriticalPlace& place, TetId hint) const {
+TetId LocatedCriticalPoints::located(const LocatedCriticalPoint& place, TetId hint) const {
   const CellIndex& cell = place.cell;
   const Vec3 center = scaled({cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}, restricted_.isosurface().step());
   return restricted_.locate(place.point, center, hint);

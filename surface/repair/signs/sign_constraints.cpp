@@ -1,4 +1,4 @@
-#include "surface/repair/signs/evidence.h"
+#include "surface/repair/signs/sign_constraints.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include "delaunay/predicates.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/repair/signs/passage.h"
 #include "surface/repair/signs/sample_locator.h"
+#include "surface/repair/signs/segment_clip.h"
 #include "volume/topology/critical_points.h"
 #include "volume/topology/exact_topology_cell.h"
 
@@ -40,15 +40,15 @@ class Collector {
   struct Stop {
     double s = 0;
     Vec3 point;
-    Passage passage;
+    SegmentClip passage;
   };
 
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   void follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side);
-  [[nodiscard]] Passage passage_of(TetId t, const Segment& segment) const {
-    return delaunay_.is_ghost(t) ? Passage{t} : passage_through(delaunay_, t, segment);
+  [[nodiscard]] SegmentClip passage_of(TetId t, const Segment& segment) const {
+    return delaunay_.is_ghost(t) ? SegmentClip{t} : clip_segment(delaunay_, t, segment);
   }
   TetId note(const Vec3& p, std::uint8_t side);
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
@@ -181,12 +181,12 @@ void Collector::note_located(const Vec3& p, std::uint8_t side) {
 
 }  // namespace
 
-void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
+void SignConstraints::renew(const ExchangedPoints& exchanged) {
   const Tetrahedralization& delaunay = restricted_.delaunay();
-  sides_.resize(delaunay.tet_slots(), kNoEvidence);
+  sides_.resize(delaunay.tet_slots(), kNoConstraint);
   std::vector<bool> is_renewed(sides_.size(), false);
   const auto forget = [&](TetId t) {
-    sides_[t.index()] = kNoEvidence;
+    sides_[t.index()] = kNoConstraint;
     is_renewed[t.index()] = true;
   };
   for (const TetId t : exchanged.renewed) {
@@ -204,8 +204,8 @@ void RaisedEvidence::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-void RaisedEvidence::update(const CellLevels& raised, int threads) {
-  sides_.resize(restricted_.delaunay().tet_slots(), kNoEvidence);
+void SignConstraints::update(const CellLevels& raised, int threads) {
+  sides_.resize(restricted_.delaunay().tet_slots(), kNoConstraint);
   // Cells that have been raised once stay so.
   std::vector<Trace> traces;
   traces.reserve(raised.levels().size());

@@ -1,4 +1,4 @@
-#include "surface/repair/signs/local_characteristic.h"
+#include "surface/repair/signs/euler_change.h"
 
 #include <algorithm>
 #include <array>
@@ -233,7 +233,7 @@ std::int64_t LocalMesh::doubled_facet(FacetId f, VertexId at) const {
 
 }  // namespace
 
-std::int64_t change_of_characteristic(SignedDelaunay& restricted, std::span<const TetId> tets) {
+std::int64_t euler_change(SignedDelaunay& restricted, std::span<const TetId> tets) {
   if (are_simple(restricted, tets)) return 0;  // nearly always
   LocalMesh local(restricted, tets);
   const std::int64_t before = local.doubled_characteristic();

@@ -13,10 +13,10 @@ namespace deliso {
 // a layer of such tetrahedra not once but three times: a fold by half a turn, whose triangles are apart only as long as
 // nobody rounds their corners again. So flat tetrahedra take those signs with which the restricted facets have the
 // least area; where that leaves a choice, they keep their own.
-class FlatSigns {
+class SliverSigns {
  public:
   // Keeps a reference. The same for any number of threads.
-  explicit FlatSigns(const SignedDelaunay& restricted, int threads = 1);
+  explicit SliverSigns(const SignedDelaunay& restricted, int threads = 1);
 
   // Takes account of an exchange of points.
   void renew(const ExchangedPoints& exchanged);
