@@ -19,7 +19,7 @@
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/restricted_delaunay.h"
-#include "surface/restricted/sides_of_facets.h"
+#include "surface/restricted/signs_from_facets.h"
 #include "volume/isovalue_range.h"
 
 namespace deliso {
@@ -138,7 +138,7 @@ void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
 // Without one sign per tetrahedron: gives the tetrahedra the signs that the restricted facets ask for, if there are
 // any.
 bool take_sides_of_facets(RestrictedDelaunay& restricted) {
-  const std::optional<TetSigns> above = sides_of_facets(restricted);
+  const std::optional<TetSigns> above = signs_from_facets(restricted);
   if (above) restricted.set_signs(*above);
   return above.has_value();
 }

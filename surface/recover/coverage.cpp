@@ -7,7 +7,7 @@
 
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
-#include "surface/restricted/sides_of_facets.h"
+#include "surface/restricted/signs_from_facets.h"
 #include "surface/search/covering_triangles.h"
 #include "surface/search/mesh_cover.h"
 

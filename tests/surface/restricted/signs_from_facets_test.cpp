@@ -1,5 +1,5 @@
 // Facets that go by the hits of their own dual edges: what they bound, if they bound anything.
-#include "surface/restricted/sides_of_facets.h"
+#include "surface/restricted/signs_from_facets.h"
 
 #include <gtest/gtest.h>
 
@@ -40,11 +40,11 @@ class WithoutOneFacet : public SignedDelaunay {
   FacetId forgotten_;
 };
 
-TEST(SidesOfFacets, OfFacetsBySignsAreTheSigns) {
+TEST(SignsFromFacets, OfFacetsBySignsAreTheSigns) {
   for (const auto& scene : {field_scene("torus", 16), field_scene("gyroid", 12), noise_scene({5, 5, 5}, 1)}) {
     SCOPED_TRACE(scene->name);
     const SignedDelaunay restricted(*scene->isosurface, scene->start());
-    const auto above = sides_of_facets(restricted);
+    const auto above = signs_from_facets(restricted);
     ASSERT_TRUE(above.has_value());
     for (std::size_t i = 0; i < above->size(); ++i) {
       if (restricted.delaunay().is_live(TetId(i))) {
@@ -54,7 +54,7 @@ TEST(SidesOfFacets, OfFacetsBySignsAreTheSigns) {
   }
 }
 
-TEST(SidesOfFacets, AreNotThereWhenAnyOneFacetIsMissing) {
+TEST(SignsFromFacets, AreNotThereWhenAnyOneFacetIsMissing) {
   const auto scene = field_scene("torus", 12);
   WithoutOneFacet restricted(*scene->isosurface, scene->start());
   const std::size_t all = facets_alone(restricted).triangles.size();
@@ -63,7 +63,7 @@ TEST(SidesOfFacets, AreNotThereWhenAnyOneFacetIsMissing) {
     restricted.forget(FacetId());
     if (!restricted.falls_through(f)) return;
     restricted.forget(f);
-    EXPECT_FALSE(sides_of_facets(restricted).has_value());
+    EXPECT_FALSE(signs_from_facets(restricted).has_value());
     EXPECT_EQ(facets_alone(restricted).triangles.size(), has_virtual_vertex(restricted, f) ? all : all - 1);
     ++tried;
   });

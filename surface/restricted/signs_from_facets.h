@@ -13,7 +13,7 @@ namespace deliso {
 // The side of every tetrahedron, by slot, such that the surface falls through (falls_through) exactly the
 // facets that lead from above to below. Nothing when there is no such choice: then around some edge the restricted
 // facets are odd in number, or two of them disagree about the side.
-std::optional<TetSigns> sides_of_facets(const SignedDelaunay& restricted);
+std::optional<TetSigns> signs_from_facets(const SignedDelaunay& restricted);
 
 // The facets that the surface falls through, counterclockwise seen from below, as they are: no manifold in general.
 // Only points and triangles of the mesh are filled; vertices without triangles are left out.

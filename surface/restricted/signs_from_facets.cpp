@@ -1,4 +1,4 @@
-#include "surface/restricted/sides_of_facets.h"
+#include "surface/restricted/signs_from_facets.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ std::optional<Side> side_behind(const SignedDelaunay& restricted, FacetId f, Sid
 
 }  // namespace
 
-std::optional<TetSigns> sides_of_facets(const SignedDelaunay& restricted) {
+std::optional<TetSigns> signs_from_facets(const SignedDelaunay& restricted) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   std::vector<Side> sides(delaunay.tet_slots(), Side::kUnknown);
   std::vector<TetId> waiting;
