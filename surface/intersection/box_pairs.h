@@ -1,6 +1,6 @@
 // Pairs of boxes that may meet, among many.
 //
-// Boxes near each other in space stand near each other, as in the order of halving (surface/search/halving_order.h):
+// Boxes near each other in space stand near each other, as in the order of halving (surface/search/kd_order.h):
 // eight in a row make a block, eight blocks one of the next level, up to a single one. A block holds the boxes of its
 // eight parts side by side, so that a box is compared with all of them at once; only blocks of the same level are
 // compared.

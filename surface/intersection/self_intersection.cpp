@@ -9,7 +9,7 @@
 #include "surface/intersection/box_pairs.h"
 #include "surface/intersection/injective_umbrellas.h"
 #include "surface/intersection/umbrella_batches.h"
-#include "surface/search/halving_order.h"
+#include "surface/search/kd_order.h"
 
 namespace deliso {
 
@@ -138,7 +138,7 @@ class OrderedTriangles {
     const auto centre_of = [&](std::uint32_t r) { return points[rows[r].vertex]; };
     numbers_.reserve(kBoxesPerRow * rows.size());
     std::size_t left = 0;  // in the last row
-    for (const std::uint32_t r : halving_order(std::move(centres), centre_of, threads)) {
+    for (const std::uint32_t r : kd_order(std::move(centres), centre_of, threads)) {
       const UmbrellaBatch& row = rows[r];
       if (row.count > left) {
         numbers_.resize(numbers_.size() + left, kNone);

@@ -8,8 +8,8 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/restricted/signs_from_facets.h"
+#include "surface/search/coverage_query.h"
 #include "surface/search/covering_triangles.h"
-#include "surface/search/mesh_cover.h"
 
 namespace deliso {
 
@@ -83,17 +83,17 @@ std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const S
   const bool are_few = suspects.size() <= mesh.triangles.size() / kFewSuspects;
   if (coverage_targets == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
   if (suspects.empty()) return {};
-  const MeshCover cover(mesh, threads);
+  const CoverageQuery cover(mesh, threads);
   const std::vector<std::uint32_t> asked = std::move(suspects);
-  std::vector<MeshCover::Cover> covers(asked.size());
+  std::vector<CoverageQuery::Cover> covers(asked.size());
   for_each_block(asked.size(), threads, [&](std::size_t first, std::size_t last) {
     const std::vector<Vec3> points = positions(std::span(asked).subspan(first, last - first));
     cover.look_at_all(points, std::span(covers).subspan(first, last - first));
   });
   suspects.clear();
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (covers[i] == MeshCover::Cover::kNone) suspects.push_back(asked[i]);
-    if (coverage_targets != nullptr && covers[i] != MeshCover::Cover::kClose)
+    if (covers[i] == CoverageQuery::Cover::kNone) suspects.push_back(asked[i]);
+    if (coverage_targets != nullptr && covers[i] != CoverageQuery::Cover::kClose)
       coverage_targets->push_back(position(asked[i]));
   }
   return positions(suspects);

@@ -11,10 +11,10 @@
 
 namespace deliso {
 
-// The grid-edge crossings that the mesh of the triangulation does not cover (see MeshCover): for stage 1 to insert.
+// The grid-edge crossings that the mesh of the triangulation does not cover (see CoverageQuery): for stage 1 to insert.
 // `suspects` are the crossings to ask about (places in topology.crossings); those that are not covered stay in it.
-// `coverage targets`, when asked for, gets those that the mesh is not close to (MeshCover::look), covered or not. The
-// same for any number of threads.
+// `coverage targets`, when asked for, gets those that the mesh is not close to (CoverageQuery::look), covered or not.
+// The same for any number of threads.
 std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
                                    const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
                                    int threads = 1, std::vector<Vec3>* coverage_targets = nullptr);

@@ -1,6 +1,6 @@
 // A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
 //
-// The things stand in the order of halving (surface/search/halving_order.h), whose parts are the nodes. What is found
+// The things stand in the order of halving (surface/search/kd_order.h), whose parts are the nodes. What is found
 // does not depend on how that order was rounded: boxes are only copied and merged, and of equals the first is taken.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 #include "delaunay/base/box3.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/search/halving_order.h"
+#include "surface/search/kd_order.h"
 
 namespace deliso {
 
@@ -43,7 +43,7 @@ class BoxTree {
     for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) places[i] = lattice.place(centres[i], i);
     });
-    things_ = halving_order(
+    things_ = kd_order(
         std::move(places), [&](std::uint32_t thing) { return centres[thing]; }, threads);
     boxes_.resize(count);
     for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
@@ -95,7 +95,7 @@ class BoxTree {
       return {node + 1 + node_count(there), first + there, count - there};
     }
   };
-  // All leaves but the last of a part are full (halving_order.h).
+  // All leaves but the last of a part are full (kd_order.h).
   static std::uint32_t node_count(std::size_t things) {
     return static_cast<std::uint32_t>(2 * ((things + kThingsPerLeaf - 1) / kThingsPerLeaf) - 1);
   }

@@ -4,7 +4,7 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
-#include "surface/search/near_blocks.h"
+#include "surface/search/occupied_blocks.h"
 
 namespace deliso {
 
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
   std::vector<Box3> boxes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) boxes[i].extend(points[i]);
   const BoxTree tree(boxes);
-  const NearBlocks blocks(points, kBlock);
+  const OccupiedBlocks blocks(points, kBlock);
   const auto append_if_near = [&](std::size_t i, std::vector<std::uint32_t>& near) {
     const auto t = static_cast<std::uint32_t>(i);
     // A corner far from all points tells of a small triangle: sides and reach together stay within a block.

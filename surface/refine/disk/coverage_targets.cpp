@@ -10,8 +10,8 @@
 #include "delaunay/base/box3.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/search/near_blocks.h"
-#include "surface/search/point_blocks.h"
+#include "surface/search/occupied_blocks.h"
+#include "surface/search/point_grid.h"
 
 namespace deliso {
 
@@ -120,7 +120,7 @@ std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> coverage_ta
 // finds.
 std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
-  const PointBlocks blocks(coverage_targets, kLikelyBlock);
+  const PointGrid blocks(coverage_targets, kLikelyBlock);
   // Of each coverage target: the squared distance, in steps, and behind it the triangle.
   constexpr double kSteps = 1 << 20;
   constexpr double kMostSteps = 1 << 30;
@@ -148,8 +148,8 @@ std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3
 // Those that no triangle is as near to as it would have to be.
 std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
-  const PointBlocks blocks(coverage_targets, kBlock);
-  std::optional<NearBlocks> near_blocks;  // where it pays
+  const PointGrid blocks(coverage_targets, kBlock);
+  std::optional<OccupiedBlocks> near_blocks;  // where it pays
   if (coverage_targets.size() < mesh_.triangles.size()) near_blocks.emplace(coverage_targets, reach_of_small(least_));
   std::vector<std::uint8_t> is_near(coverage_targets.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {
@@ -173,10 +173,10 @@ std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> cover
 
 std::vector<MissedTarget> LandmarkSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
-  const PointBlocks blocks(coverage_targets, kBlock);
+  const PointGrid blocks(coverage_targets, kBlock);
   std::vector<MissedTarget> found;
   for (const Vec3& p : coverage_targets) found.push_back({p, 0, kFarthest * kFarthest});
-  const NearBlocks near_blocks(coverage_targets, reach_of_small(kFarthest));
+  const OccupiedBlocks near_blocks(coverage_targets, reach_of_small(kFarthest));
   const auto near = collect_in_blocks<std::uint32_t>(mesh_.triangles.size(), threads_, [&](std::size_t i, auto& some) {
     const auto t = static_cast<std::uint32_t>(i);
     if (!is_small(t) || near_blocks.is_near(mesh_.triangles[t].ball.center)) some.push_back(t);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "surface/search/box_tree.h"
+#include "surface/search/coverage_query.h"
 #include "surface/search/covering_triangles.h"
-#include "surface/search/mesh_cover.h"
 
 namespace deliso {
 
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
   const auto any = [](std::uint32_t) { return true; };
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, threads);
   if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};
-  const MeshCover cover(mesh, threads);
+  const CoverageQuery cover(mesh, threads);
   std::vector<std::uint32_t> left_out;
   std::uint32_t guess = 0;
   for (std::size_t k = 0; k < inside.size(); ++k) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/search/halving_order.h"
+#include "surface/search/kd_order.h"
 #include "tests/support/random_boxes.h"
 
 namespace deliso {
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> order_of(const std::vector<Box3>& boxes, int threads 
   const CentreLattice lattice(box_of_all(boxes));
   std::vector<LatticePlace> places;
   for (std::size_t i = 0; i < boxes.size(); ++i) places.push_back(lattice.place(centre(boxes[i]), i));
-  return halving_order(
+  return kd_order(
       std::move(places), [&](std::uint32_t i) { return centre(boxes[i]); }, threads);
 }
 

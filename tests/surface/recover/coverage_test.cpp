@@ -13,8 +13,8 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/search/coverage_query.h"
 #include "surface/search/covering_triangles.h"
-#include "surface/search/mesh_cover.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -58,7 +58,7 @@ TEST(Coverage, AgreesWithMeasuringEveryTriangle) {
   const SurfaceMesh mesh = soup(rng);
   std::vector<Vec3> points(2000);
   for (Vec3& p : points) p = {20 * rng.uniform(), 20 * rng.uniform(), 20 * rng.uniform()};
-  const MeshCover cover(mesh);
+  const CoverageQuery cover(mesh);
   std::uint32_t guess = 0;
   const auto takes = [](std::uint32_t t) { return t % 3 != 0; };
   const std::vector<std::uint32_t> few = covering_triangles(points, mesh, takes);

@@ -10,7 +10,7 @@
 
 #include "surface/base/parallel_blocks.h"
 #include "surface/repair/diagnosis/exact_polygonization.h"
-#include "surface/search/mesh_cover.h"
+#include "surface/search/coverage_query.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -34,7 +34,7 @@ TEST(MissedCrossings, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
   const Vec3 elsewhere = crossing_position(scene->grid, scene->topology.crossings[5]);
   const std::vector<Box3> boxes = {around(center, 2), around(center + Vec3{1, 1, 0}, 2), around(elsewhere, 2)};
   ASSERT_GT(mesh.triangles.size(), kBlockSize);
-  const MeshCover cover(mesh);
+  const CoverageQuery cover(mesh);
   std::vector<std::uint32_t> expected;
   for (std::uint32_t i = 0; i < scene->topology.crossings.size(); ++i) {
     const Vec3 p = crossing_position(scene->grid, scene->topology.crossings[i]);

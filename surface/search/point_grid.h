@@ -14,10 +14,10 @@
 
 namespace deliso {
 
-class PointBlocks {
+class PointGrid {
  public:
   // Cubes with sides of this length, or longer where that would be too many.
-  PointBlocks(std::span<const Vec3> points, double side) {
+  PointGrid(std::span<const Vec3> points, double side) {
     if (points.empty()) return;
     Box3 box;
     for (const Vec3& p : points) box.extend(p);

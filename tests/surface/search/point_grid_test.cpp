@@ -1,4 +1,4 @@
-#include "surface/search/point_blocks.h"
+#include "surface/search/point_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace deliso {
 namespace {
 
-TEST(PointBlocks, TellOfEveryPointInABoxAndOfNoneFarFromIt) {
+TEST(PointGrid, TellOfEveryPointInABoxAndOfNoneFarFromIt) {
   Rng rng(3);
   const auto random = [&](const Vec3& sides) {
     return Vec3{sides.x * (rng.uniform() - 0.3), sides.y * (rng.uniform() - 0.3), sides.z * (rng.uniform() - 0.3)};
@@ -22,7 +22,7 @@ TEST(PointBlocks, TellOfEveryPointInABoxAndOfNoneFarFromIt) {
     std::vector<Vec3> points(300);
     for (Vec3& p : points) p = random(sides);
     const double side = 2, longest = std::max({side, sides.x / 128});
-    const PointBlocks blocks(points, side);
+    const PointGrid blocks(points, side);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       int own = 0;
       blocks.for_each_beside(points[i], [&](std::uint32_t j) { own += i == j ? 1 : 0; });
@@ -49,8 +49,8 @@ TEST(PointBlocks, TellOfEveryPointInABoxAndOfNoneFarFromIt) {
   }
   EXPECT_GT(found, 1000);
   EXPECT_GT(beside, 1000);
-  PointBlocks({}, 2).for_each_near({{0, 0, 0}, {1, 1, 1}}, [](std::uint32_t) { FAIL(); });
-  PointBlocks({}, 2).for_each_beside({0, 0, 0}, [](std::uint32_t) { FAIL(); });
+  PointGrid({}, 2).for_each_near({{0, 0, 0}, {1, 1, 1}}, [](std::uint32_t) { FAIL(); });
+  PointGrid({}, 2).for_each_beside({0, 0, 0}, [](std::uint32_t) { FAIL(); });
 }
 
 }  // namespace

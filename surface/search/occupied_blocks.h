@@ -12,10 +12,10 @@
 
 namespace deliso {
 
-class NearBlocks {
+class OccupiedBlocks {
  public:
   // At least one point. Blocks have sides of this length, or longer where that would be too many.
-  NearBlocks(std::span<const Vec3> points, double side) {
+  OccupiedBlocks(std::span<const Vec3> points, double side) {
     Box3 box;
     for (const Vec3& p : points) box.extend(p);
     const Vec3 sides = box.size();

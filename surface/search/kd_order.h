@@ -50,7 +50,7 @@ std::uint32_t left_half(std::uint32_t count);
 
 // The things in the order of the leaves, the same for any number of threads. centre_of(thing) gives the point that a
 // place was made from: crowds that share few steps of the lattice get a finer one of their own.
-std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places,
-                                         const std::function<Vec3(std::uint32_t)>& centre_of, int threads);
+std::vector<std::uint32_t> kd_order(std::vector<LatticePlace> places,
+                                    const std::function<Vec3(std::uint32_t)>& centre_of, int threads);
 
 }  // namespace deliso

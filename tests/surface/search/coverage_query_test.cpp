@@ -1,4 +1,4 @@
-#include "surface/search/mesh_cover.h"
+#include "surface/search/coverage_query.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace deliso {
 namespace {
 
-using Cover = MeshCover::Cover;
+using Cover = CoverageQuery::Cover;
 
 constexpr double kSide = 100;
 
@@ -59,7 +59,7 @@ Cover expected_cover(const SurfaceMesh& mesh, const Vec3& p) {
 }
 
 // Points in a row lie near each other, as those of a surface do that are asked about; now and then they leap.
-TEST(MeshCover, PointsInARowAreAnsweredLikeEachAlone) {
+TEST(CoverageQuery, PointsInARowAreAnsweredLikeEachAlone) {
   for (const double largest : {3.0, 60.0}) {
     Rng rng(static_cast<std::uint64_t>(largest));
     const SurfaceMesh mesh = soup(rng, 80, largest);
@@ -70,7 +70,7 @@ TEST(MeshCover, PointsInARowAreAnsweredLikeEachAlone) {
       for (double more = 30 * rng.uniform(); more > 0; --more) points.push_back(p += random_step(rng));
     }
     std::vector<Cover> answers(points.size(), Cover::kNone);
-    const MeshCover cover(mesh);
+    const CoverageQuery cover(mesh);
     cover.look_at_all(points, answers);
     std::array<int, 3> counts{};
     std::uint32_t guess = 0;
@@ -86,7 +86,7 @@ TEST(MeshCover, PointsInARowAreAnsweredLikeEachAlone) {
 
 // The nearest triangle of a point at the end of a row may be nearly a whole row farther from the row's middle than the
 // triangle that is nearest there.
-TEST(MeshCover, TheNearestTriangleMayBeFarFromTheMiddleOfARow) {
+TEST(CoverageQuery, TheNearestTriangleMayBeFarFromTheMiddleOfARow) {
   SurfaceMesh mesh;
   // Large, across the row, two units before its middle; and small, 9.9 units behind it.
   mesh.points = {{-2, -30, -20}, {-2, 30, -20}, {-2, 0, 40}, {9.9, -1, -1}, {9.9, 1, -1}, {9.9, 0, 1}};
@@ -95,15 +95,15 @@ TEST(MeshCover, TheNearestTriangleMayBeFarFromTheMiddleOfARow) {
   std::vector<Vec3> points;
   for (double x = -4; x <= 4; ++x) points.push_back({x, 0, 0});
   std::vector<Cover> answers(points.size(), Cover::kClose);
-  MeshCover(mesh).look_at_all(points, answers);
+  CoverageQuery(mesh).look_at_all(points, answers);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(answers[i], expected_cover(mesh, points[i])) << i;
   EXPECT_EQ(answers.back(), Cover::kNone) << "the small one is nearer by a tenth, and does not cover so far";
   EXPECT_EQ(answers[7], Cover::kFar) << "the large one is nearer, and does";
 }
 
-TEST(MeshCover, AMeshWithoutTrianglesCoversNothing) {
+TEST(CoverageQuery, AMeshWithoutTrianglesCoversNothing) {
   const SurfaceMesh mesh;
-  const MeshCover cover(mesh);
+  const CoverageQuery cover(mesh);
   const std::vector<Vec3> points(5, {1, 2, 3});
   std::vector<Cover> answers(points.size(), Cover::kClose);
   cover.look_at_all(points, answers);

@@ -13,10 +13,10 @@
 
 namespace deliso {
 
-class MeshCover {
+class CoverageQuery {
  public:
   // Keeps a reference to the mesh.
-  explicit MeshCover(const SurfaceMesh& mesh, int threads = 1);
+  explicit CoverageQuery(const SurfaceMesh& mesh, int threads = 1);
 
   // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (of a
   // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. `guess` is

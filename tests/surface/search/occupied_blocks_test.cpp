@@ -1,4 +1,4 @@
-#include "surface/search/near_blocks.h"
+#include "surface/search/occupied_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace deliso {
 namespace {
 
-TEST(NearBlocks, WhatIsNearNoneIsFarFromAllPoints) {
+TEST(OccupiedBlocks, WhatIsNearNoneIsFarFromAllPoints) {
   Rng rng(7);
   const auto random = [&](const Vec3& sides) {
     return Vec3{sides.x * (rng.uniform() - 0.3), sides.y * (rng.uniform() - 0.3), sides.z * (rng.uniform() - 0.3)};
@@ -21,7 +21,7 @@ TEST(NearBlocks, WhatIsNearNoneIsFarFromAllPoints) {
   for (const Vec3& sides : {Vec3{40, 40, 40}, Vec3{50, 1, 1}, Vec3{3000, 700, 0}, Vec3{0, 0, 0}}) {
     std::vector<Vec3> points(20);
     for (Vec3& p : points) p = random(sides);
-    const NearBlocks blocks(points, 3);
+    const OccupiedBlocks blocks(points, 3);
     EXPECT_GE(blocks.reach(), 2.99);
     for (int trial = 0; trial < 2000; ++trial) {
       const Vec3 p = random(2 * sides + Vec3{30, 30, 30});

@@ -1,4 +1,4 @@
-#include "surface/search/mesh_cover.h"
+#include "surface/search/coverage_query.h"
 
 #include <algorithm>
 #include <array>
@@ -59,24 +59,24 @@ void for_each_run(std::span<const Vec3> points, double diagonal, Visit&& visit) 
 
 }  // namespace
 
-MeshCover::MeshCover(const SurfaceMesh& mesh, int threads)
+CoverageQuery::CoverageQuery(const SurfaceMesh& mesh, int threads)
     : mesh_(mesh),
       tree_(
           mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); }, threads) {}
 
-double MeshCover::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
+double CoverageQuery::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
   const auto& v = mesh_.triangles[triangle];
   return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
 }
 
-MeshCover::Cover MeshCover::cover_by(const Nearest& nearest) const {
+CoverageQuery::Cover CoverageQuery::cover_by(const Nearest& nearest) const {
   if (nearest.squared < kClose * kClose) return Cover::kClose;
   if (nearest.squared < kNear * kNear) return Cover::kFar;
   const double reach = kRadiusFraction * extent(mesh_, nearest.triangle);
   return nearest.squared <= reach * reach ? Cover::kFar : Cover::kNone;
 }
 
-MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
+CoverageQuery::Cover CoverageQuery::look(const Vec3& p, std::uint32_t& guess) const {
   if (mesh_.triangles.empty()) return Cover::kNone;
   const double reached = squared_distance_to(p, guess);
   if (reached < kClose * kClose) return Cover::kClose;
@@ -89,11 +89,11 @@ MeshCover::Cover MeshCover::look(const Vec3& p, std::uint32_t& guess) const {
   return cover_by({triangle, squared});
 }
 
-bool MeshCover::is_coarse(std::uint32_t triangle) const {
+bool CoverageQuery::is_coarse(std::uint32_t triangle) const {
   return squared_longest_edge(mesh_, triangle) >= kCoarse * kCoarse;
 }
 
-void MeshCover::look_at_all(std::span<const Vec3> points, std::span<Cover> covers) const {
+void CoverageQuery::look_at_all(std::span<const Vec3> points, std::span<Cover> covers) const {
   if (mesh_.triangles.empty()) {
     std::fill(covers.begin(), covers.end(), Cover::kNone);
     return;
@@ -105,7 +105,8 @@ void MeshCover::look_at_all(std::span<const Vec3> points, std::span<Cover> cover
 }
 
 // Points within a small box. Bounds tell of most that a triangle is close, of most others how far; few are measured.
-void MeshCover::look_at_group(std::span<const Vec3> group, const Box3& box, std::span<Cover> covers, Work& work) const {
+void CoverageQuery::look_at_group(std::span<const Vec3> group, const Box3& box, std::span<Cover> covers,
+                                  Work& work) const {
   find_near(box, work);
   work.left.clear();
   for (std::size_t first = 0; first < group.size(); first += DistanceBounds::kMostPoints) {
@@ -127,7 +128,7 @@ void MeshCover::look_at_group(std::span<const Vec3> group, const Box3& box, std:
   look_at_left(group, covers, work);
 }
 
-void MeshCover::find_near(const Box3& box, Work& work) const {
+void CoverageQuery::find_near(const Box3& box, Work& work) const {
   const Vec3 middle = 0.5 * box.low + 0.5 * box.high;
   work.near.clear();
   tree_.for_each_meeting(widened(box), [&](std::uint32_t t) {
@@ -137,7 +138,7 @@ void MeshCover::find_near(const Box3& box, Work& work) const {
   });
 }
 
-DistanceBounds MeshCover::bounds_of(std::span<const Vec3> points, const Vec3& middle, const Work& work) {
+DistanceBounds CoverageQuery::bounds_of(std::span<const Vec3> points, const Vec3& middle, const Work& work) {
   DistanceBounds bounds(points, middle);
   Box3 box;
   for (const Vec3& p : points) box.extend(p);
@@ -148,7 +149,7 @@ DistanceBounds MeshCover::bounds_of(std::span<const Vec3> points, const Vec3& mi
 }
 
 // As far as those near a group tell.
-MeshCover::Cover MeshCover::cover_by_near(const Vec3& p, const Work& work) const {
+CoverageQuery::Cover CoverageQuery::cover_by_near(const Vec3& p, const Work& work) const {
   double least = kNear * kNear;
   for (const Near& near : work.near) {
     if (near.box.contains(p)) least = std::min(least, squared_distance_to(p, near.triangle));
@@ -157,7 +158,7 @@ MeshCover::Cover MeshCover::cover_by_near(const Vec3& p, const Work& work) const
 }
 
 // At points of a group that have no triangle near.
-void MeshCover::look_at_left(std::span<const Vec3> group, std::span<Cover> covers, Work& work) const {
+void CoverageQuery::look_at_left(std::span<const Vec3> group, std::span<Cover> covers, Work& work) const {
   std::vector<Vec3> points;
   for (const std::size_t i : work.left) points.push_back(group[i]);
   for_each_run(points, kDiagonal, [&](std::size_t first, std::size_t end, const Box3& box) {
@@ -170,10 +171,10 @@ void MeshCover::look_at_left(std::span<const Vec3> group, std::span<Cover> cover
 }
 
 // The triangles that may be nearest to a point of a small box, by their distance from its middle.
-class MeshCover::Candidates {
+class CoverageQuery::Candidates {
  public:
   // `distance`: of the nearest of all from the middle.
-  Candidates(const MeshCover& cover, const Box3& box, double distance)
+  Candidates(const CoverageQuery& cover, const Box3& box, double distance)
       : cover_(cover), middle_(0.5 * box.low + 0.5 * box.high) {
     // Half a diagonal from the middle to the point, and back.
     const double reach = 1.001 * (distance + box.diagonal());
@@ -203,15 +204,15 @@ class MeshCover::Candidates {
   }
 
  private:
-  const MeshCover& cover_;
+  const CoverageQuery& cover_;
   Vec3 middle_;
   std::size_t count_ = 0;
   std::array<std::pair<double, std::uint32_t>, kMostCandidates> found_;
 };
 
 // Points within a small box, whose covers have the places given; false when too many triangles are near.
-bool MeshCover::look_together(std::span<const Vec3> run, const Box3& box, std::span<const std::size_t> places,
-                              std::span<Cover> covers, std::uint32_t& guess) const {
+bool CoverageQuery::look_together(std::span<const Vec3> run, const Box3& box, std::span<const std::size_t> places,
+                                  std::span<Cover> covers, std::uint32_t& guess) const {
   const Vec3 middle = 0.5 * box.low + 0.5 * box.high;
   const double reached = squared_distance_to(middle, guess);
   const auto [triangle, squared] =

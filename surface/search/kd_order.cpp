@@ -1,4 +1,4 @@
-#include "surface/search/halving_order.h"
+#include "surface/search/kd_order.h"
 
 #include <algorithm>
 #include <bit>
@@ -148,7 +148,7 @@ std::uint32_t left_half(std::uint32_t count) {
   return std::bit_floor((count + kThingsPerLeaf - 1) / kThingsPerLeaf - 1) * kThingsPerLeaf;
 }
 
-std::vector<std::uint32_t> halving_order(std::vector<LatticePlace> places, const CentreOf& centre_of, int threads) {
+std::vector<std::uint32_t> kd_order(std::vector<LatticePlace> places, const CentreOf& centre_of, int threads) {
   // The uppermost levels one after the other, then what hangs below them.
   std::vector<Places> parts = {places};
   for (int depth = 0; depth < kTaskDepth; ++depth) {
