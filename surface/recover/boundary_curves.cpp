@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

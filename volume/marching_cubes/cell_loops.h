@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "delaunay/base/check.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

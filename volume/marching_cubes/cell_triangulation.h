@@ -25,7 +25,7 @@
 #include "volume/marching_cubes/cell_loops.h"
 #include "volume/marching_cubes/exact_tests.h"
 #include "volume/marching_cubes/loop_band.h"
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

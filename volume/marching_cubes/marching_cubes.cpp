@@ -4,7 +4,7 @@
 
 #include "delaunay/base/check.h"
 #include "volume/marching_cubes/cell_triangulation.h"
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

@@ -1,7 +1,7 @@
 // Marching cubes with the topology of the trilinear interpolant: the baseline that Delaunay meshing is compared with.
 //
 // One vertex per grid-edge crossing. In every cell the arcs on its faces (asymptotic decider; Nielson and Hamann 1991)
-// close to loops, and the exact pieces of the surface in the cell (exact_topology_cell.h) say which loops bound a disk
+// close to loops, and the exact pieces of the surface in the cell (cell_sweep.h) say which loops bound a disk
 // and which two bound a tunnel (Chernyaev 1995). All decisions are the exact ones of exact_topology, so the mesh is
 // homeomorphic to the isosurface. With exact tests no triangles meet beyond what they share, but for crossings
 // that are rounded to samples (cell_triangulation.h); without them some may, around tunnels.
@@ -15,7 +15,7 @@
 #include "delaunay/base/vec3.h"
 #include "volume/marching_cubes/exact_tests.h"
 #include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 
@@ -24,7 +24,7 @@ class CellCrossings {
     if (cell[1] != row_[0] || cell[2] != row_[1]) take_row(cell[1], cell[2]);
     first_ = kPerSample * static_cast<std::size_t>(cell[0]);
   }
-  // The number of the crossing on an edge of the cell (exact_topology_cell.h), which must have one.
+  // The number of the crossing on an edge of the cell (cell_sweep.h), which must have one.
   [[nodiscard]] std::uint32_t number(int edge) const {
     const Place& place = places_[static_cast<std::size_t>(edge)];
     return rows_[place.row][first_ + place.offset];

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "volume/topology/exact_topology_cell.h"
-#include "volume/topology/exact_topology_numbers.h"
+#include "volume/topology/cell_sweep.h"
+#include "volume/topology/exact_signs.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

@@ -9,7 +9,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/parallel.h"
 #include "volume/topology/cell_crossings.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

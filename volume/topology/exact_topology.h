@@ -3,7 +3,7 @@
 // Within a cell, sweep w from 0 to 1: the slice is bilinear and holds 0, 1 or 2 arcs, each named by the cell sides it
 // crosses; it changes only at roots on vertical edges and at saddles of ambiguous slices. Arcs between events are edges
 // and event slices are nodes of a small graph, whose Euler characteristic is that of the cell's surface piece
-// (exact_topology_cell.h). Pieces join through the grid-edge crossings they share. Linear time, exact for a regular
+// (cell_sweep.h). Pieces join through the grid-edge crossings they share. Linear time, exact for a regular
 // isovalue: all decisions are exact signs of polynomials in the samples.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 #include "delaunay/base/vec3.h"
 #include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

@@ -7,7 +7,7 @@
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/signs/sign_constraints.h"
 #include "volume/topology/cell_crossings.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

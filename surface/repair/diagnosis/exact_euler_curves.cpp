@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "volume/topology/cell_crossings.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

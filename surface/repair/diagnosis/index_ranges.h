@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "volume/topology/exact_topology_crossings.h"
+#include "volume/topology/crossing_index.h"
 
 namespace deliso {
 

@@ -9,8 +9,8 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/repair/signs/sample_locator.h"
 #include "surface/repair/signs/segment_clip.h"
+#include "volume/topology/cell_sweep.h"
 #include "volume/topology/critical_points.h"
-#include "volume/topology/exact_topology_cell.h"
 
 namespace deliso {
 

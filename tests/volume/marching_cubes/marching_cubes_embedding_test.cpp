@@ -15,8 +15,8 @@
 #include "tests/support/volume_files.h"
 #include "volume/io/volume_file.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/topology/cell_sweep.h"
 #include "volume/topology/exact_topology.h"
-#include "volume/topology/exact_topology_cell.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 namespace {

@@ -15,7 +15,7 @@
 #include "tests/support/topology_oracle.h"
 #include "tests/support/volume_files.h"
 #include "volume/io/volume_file.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 namespace {

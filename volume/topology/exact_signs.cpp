@@ -1,4 +1,4 @@
-#include "volume/topology/exact_topology_numbers.h"
+#include "volume/topology/exact_signs.h"
 
 #include <algorithm>
 #include <utility>

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "delaunay/base/check.h"
+#include "volume/topology/cell_sweep.h"
 #include "volume/topology/exact_topology.h"
-#include "volume/topology/exact_topology_cell.h"
 
 namespace deliso {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 namespace deliso {
 

@@ -8,7 +8,7 @@
 
 #include "delaunay/base/rng.h"
 #include "tests/support/topology_grids.h"
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

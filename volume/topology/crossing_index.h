@@ -72,7 +72,7 @@ class CrossingIndex {
   [[nodiscard]] std::uint32_t find(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const;
   // The same for an edge that is known to have a crossing.
   [[nodiscard]] std::uint32_t number(std::int32_t i, std::int32_t j, std::int32_t k, int axis) const;
-  // The same for an edge of a cell (exact_topology_cell.h).
+  // The same for an edge of a cell (cell_sweep.h).
   [[nodiscard]] std::uint32_t number(const CellIndex& cell, int edge) const;
 
   // Calls visit(number) for the crossings on the edges of a cell, those along x first, then those along y.

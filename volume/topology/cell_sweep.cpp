@@ -1,4 +1,4 @@
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
-#include "volume/topology/exact_topology_numbers.h"
+#include "volume/topology/exact_signs.h"
 
 namespace deliso {
 

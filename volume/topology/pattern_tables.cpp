@@ -4,8 +4,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "volume/topology/exact_topology_cell.h"
-#include "volume/topology/exact_topology_numbers.h"
+#include "volume/topology/cell_sweep.h"
+#include "volume/topology/exact_signs.h"
 
 namespace deliso {
 

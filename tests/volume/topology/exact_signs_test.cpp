@@ -1,5 +1,5 @@
 // The two kinds of numbers behind every topological decision.
-#include "volume/topology/exact_topology_numbers.h"
+#include "volume/topology/exact_signs.h"
 
 #include <gtest/gtest.h>
 

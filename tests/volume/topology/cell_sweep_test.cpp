@@ -1,5 +1,5 @@
 // The pieces of the surface inside one cell: against a fine lattice, and against the sweep along other axes.
-#include "volume/topology/exact_topology_cell.h"
+#include "volume/topology/cell_sweep.h"
 
 #include <gtest/gtest.h>
 
