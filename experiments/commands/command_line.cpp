@@ -10,9 +10,9 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
 #include "experiments/system/parse_number.h"
-#include "volume/io/sample_type.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
+#include "volume/sample_type.h"
 
 namespace deliso {
 namespace {

@@ -41,7 +41,7 @@ bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
 // The direction that no triangle of the star may face: that of the gradient. At the tip of a finger that jumps, and the
 // disk which the finger stands on tells more of it, unless the gradients around the tip say otherwise.
 Vec3 RefineLoop::upwards(const Candidate& candidate) const {
-  if (!candidate.is_landmark) return isosurface_.gradient(candidate.point);
+  if (!candidate.is_coverage_target) return isosurface_.gradient(candidate.point);
   Vec3 mean;
   for_each_gradient_at(isosurface_, candidate.point,
                        [&](const Vec3& gradient) { mean += gradient / std::max(norm_of_any_size(gradient), 1e-300); });

@@ -14,7 +14,7 @@ constexpr double kNearestVertex = 0.5;
 // A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
 constexpr double kFarthestMove = 0.8;
 // Coverage targets are inserted so often, what follows from it being refined in between.
-constexpr int kLandmarkRounds = 4;
+constexpr int kCoverageTargetRounds = 4;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void RefineLoop::run(Controls& controls, int threads) {
     guard_.emplace(mesh_, threads);
     refine_queued(controls);
   }
-  for (int i = 0; i < kLandmarkRounds && insert_coverage_targets(controls, threads); ++i) refine_queued(controls);
+  for (int i = 0; i < kCoverageTargetRounds && insert_coverage_targets(controls, threads); ++i) refine_queued(controls);
   guard_.reset();
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "volume/fields/analytic_fields.h"
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

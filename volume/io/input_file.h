@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 
 namespace deliso {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 
 namespace deliso {
 

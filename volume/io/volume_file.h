@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

@@ -31,9 +31,9 @@ Box3 widened(const Box3& box, double reach) {
   return {box.low - around, box.high + around};
 }
 
-class LandmarkSearch {
+class CoverageTargetSearch {
  public:
-  LandmarkSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
+  CoverageTargetSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
       : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, kNear)), threads_(threads) {}
 
   [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> coverage_targets) const;
@@ -76,7 +76,7 @@ class LandmarkSearch {
 };
 
 // How far off a point of the surface may be that a triangle stands for.
-double LandmarkSearch::reach_of(std::uint32_t triangle) const {
+double CoverageTargetSearch::reach_of(std::uint32_t triangle) const {
   const auto [a, b, c] = corners(triangle);
   const double squared_edge = std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
   if (squared_edge <= kLong * kLong || !mesh_.triangles[triangle].has_hit()) return least_;
@@ -87,7 +87,7 @@ double LandmarkSearch::reach_of(std::uint32_t triangle) const {
 
 // Most triangles have a small ball, around which nearly always nothing is asked about: then their corners, which lie
 // all over the memory, are not needed. The box of a large one is mostly far off its plane.
-LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) const {
+CoverageTargetSearch::Vicinity CoverageTargetSearch::vicinity_of(std::uint32_t triangle) const {
   constexpr double kLeastArea = 1e-6;  // of the square of the box's diagonal, for a plane that rounding leaves alone
   const SurfaceDelaunayBall& ball = mesh_.triangles[triangle].ball;
   Vicinity vicinity;
@@ -110,7 +110,7 @@ LandmarkSearch::Vicinity LandmarkSearch::vicinity_of(std::uint32_t triangle) con
 }
 
 // Where triangles are large there are fewer of them than coverage targets: then all of them are asked at once.
-std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> coverage_targets) const {
+std::vector<Vec3> CoverageTargetSearch::far_from_all(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.size() > mesh_.triangles.size()) return beside_no_triangle(coverage_targets);
   return beside_no_triangle(beside_no_likely_triangle(coverage_targets));
 }
@@ -118,7 +118,7 @@ std::vector<Vec3> LandmarkSearch::far_from_all(std::span<const Vec3> coverage_ta
 // Of the triangles whose balls have their middles in a coverage target's block, the one with the nearest middle nearly
 // always is near. Which one is measured does not matter to what is found at last, so threads may miss each other's
 // finds.
-std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const {
+std::vector<Vec3> CoverageTargetSearch::beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
   const PointGrid blocks(coverage_targets, kLikelyBlock);
   // Of each coverage target: the squared distance, in steps, and behind it the triangle.
@@ -146,7 +146,7 @@ std::vector<Vec3> LandmarkSearch::beside_no_likely_triangle(std::span<const Vec3
 }
 
 // Those that no triangle is as near to as it would have to be.
-std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> coverage_targets) const {
+std::vector<Vec3> CoverageTargetSearch::beside_no_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
   const PointGrid blocks(coverage_targets, kBlock);
   std::optional<OccupiedBlocks> near_blocks;  // where it pays
@@ -171,7 +171,7 @@ std::vector<Vec3> LandmarkSearch::beside_no_triangle(std::span<const Vec3> cover
   return far;
 }
 
-std::vector<MissedTarget> LandmarkSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
+std::vector<MissedTarget> CoverageTargetSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
   const PointGrid blocks(coverage_targets, kBlock);
   std::vector<MissedTarget> found;
@@ -195,7 +195,7 @@ std::vector<MissedTarget> LandmarkSearch::with_nearest(std::span<const Vec3> cov
 
 std::vector<MissedTarget> missed_targets(std::span<const Vec3> coverage_targets, const RefinementMesh& mesh,
                                          const BallOf& ball_of, double least, int threads) {
-  const LandmarkSearch search(mesh, ball_of, least, threads);
+  const CoverageTargetSearch search(mesh, ball_of, least, threads);
   std::vector<MissedTarget> missed = search.with_nearest(search.far_from_all(coverage_targets));
   std::stable_sort(missed.begin(), missed.end(), [](const MissedTarget& a, const MissedTarget& b) {
     return a.squared_distance > b.squared_distance;

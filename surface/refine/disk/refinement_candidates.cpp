@@ -15,15 +15,15 @@ constexpr double kCoarseEdge = 1.5;
 constexpr double kNearestToMiddle = 0.03;
 
 // A coverage target is not inserted so near to a vertex (mesh-space units).
-constexpr double kLandmarkToVertex = 0.3;
+constexpr double kTargetToVertex = 0.3;
 // The radius that stands for its ball's, in distances from the next triangle: folded disks lie farther off it.
-constexpr double kLandmarkRadius = 2;
+constexpr double kTargetRadius = 2;
 
 }  // namespace
 
 RefinementCandidate target_candidate(const MissedTarget& missed, double r_min) {
-  const double radius = kLandmarkRadius * std::sqrt(missed.squared_distance);
-  return {missed.point, radius, std::max(kLandmarkToVertex, r_min), missed.triangle, kNoSide, kNoSide, true};
+  const double radius = kTargetRadius * std::sqrt(missed.squared_distance);
+  return {missed.point, radius, std::max(kTargetToVertex, r_min), missed.triangle, kNoSide, kNoSide, true};
 }
 
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,

@@ -18,7 +18,7 @@ struct RefinementCandidate {
   std::uint32_t seed = 0;
   TriangleSide split = kNoSide;   // the boundary edge on which the point lies
   TriangleSide halved = kNoSide;  // the inner edge whose two triangles alone make up E
-  bool is_landmark = false;
+  bool is_coverage_target = false;
 };
 
 // A coverage target, for the triangle next to it, unless a vertex is nearer than 0.3 mesh-space units and `r_min`.

@@ -22,8 +22,8 @@ struct RefinementPart {
   RefinementMesh mesh;
   std::uint32_t frozen = 0;  // the first triangles are
   Slab slab;
-  std::optional<double> plane;      // across the slab's axis: if given, only triangles that meet it are to be refined
-  std::span<const Vec3> landmarks;  // that it has to come near to
+  std::optional<double> plane;  // across the slab's axis: if given, only triangles that meet it are to be refined
+  std::span<const Vec3> coverage_targets;  // that it has to come near to
 };
 
 class RefinementSlabs {

@@ -10,7 +10,7 @@
 
 #include "tests/support/volume_files.h"
 #include "volume/io/gzip_stream.h"
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 
 namespace deliso {
 namespace {

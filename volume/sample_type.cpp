@@ -1,4 +1,4 @@
-#include "volume/io/sample_type.h"
+#include "volume/sample_type.h"
 
 #include <algorithm>
 #include <array>
