@@ -48,6 +48,7 @@ class Isosurface {
   Isosurface(const Isosurface&) = delete;
   Isosurface& operator=(const Isosurface&) = delete;
 
+  [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
   [[nodiscard]] double isovalue() const { return isovalue_; }
   [[nodiscard]] const Vec3& step() const { return step_; }
   // The volume's box in mesh space; its low corner is the origin.

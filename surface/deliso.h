@@ -9,11 +9,11 @@
 
 #include "surface/base/controls.h"
 #include "surface/base/parameters.h"
+#include "surface/base/stage_stats.h"
 #include "surface/certificate/certificate.h"
 #include "surface/mesh/triangle_mesh.h"
-#include "surface/recover/recover.h"
-#include "surface/refine/refine.h"
-#include "surface/repair/repair.h"
+#include "surface/recover/recover_options.h"
+#include "surface/refine/refine_options.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {

@@ -120,24 +120,25 @@ std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const Sca
   return components;
 }
 
-AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
-                                   const IsosurfaceTopology& topology, int threads) {
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface) {
   std::vector<std::uint32_t> component_of;
   ComponentMatch match;
-  run_tasks(2, threads, [&](std::size_t task) {
+  run_tasks(2, surface.threads, [&](std::size_t task) {
     if (task == 0) {
       match = find_pieces(mesh);
     } else {
+      const Vec3& step = surface.isosurface.step();
       std::vector<Vec3> points;
       points.reserve(mesh.points.size());
       for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
-      component_of = components_of(points, grid, isovalue, topology, threads);
+      component_of =
+          components_of(points, surface.grid(), surface.isosurface.isovalue(), surface.topology, surface.threads);
     }
   });
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return assignment_faults({match.piece_of, component_of, topologies, topology.components});
+  return assignment_faults({match.piece_of, component_of, topologies, surface.topology.components});
 }
 
 }  // namespace deliso

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "surface/base/exact_surface.h"
 #include "surface/certificate/certificate.h"
 #include "surface/mesh/surface_mesh.h"
 #include "volume/scalar_grid.h"
@@ -44,8 +45,7 @@ void add_assignment_faults(const AssignmentFaults& faults, Certificate& certific
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 
-// Of a mesh in mesh space (raycast/isosurface.h) of cells with these sides.
-AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ScalarGrid& grid, double isovalue, const Vec3& step,
-                                   const IsosurfaceTopology& topology, int threads = 1);
+// Of a mesh in mesh space (raycast/isosurface.h).
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface);
 
 }  // namespace deliso

@@ -11,11 +11,12 @@ namespace deliso {
 
 namespace {
 
-bool is_exact_in_world(const ScalarGrid& grid, const Vec3& step) {
+bool is_exact_in_world(const Isosurface& isosurface) {
+  const ScalarGrid& grid = isosurface.grid();
   bool is_exact = grid.origin() == Vec3();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     int exponent = 0;
-    is_exact = is_exact && std::frexp(grid.spacing()[axis] / step[axis], &exponent) == 0.5;
+    is_exact = is_exact && std::frexp(grid.spacing()[axis] / isosurface.step()[axis], &exponent) == 0.5;
   }
   return is_exact;
 }
@@ -34,10 +35,9 @@ Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology
   return certificate;
 }
 
-void refute_crossing(const TriangleMesh& mesh, const ScalarGrid& grid, const Vec3& step, int threads,
-                     Certificate& certificate) {
-  if (is_exact_in_world(grid, step)) return;
-  const std::int64_t crossing = self_intersections(mesh.points, mesh.triangles, 0, threads).crossing_pairs;
+void refute_crossing(const TriangleMesh& mesh, const ExactSurface& surface, Certificate& certificate) {
+  if (is_exact_in_world(surface.isosurface)) return;
+  const std::int64_t crossing = self_intersections(mesh.points, mesh.triangles, 0, surface.threads).crossing_pairs;
   if (crossing == 0) return;
   if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
   certificate.differences.push_back(counted(crossing, "pair of triangles crosses", "pairs of triangles cross") +

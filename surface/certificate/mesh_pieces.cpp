@@ -47,14 +47,14 @@ std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const 
 }
 
 std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<const std::uint32_t> vertices,
-                                         const ScalarGrid& grid, const Isosurface& isosurface,
-                                         const IsosurfaceTopology& topology) {
+                                         const ExactSurface& surface) {
   std::vector<std::uint32_t> components;
   components.reserve(vertices.size());
-  const Vec3& step = isosurface.step();
+  const Vec3& step = surface.isosurface.step();
   for (const std::uint32_t v : vertices) {
     const Vec3& p = mesh.points[v];
-    components.push_back(component_of(grid, isosurface.isovalue(), topology, {p.x / step.x, p.y / step.y, p.z / step.z})
+    components.push_back(component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
+                                      {p.x / step.x, p.y / step.y, p.z / step.z})
                              .value_or(kNoComponent));
   }
   return components;

@@ -6,10 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "raycast/isosurface.h"
+#include "surface/base/exact_surface.h"
 #include "surface/mesh/surface_mesh.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -23,8 +21,7 @@ std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const 
 inline constexpr std::uint32_t kNoComponent = 0xFFFFFFFFu;
 // The exact component on which each of some vertices lies.
 std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<const std::uint32_t> vertices,
-                                         const ScalarGrid& grid, const Isosurface& isosurface,
-                                         const IsosurfaceTopology& topology);
+                                         const ExactSurface& surface);
 // That of most vertices, the first of equals; nothing when none has one.
 std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> components);
 

@@ -80,13 +80,16 @@ void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
   mesh.neighbours.resize(triangles);
 }
 
-Vec3 from_world(Vec3 p, const ScalarGrid& grid, const Vec3& step) {
+Vec3 from_world(Vec3 p, const Isosurface& isosurface) {
+  const ScalarGrid& grid = isosurface.grid();
   p = p - grid.origin();
-  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= step[axis] / grid.spacing()[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= isosurface.step()[axis] / grid.spacing()[axis];
   return p;
 }
 
-TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step) {
+TriangleMesh to_world(SurfaceMesh mesh, const Isosurface& isosurface) {
+  const ScalarGrid& grid = isosurface.grid();
+  const Vec3& step = isosurface.step();
   const Vec3 scale{grid.spacing().x / step.x, grid.spacing().y / step.y, grid.spacing().z / step.z};
   for (Vec3& p : mesh.points) p = grid.origin() + scaled(scale, p);
   return {std::move(mesh.points), std::move(mesh.triangles)};

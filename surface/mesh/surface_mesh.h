@@ -11,8 +11,8 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/base/check.h"
 #include "delaunay/base/vec3.h"
+#include "raycast/isosurface.h"
 #include "surface/mesh/triangle_mesh.h"
-#include "volume/scalar_grid.h"
 
 namespace deliso {
 
@@ -73,9 +73,9 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
 // Takes triangles out of a mesh, and vertices that have none then. No triangle that stays may have one as neighbour.
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
 
-// A point of the grid's world coordinates in mesh space. `step`: mesh-space units per index step.
-Vec3 from_world(Vec3 p, const ScalarGrid& grid, const Vec3& step);
-// In the grid's world coordinates; vertices keep their order. `step`: mesh-space units per index step.
-TriangleMesh to_world(SurfaceMesh mesh, const ScalarGrid& grid, const Vec3& step);
+// A point of the grid's world coordinates in mesh space.
+Vec3 from_world(Vec3 p, const Isosurface& isosurface);
+// In the grid's world coordinates; vertices keep their order.
+TriangleMesh to_world(SurfaceMesh mesh, const Isosurface& isosurface);
 
 }  // namespace deliso

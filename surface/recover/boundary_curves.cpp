@@ -86,7 +86,8 @@ void add_face(const Face& face, std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<Vec3> boundary_curve_points(const ScalarGrid& grid, const Isosurface& isosurface) {
+std::vector<Vec3> boundary_curve_points(const Isosurface& isosurface) {
+  const ScalarGrid& grid = isosurface.grid();
   std::vector<Vec3> points;
   for (std::size_t w = 0; w < 3; ++w) {
     for (const bool high : {false, true}) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
-#include "volume/scalar_grid.h"
 
 namespace deliso {
 
@@ -12,6 +11,6 @@ namespace deliso {
 // bilinear there and its level set consists of hyperbola arcs; given are the ends of the arcs (crossings of grid edges)
 // and, in faces that hold two arcs, a point inside each arc on the branch that the asymptotic decider (Nielson and
 // Hamann 1991) tells. In order of faces and cells; each crossing once.
-std::vector<Vec3> boundary_curve_points(const ScalarGrid& grid, const Isosurface& isosurface);
+std::vector<Vec3> boundary_curve_points(const Isosurface& isosurface);
 
 }  // namespace deliso

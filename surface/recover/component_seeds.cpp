@@ -61,18 +61,18 @@ std::vector<std::uint32_t> numbers_of_large(const IsosurfaceTopology& topology, 
 
 }  // namespace
 
-std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
-                                  const IsosurfaceTopology& topology, int threads) {
+std::vector<Vec3> component_seeds(const ExactSurface& surface) {
+  const IsosurfaceTopology& topology = surface.topology;
   std::uint32_t large_count = 0;
   const std::vector<std::uint32_t> large = numbers_of_large(topology, large_count);
-  const Shares shares(topology.crossings.size(), threads);
+  const Shares shares(topology.crossings.size(), surface.threads);
   std::vector<FoundSeeds> found(shares.count());
-  shares.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+  shares.for_each(surface.threads, [&](std::size_t share, std::size_t first, std::size_t last) {
     FoundSeeds& mine = found[share];
     mine.of_large.resize(large_count);
     for (std::size_t i = first; i < last; ++i) {
       const EdgeCrossing& c = topology.crossings[i];
-      const Vec3 p = scaled(crossing_position(grid, c), isosurface.step());
+      const Vec3 p = surface.position(c);
       if (large[c.component] == kIsSmall) {
         mine.of_small.push_back(p);
       } else {

@@ -7,7 +7,7 @@
 #include "delaunay/base/rng.h"
 #include "raycast/isosurface.h"
 #include "surface/base/controls.h"
-#include "volume/topology/exact_topology.h"
+#include "surface/base/exact_surface.h"
 
 namespace deliso {
 
@@ -16,8 +16,7 @@ inline constexpr std::size_t kSmallComponent = 12;
 
 // Seeds on each component, in mesh space: all crossings of a small one, else its extreme crossings in fourteen
 // directions.
-std::vector<Vec3> component_seeds(const ScalarGrid& grid, const Isosurface& isosurface,
-                                  const IsosurfaceTopology& topology, int threads = 1);
+std::vector<Vec3> component_seeds(const ExactSurface& surface);
 
 // `count` points of the isosurface hit by random lines through the box, in mesh space (InitTriangulation of the paper).
 // Fewer when 1000 lines in a row miss, or when `controls` say stop, which are asked from the 1000th point on: so there

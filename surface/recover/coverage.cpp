@@ -7,6 +7,7 @@
 
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/surface_mesh.h"
+#include "surface/recover/recover.h"
 #include "surface/restricted/signs_from_facets.h"
 #include "surface/search/coverage_query.h"
 #include "surface/search/covering_triangles.h"
@@ -15,6 +16,7 @@ namespace deliso {
 
 namespace {
 
+constexpr int kRounds = 4;               // of looking for what the mesh misses
 constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
 // Crossings are asked about brick by brick of so many samples.
 constexpr std::int32_t kBrick = 8;
@@ -33,13 +35,14 @@ void drop_covered(std::vector<std::uint32_t>& crossings, const std::vector<Vec3>
 
 }  // namespace
 
-std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const IsosurfaceTopology& topology, int threads) {
-  const auto& all = topology.crossings;
+std::vector<std::uint32_t> all_crossings(const ExactSurface& surface) {
+  const ScalarGrid& grid = surface.grid();
+  const auto& all = surface.topology.crossings;
   std::array<std::size_t, 3> bricks{};  // along each axis
   for (std::size_t axis = 0; axis < 3; ++axis) bricks[axis] = static_cast<std::size_t>(grid.dims()[axis] / kBrick) + 1;
   std::vector<std::uint32_t> brick_of(all.size());
   const auto brick = [](std::int32_t place) { return static_cast<std::size_t>(place / kBrick); };
-  for_each_block(all.size(), threads, [&](std::size_t first, std::size_t last) {
+  for_each_block(all.size(), surface.threads, [&](std::size_t first, std::size_t last) {
     // They come row by row of samples, so where a row lies is found once.
     const auto length = static_cast<std::uint64_t>(grid.dims()[0]);
     std::uint64_t row = 0, row_end = 0;  // its samples
@@ -64,14 +67,12 @@ std::vector<std::uint32_t> all_crossings(const ScalarGrid& grid, const Isosurfac
   return crossings;
 }
 
-std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ScalarGrid& grid,
-                                   const IsosurfaceTopology& topology, std::vector<std::uint32_t>& suspects,
-                                   int threads, std::vector<Vec3>* coverage_targets) {
+std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ExactSurface& surface,
+                                   std::vector<std::uint32_t>& suspects, std::vector<Vec3>* coverage_targets) {
+  const int threads = surface.threads;
   // The facets as they are: how they make up a manifold does not matter here.
   const SurfaceMesh mesh = facets_alone(restricted, threads);
-  const auto position = [&](std::uint32_t crossing) {
-    return scaled(crossing_position(grid, topology.crossings[crossing]), restricted.isosurface().step());
-  };
+  const auto position = [&](std::uint32_t crossing) { return surface.position(surface.topology.crossings[crossing]); };
   const auto positions = [&](std::span<const std::uint32_t> crossings) {
     std::vector<Vec3> points;
     points.reserve(crossings.size());
@@ -97,6 +98,21 @@ std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const S
       coverage_targets->push_back(position(asked[i]));
   }
   return positions(suspects);
+}
+
+std::vector<Vec3> recover_missed_parts(RestrictedDelaunay& restricted, const ExactSurface& surface,
+                                       const RecoverOptions& options, bool wants_targets, Controls& controls,
+                                       RecoverStats& stats) {
+  std::vector<Vec3> targets;
+  if (controls.stopped()) return targets;
+  std::vector<std::uint32_t> suspects = all_crossings(surface);
+  for (int i = 0; i < kRounds; ++i) {
+    const std::vector<Vec3> points =
+        uncovered_points(restricted, surface, suspects, i == 0 && wants_targets ? &targets : nullptr);
+    if (recover_with(restricted, points, options, controls, stats) == 0 || controls.poll()) break;
+  }
+  targets.shrink_to_fit();
+  return targets;
 }
 
 }  // namespace deliso

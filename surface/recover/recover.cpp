@@ -148,6 +148,12 @@ void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Cont
   recovery.run(controls);
 }
 
+void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
+  stats.search += restricted.counters();
+  stats.restricted_seconds = restricted.restricted_seconds();
+  stats.hits_against_signs = restricted.hits_against_signs();
+}
+
 std::int64_t recover_with(RestrictedDelaunay& restricted, std::span<const Vec3> points, const RecoverOptions& options,
                           Controls& controls, RecoverStats& stats) {
   RecoverLoop recovery(restricted, options, stats);

@@ -21,6 +21,9 @@ namespace deliso {
 void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
              std::vector<double>* pole_heights = nullptr);
 
+// What the triangulation has counted of its searches, once all insertions are made.
+void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats);
+
 // Inserts points of the surface, as far as the size bound lets it, and runs until no violation is left that they have
 // caused: for a triangulation that recover() has left without others, with the same options. Returns how many of the
 // points went in; they count as `uncovered`.

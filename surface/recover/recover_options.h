@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "delaunay/base/box3.h"
 #include "raycast/isosurface.h"
 #include "surface/base/parameters.h"
 #include "surface/base/stage_stats.h"
@@ -27,6 +28,11 @@ struct RecoverOptions {
   QueueOrder order = QueueOrder::kWorstFirst;
   int threads = 1;  // the result is the same for any number
 };
+
+// What Recover is asked for by a run's parameters; lengths are made absolute by the volume's box (in mesh space).
+RecoverOptions recover_options(const Parameters& parameters, const Box3& box, int threads);
+// The same for Recover to the thresholds of stage 2, without a stage 2: the paper's 3D column of Table 2.
+RecoverOptions full3d_options(const Parameters& parameters, const Box3& box);
 
 struct RecoverStats : StageStats {
   std::int64_t insertions = 0;

@@ -148,8 +148,8 @@ void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
 
 }  // namespace
 
-void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-            RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
+void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+                     RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
   if (controls.stopped()) return;
   const Task task{isosurface, options, controls, stats};
   RefinementPart whole;

@@ -1,4 +1,4 @@
-// Stage 2 (Dey and Levine, sections 2.2.2 and 3.2): refine the surface mesh without tetrahedra.
+// RefineGeom, stage 2 (Dey and Levine, sections 2.2.2 and 3.2, Figure 9): refine the surface mesh without tetrahedra.
 //
 // A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E;
 // it is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no triangle
@@ -18,7 +18,7 @@ namespace deliso {
 
 // Counters are those of what stayed, but searches count whatever was done. When `balls` is given, it gets B_sigma of
 // each triangle. After an exception the mesh is empty.
-void refine(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
-            RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
+void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
+                     RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);
 
 }  // namespace deliso

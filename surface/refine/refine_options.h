@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "delaunay/base/box3.h"
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
 #include "surface/base/parameters.h"
@@ -31,6 +32,10 @@ struct RefineOptions {
   int threads = 1;                         // the result is the same for any number
   std::size_t slab_triangles = 6144;       // of stage 1 in a slab (refinement_slabs.h), about
 };
+
+// What RefineGeom is asked for by a run's parameters; lengths are made absolute by the volume's box (in mesh space).
+RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
+                             int threads);
 
 // Why an insertion was refused.
 enum class Refusal {

@@ -25,105 +25,90 @@ constexpr int kMostReopenings = 2;
 // Crossing triangles are looked for around so many of their pairs.
 constexpr std::size_t kMostPairs = 256;
 
-class Repair {
- public:
-  Repair(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats)
-      : facts_(facts),
-        isosurface_(restricted->isosurface()),
-        threads_(threads),
-        stats_(stats),
-        rounds_(facts, std::move(restricted), threads, stats) {}
+}  // namespace
 
-  SurfaceMesh run(std::int32_t max_rounds, Controls& controls);
+Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+               Controls& controls, RepairStats& stats)
+    : cache_(cache),
+      surface_(cache.surface()),
+      max_rounds_(max_rounds),
+      controls_(controls),
+      stats_(stats),
+      rounds_(cache, std::move(restricted), stats) {}
 
- private:
-  // What rounds have led to.
-  struct Ending {
-    AssembledMesh result;
-    std::vector<bool> is_polygonized;  // of each component in it
-    std::vector<Box3> dents;           // left in it
-    bool is_apart = false;
-    RepairStats stats;
-  };
+void Repair::mend_topology() {
+  is_as_it_was_ = controls_.stopped();
+  if (!is_as_it_was_) mend_by_rounds();
+}
 
-  bool mend(std::int32_t max_rounds, Controls& controls);
-  void finish(bool is_assembled, std::int32_t max_rounds, Controls& controls);
-  void mend_crossing(std::int32_t max_rounds, Controls& controls);
-  void mend_left_out(std::int32_t max_rounds, Controls& controls);
-  std::optional<Ending> mend_around(std::span<const std::uint32_t> crossings, std::int32_t max_rounds,
-                                    Controls& controls);
-  [[nodiscard]] SelfIntersections crossing_triangles() const {
-    return self_intersections(result_.mesh.points, result_.mesh.triangles, kMostPairs, threads_);
-  }
-  [[nodiscard]] std::vector<std::uint32_t> left_out(std::span<const Box3> boxes) const {
-    return missed_crossings(result_.mesh, boxes, facts_.grid(), facts_.topology(), isosurface_.step(), threads_);
-  }
-  Ending take_ending();
-  void return_to(Ending ending);
-  bool ends_without_intruders();
-  bool assemble(const ComponentSelection& kept);
-  void polygonize_rest();
-  bool take_intruders_out();
+void Repair::compute_poles() {
+  if (!is_as_it_was_ && !is_assembled_) rounds_.give_poles();
+}
 
-  const ExactSurfaceCache& facts_;
-  const Isosurface& isosurface_;
-  int threads_;
-  RepairStats& stats_;
-  Rounds rounds_;
-  AssembledMesh result_;              // at last
-  std::vector<bool> is_polygonized_;  // of each component in it
-  std::vector<Box3> dents_;           // left in it
-  bool is_apart_ = false;             // its triangles are known not to cross; taking dents out keeps that
-};
+// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
+// dropped. A run that was stopped takes the first mesh as it is.
+SurfaceMesh Repair::build_triangle_mesh() {
+  if (is_as_it_was_) return rounds_.as_it_is();
+  build();
+  return std::exchange(result_.mesh, {});
+}
 
-SurfaceMesh Repair::run(std::int32_t max_rounds, Controls& controls) {
-  if (controls.stopped()) return rounds_.as_it_is();
-  finish(mend(max_rounds, controls), max_rounds, controls);
-  mend_crossing(max_rounds, controls);
-  mend_left_out(max_rounds, controls);
+void Repair::mend(SurfaceMesh& mesh) {
+  if (is_as_it_was_) return;
+  result_.mesh = std::move(mesh);
+  mend_vertices();
+  mend_crossing();
+  mend_left_out();
   rounds_.end();
-  SurfaceMesh& mesh = result_.mesh;
   // Mixed pieces may have come to lie on all of another component, or on most of it.
-  const bool may_be_misplaced = stats_.components_mixed > 0 && !controls.poll();
-  if (may_be_misplaced && polygonize_misplaced_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_)) {
-    is_apart_ = false;
-  }
-  if (!is_apart_) polygonize_crossing_pieces(mesh, facts_, isosurface_, is_polygonized_, threads_, controls);
+  const bool may_be_misplaced = stats_.components_mixed > 0 && !controls_.poll();
+  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_apart_ = false;
+  if (!is_apart_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
-  stats_.vertices_after = static_cast<std::int64_t>(mesh.points.size());
-  return std::move(mesh);
+  stats_.vertices_after = static_cast<std::int64_t>(result_.mesh.points.size());
+  mesh = std::move(result_.mesh);
 }
 
-// Rounds until every component is done, or nothing is left but what taking vertices out mends: true when that is done.
-bool Repair::mend(std::int32_t max_rounds, Controls& controls) {
-  return rounds_.mend(
-      max_rounds, [this] { return ends_without_intruders(); }, controls);
+// Rounds until every component is done, or nothing is left but what taking vertices out mends.
+void Repair::mend_by_rounds() {
+  is_assembled_ = rounds_.mend(
+      max_rounds_, [this] { return ends_without_foreign_vertices(); }, controls_);
 }
 
-// The mesh of what has been mended, without its dents. What another round would need stays, if there may be one.
-void Repair::finish(bool is_assembled, std::int32_t max_rounds, Controls& controls) {
-  if (!is_assembled) {
-    const ComponentSelection& kept = rounds_.kept();
-    if (!rounds_.is_done() || !rounds_.may_go_on(max_rounds) || controls.poll()) rounds_.end();
-    if (!assemble(kept)) polygonize_rest();
-    if (stats_.components_mixed > 0 && !controls.poll()) take_intruders_out();
-  }
+// The mesh of what has been mended. What another round would need stays, if there may be one.
+void Repair::build() {
+  if (is_assembled_) return;
+  if (!rounds_.is_done() || !rounds_.may_go_on(max_rounds_) || controls_.poll()) rounds_.end();
+  if (!assemble()) polygonize_rest();
+}
+
+// Takes out vertices of other components, and inverted umbrellas.
+void Repair::mend_vertices() {
+  if (!is_assembled_ && stats_.components_mixed > 0 && !controls_.poll()) take_foreign_vertices_out();
   stats_.inverted_umbrellas_removed = 0;
-  if (controls.poll()) return;
-  auto [removed, left] = remove_inverted_umbrellas(result_.mesh, isosurface_, threads_);
+  if (controls_.poll()) return;
+  auto [removed, left] = remove_inverted_umbrellas(result_.mesh, surface_.isosurface, surface_.threads);
   stats_.inverted_umbrellas_removed = removed;
-  dents_ = std::move(left);
+  inverted_ = std::move(left);
+}
+
+SelfIntersections Repair::crossing_triangles() const {
+  return self_intersections(result_.mesh.points, result_.mesh.triangles, kMostPairs, surface_.threads);
+}
+
+std::vector<std::uint32_t> Repair::missed(std::span<const Box3> boxes) const {
+  return missed_crossings(result_.mesh, boxes, surface_);
 }
 
 // More rounds where the topology is right and yet triangles cross; unless they do not help.
-void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
-  if (is_apart_ || !rounds_.may_go_on(max_rounds) || controls.poll()) return;
+void Repair::mend_crossing() {
+  if (is_apart_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
   SelfIntersections found = crossing_triangles();
   is_apart_ = found.crossing_pairs == 0;
-  for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
+  for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing, result_.mesh);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
+    std::optional<Ending> before = mend_around(crossings);
     if (!before) return;
     if (is_apart_) return;
     SelfIntersections left = crossing_triangles();
@@ -134,36 +119,39 @@ void Repair::mend_crossing(std::int32_t max_rounds, Controls& controls) {
 }
 
 // More rounds where the topology is right and yet the mesh leaves parts of the surface out; unless they do not help.
-void Repair::mend_left_out(std::int32_t max_rounds, Controls& controls) {
-  for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds) && !controls.poll(); ++i) {
-    const std::vector<std::uint32_t> crossings = left_out(dents_);
+void Repair::mend_left_out() {
+  for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
+    const std::vector<std::uint32_t> crossings = missed(inverted_);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings, max_rounds, controls);
+    std::optional<Ending> before = mend_around(crossings);
     if (!before) return;
-    // Where dents were and where they are.
-    std::vector<Box3> boxes = before->dents;
-    boxes.insert(boxes.end(), dents_.begin(), dents_.end());
-    if (left_out(boxes).size() >= crossings.size()) return return_to(*std::move(before));
+    // Where inverted umbrellas were and where they are.
+    std::vector<Box3> boxes = before->inverted;
+    boxes.insert(boxes.end(), inverted_.begin(), inverted_.end());
+    if (missed(boxes).size() >= crossings.size()) return return_to(*std::move(before));
   }
 }
 
 // Rounds that begin around some crossings. What there was before, if they have led to a mesh that is right, too; else
 // nothing, and all is as it was.
-std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings, std::int32_t max_rounds,
-                                                  Controls& controls) {
+std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings) {
   Ending before = take_ending();
-  rounds_.mend_around(crossings, controls);
-  const bool is_assembled = mend(max_rounds, controls);
-  const bool is_done = is_assembled || rounds_.is_done();
-  if (is_done) finish(is_assembled, max_rounds, controls);
-  if (is_done && !controls.poll() && is_polygonized_ == before.is_polygonized) return before;
+  rounds_.mend_around(crossings, controls_);
+  mend_by_rounds();
+  const bool is_done = is_assembled_ || rounds_.is_done();
+  if (is_done) {
+    compute_poles();
+    build();
+    mend_vertices();
+  }
+  if (is_done && !controls_.poll() && is_polygonized_ == before.is_polygonized) return before;
   return_to(std::move(before));
   return std::nullopt;
 }
 
 Repair::Ending Repair::take_ending() {
-  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(dents_, {}), std::exchange(is_apart_, false),
-                stats_};
+  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(inverted_, {}),
+                std::exchange(is_apart_, false), stats_};
   stats_.foreign_vertices_removed = stats_.inverted_umbrellas_removed = 0;
   return ending;
 }
@@ -172,7 +160,7 @@ void Repair::return_to(Ending ending) {
   const std::int64_t rounds = stats_.rounds;
   result_ = std::move(ending.result);
   is_polygonized_ = std::move(ending.is_polygonized);
-  dents_ = std::move(ending.dents);
+  inverted_ = std::move(ending.inverted);
   is_apart_ = ending.is_apart;
   stats_ = ending.stats;
   stats_.rounds = rounds;
@@ -180,10 +168,11 @@ void Repair::return_to(Ending ending) {
 
 // Whether nothing is wrong any more but that components have vertices of others, and these can be taken out. Where it
 // is the crossing of triangles that is wrong, the next round is to sample around them.
-bool Repair::ends_without_intruders() {
+bool Repair::ends_without_foreign_vertices() {
   if (!rounds_.is_done_but_for_mixing()) return false;
-  const bool is_whole = assemble(rounds_.kept());
-  if (is_whole && take_intruders_out()) return true;
+  rounds_.give_poles();
+  const bool is_whole = assemble();
+  if (is_whole && take_foreign_vertices_out()) return true;
   if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};
   is_apart_ = false;
@@ -191,15 +180,14 @@ bool Repair::ends_without_intruders() {
   return false;
 }
 
-// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
-// dropped. Whether that is all of them.
-bool Repair::assemble(const ComponentSelection& kept) {
-  result_ = kept.assemble(is_polygonized_, isosurface_.box(), threads_, stats_);
+// The components, each from the latest mesh that agrees with it. Whether that is all of them.
+bool Repair::assemble() {
+  result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface.box(), surface_.threads, stats_);
   return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
 }
 
 void Repair::polygonize_rest() {
-  const auto& [polygonized, component] = facts_.polygonized();
+  const auto& [polygonized, component] = cache_.polygonized();
   append_pieces(polygonized, component, is_polygonized_, result_.mesh);
   std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),
                [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
@@ -207,9 +195,9 @@ void Repair::polygonize_rest() {
 
 // What components taken with vertices of others have of them; unless that is what makes triangles cross. Whether none
 // is left and nothing crosses.
-bool Repair::take_intruders_out() {
+bool Repair::take_foreign_vertices_out() {
   const auto crosses = [&](const SurfaceMesh& mesh) {
-    return self_intersections(mesh.points, mesh.triangles, 0, threads_).crossing_pairs > 0;
+    return self_intersections(mesh.points, mesh.triangles, 0, surface_.threads).crossing_pairs > 0;
   };
   SurfaceMesh without = result_.mesh;
   const auto [removed, left] = remove_foreign_vertices(without, result_.component);
@@ -223,13 +211,6 @@ bool Repair::take_intruders_out() {
   stats_.foreign_vertices_removed = removed;
   result_ = {std::move(without), {}};
   return left == 0 && is_apart_;
-}
-
-}  // namespace
-
-SurfaceMesh repair(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
-                   int threads, Controls& controls, RepairStats& stats) {
-  return Repair(facts, std::move(restricted), threads, stats).run(max_rounds, controls);
 }
 
 }  // namespace deliso

@@ -83,8 +83,8 @@ Run run_once(const ScalarGrid& grid, double given_isovalue) {
   run.topology = laps.lap();
   const Isosurface isosurface(grid, regular.isovalue, {});
   run.index = laps.lap();
-  std::vector<Vec3> points = boundary_curve_points(grid, isosurface);
-  const std::vector<Vec3> seeds = component_seeds(grid, isosurface, regular.topology);
+  std::vector<Vec3> points = boundary_curve_points(isosurface);
+  const std::vector<Vec3> seeds = component_seeds({isosurface, regular.topology});
   points.insert(points.end(), seeds.begin(), seeds.end());
   auto restricted = std::make_unique<RestrictedDelaunay>(isosurface, points);
   run.initial = laps.lap();
@@ -109,7 +109,7 @@ Run run_once(const ScalarGrid& grid, double given_isovalue) {
   RefineOptions stage2;
   stage2.r_min = r_min;
   laps.lap();
-  refine(mesh, isosurface, stage2, controls, run.refine);
+  refine_geometry(mesh, isosurface, stage2, controls, run.refine);
   run.stage2 = laps.lap();
   Hash hash2;
   hash2.add(mesh);

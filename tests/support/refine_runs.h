@@ -38,7 +38,7 @@ inline RefineStats run(SurfaceMesh& mesh, const Scene& scene, const RefineOption
                        std::vector<SurfaceDelaunayBall>* balls = nullptr) {
   Controls controls(BudgetParameters{}, nullptr, {});
   RefineStats stats;
-  refine(mesh, *scene.isosurface, options, controls, stats, balls);
+  refine_geometry(mesh, *scene.isosurface, options, controls, stats, balls);
   return stats;
 }
 

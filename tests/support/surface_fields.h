@@ -38,10 +38,12 @@ struct Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  [[nodiscard]] ExactSurface surface(int threads = 1) const { return {*isosurface, topology, threads}; }
+
   // Seeds of every component and the boundary curves: where stage 1 starts.
   [[nodiscard]] std::vector<Vec3> start() const {
-    std::vector<Vec3> points = component_seeds(grid, *isosurface, topology);
-    const std::vector<Vec3> curves = boundary_curve_points(grid, *isosurface);
+    std::vector<Vec3> points = component_seeds(surface());
+    const std::vector<Vec3> curves = boundary_curve_points(*isosurface);
     points.insert(points.end(), curves.begin(), curves.end());
     return points;
   }

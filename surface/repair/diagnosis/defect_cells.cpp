@@ -21,8 +21,8 @@ constexpr std::size_t kFewPlaces = 64;  // where all active cells are taken, at 
 class TroubleFinder {
  public:
   explicit TroubleFinder(const DefectContext& context)
-      : grid_(context.grid),
-        topology_(context.topology),
+      : grid_(context.surface.grid()),
+        topology_(context.surface.topology),
         restricted_(context.restricted),
         mesh_(context.mesh),
         cells_(context.cells),
@@ -31,7 +31,7 @@ class TroubleFinder {
         places_(context.places),
         evidence_(context.evidence),
         critical_(context.critical),
-        threads_(context.threads),
+        threads_(context.surface.threads),
         near_places_(context.places.size()),
         has_sign_(context.done.size(), false) {
     for (std::size_t c = 0; context.is_near_places && c < places_.size(); ++c) {

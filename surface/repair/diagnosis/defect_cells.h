@@ -5,19 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "surface/base/exact_surface.h"
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/signs/located_critical_points.h"
 #include "surface/restricted/signed_delaunay.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
 // What trouble is looked for in. References must outlive the search.
 struct DefectContext {
-  const ScalarGrid& grid;
-  const IsosurfaceTopology& topology;
+  const ExactSurface& surface;
   const SignedDelaunay& restricted;
   const MatchedMesh& mesh;
   const CellLevels& cells;
@@ -27,7 +26,6 @@ struct DefectContext {
   bool is_near_places = true;              // of components with places, trouble counts near these alone: sweeps err
   std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (sign_constraints.h); may be empty
   LocatedCriticalPoints& critical;         // of the volume, in the triangulation
-  int threads = 1;                         // nothing but the time depends on it
 };
 
 // The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices

@@ -56,11 +56,11 @@ const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<Mat
 void EulerDifferences::add_by_curvature(const MatchedMesh& mesh, std::uint32_t component) {
   const ComponentMatch& match = mesh.match;
   const std::uint32_t main = match.main_piece[component];
-  const std::int64_t too_much =
-      match.pieces[main].topology.euler_characteristic - facts_.topology().components[component].euler_characteristic;
+  const std::int64_t too_much = match.pieces[main].topology.euler_characteristic -
+                                facts_.surface().topology.components[component].euler_characteristic;
   if (too_much == 0) return;
   const auto& [exact, component_of] = facts_.polygonized();
-  AngleDefectGrid difference(facts_.grid().dims(), isosurface_.step());
+  AngleDefectGrid difference(facts_.surface().grid().dims(), facts_.surface().isosurface.step());
   difference.add(
       mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
   difference.add(
@@ -81,8 +81,9 @@ void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::ui
     if (match.piece_of[v] != kNoPiece) part_of_vertex[v] = part_of_piece[match.piece_of[v]];
   }
   const std::vector<EulerCurves> swept =
-      euler_curves(mesh.built.mesh, part_of_vertex, components.size(), isosurface_.step(), facts_.grid().dims());
-  const Dims& dims = facts_.grid().dims();
+      euler_curves(mesh.built.mesh, part_of_vertex, components.size(), facts_.surface().isosurface.step(),
+                   facts_.surface().grid().dims());
+  const Dims& dims = facts_.surface().grid().dims();
   std::vector<std::optional<EulerBoxes>> boxes(components.size());
   std::vector<std::uint32_t> part_of_component(places_.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) {
@@ -106,7 +107,7 @@ void EulerDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector
                                       const std::vector<std::uint32_t>& part_of_component,
                                       std::vector<std::optional<EulerBoxes>>& boxes) const {
   if (std::none_of(boxes.begin(), boxes.end(), [](const auto& box) { return box.has_value(); })) return;
-  const Dims& dims = facts_.grid().dims();
+  const Dims& dims = facts_.surface().grid().dims();
   // The cells whose corners' layers may count in some of the boxes, and few others.
   const auto is_reached = [&](std::size_t axis, std::int32_t layer) {
     return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return box && box->reach(axis, layer); });
@@ -114,11 +115,11 @@ void EulerDifferences::count_in_boxes(const MatchedMesh& mesh, const std::vector
   const CellLayers reached(dims, [&](std::size_t axis, std::int32_t layer) {
     return is_reached(axis, layer) || is_reached(axis, layer + 1);
   });
-  for_each_mesh_change(mesh.built.mesh, part_of_vertex, isosurface_.step(), dims,
+  for_each_mesh_change(mesh.built.mesh, part_of_vertex, facts_.surface().isosurface.step(), dims,
                        [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
                          if (boxes[part]) boxes[part]->add(layers, 2 * change);
                        });
-  for_each_exact_change(facts_.grid(), isosurface_.isovalue(), facts_.topology(), reached,
+  for_each_exact_change(facts_.surface(), reached,
                         [&](std::uint32_t component, const SampleLayers& layers, std::int32_t twice) {
                           const std::uint32_t part = part_of_component[component];
                           if (part != kNoPart) boxes[part]->add(layers, -twice);

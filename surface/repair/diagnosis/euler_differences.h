@@ -16,9 +16,8 @@ namespace deliso {
 
 class EulerDifferences {
  public:
-  // Keeps references.
-  EulerDifferences(const ExactSurfaceCache& facts, const Isosurface& isosurface)
-      : facts_(facts), isosurface_(isosurface) {}
+  // Keeps a reference.
+  explicit EulerDifferences(const ExactSurfaceCache& facts) : facts_(facts) {}
 
   // How hard places are to be looked for: by sweeps, if those tell of no more places than so many in all; and, where
   // they tell of none, of many or of wide ones, by curvature as well (angle_defect_grid.h), which takes longer.
@@ -42,7 +41,6 @@ class EulerDifferences {
   void add_by_curvature(const MatchedMesh& mesh, std::uint32_t component);
 
   const ExactSurfaceCache& facts_;
-  const Isosurface& isosurface_;
   std::vector<IndexRanges> places_;  // as last found
   std::weak_ptr<MatchedMesh> of_;    // in this mesh,
   Effort effort_;                    // as hard as this

@@ -40,8 +40,12 @@ void for_each_crossing(const IsosurfaceTopology& topology, const Dims& dims, con
 template <class Changes>
 class ExactChanges {
  public:
-  ExactChanges(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology, Changes& changes)
-      : grid_(grid), isovalue_(isovalue), topology_(topology), crossings_(topology.index), changes_(changes) {}
+  ExactChanges(const ExactSurface& surface, Changes& changes)
+      : grid_(surface.grid()),
+        isovalue_(surface.isosurface.isovalue()),
+        topology_(surface.topology),
+        crossings_(surface.topology.index),
+        changes_(changes) {}
 
   template <class Cells>
   void visit(const Cells& wanted) {
@@ -131,10 +135,9 @@ struct HandedOn {
 
 }  // namespace
 
-void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
-                           const CellLayers& wanted, const VisitChange& visit) {
+void for_each_exact_change(const ExactSurface& surface, const CellLayers& wanted, const VisitChange& visit) {
   const HandedOn changes{visit};
-  ExactChanges(grid, isovalue, topology, changes).visit(wanted);
+  ExactChanges(surface, changes).visit(wanted);
 }
 
 // Adds up what is visited by layers.
@@ -165,13 +168,10 @@ class ExactEulerCurves::Changes {
   ExactEulerCurves& sweeps_;
 };
 
-ExactEulerCurves::ExactEulerCurves(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
-    : dims_(grid.dims()) {
-  find_layers(topology);
+ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.grid().dims()) {
+  find_layers(surface.topology);
   Changes changes(*this);
-  ExactChanges(grid, isovalue, topology, changes).visit(CellLayers(dims_, [](std::size_t, std::int32_t) {
-    return true;
-  }));
+  ExactChanges(surface, changes).visit(CellLayers(dims_, [](std::size_t, std::int32_t) { return true; }));
 }
 
 // Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.

@@ -8,10 +8,9 @@
 #include <functional>
 #include <vector>
 
+#include "surface/base/exact_surface.h"
 #include "surface/repair/diagnosis/euler_curve.h"
 #include "surface/repair/diagnosis/index_ranges.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -19,14 +18,13 @@ namespace deliso {
 // below three planes when all of them have come to these layers. Of the surface itself, cell by cell. Calls may be left
 // out where the layers are those of no wanted cell.
 using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
-void for_each_exact_change(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
-                           const CellLayers& wanted, const VisitChange& visit);
+void for_each_exact_change(const ExactSurface& surface, const CellLayers& wanted, const VisitChange& visit);
 
 // The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
 // such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.
 class ExactEulerCurves {
  public:
-  ExactEulerCurves(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
+  explicit ExactEulerCurves(const ExactSurface& surface);
 
   [[nodiscard]] EulerCurves of(std::uint32_t component) const;
 

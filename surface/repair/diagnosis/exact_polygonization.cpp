@@ -11,10 +11,10 @@
 
 namespace deliso {
 
-ExactPolygonization exact_polygonization(const ScalarGrid& grid, const Isosurface& isosurface,
-                                         const IsosurfaceTopology& topology) {
+ExactPolygonization exact_polygonization(const ExactSurface& exact) {
+  const IsosurfaceTopology& topology = exact.topology;
   MarchingCubesMesh cubes =
-      marching_cubes(grid, isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
+      marching_cubes(exact.grid(), exact.isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
   ExactPolygonization surface;
 
   // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
@@ -40,11 +40,9 @@ ExactPolygonization exact_polygonization(const ScalarGrid& grid, const Isosurfac
   }
 
   // From world to mesh space, in place: there may be many.
-  const Vec3& step = isosurface.step();
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
     Vec3& p = cubes.points[v];
-    p = v < cubes.crossing_count ? scaled(crossing_position(grid, topology.crossings[v]), step)
-                                 : from_world(p, grid, step);
+    p = v < cubes.crossing_count ? exact.position(topology.crossings[v]) : from_world(p, exact.isosurface);
   }
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);

@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "raycast/isosurface.h"
+#include "surface/base/exact_surface.h"
 #include "surface/mesh/surface_mesh.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -16,7 +14,6 @@ struct ExactPolygonization {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
 };
-ExactPolygonization exact_polygonization(const ScalarGrid& grid, const Isosurface& isosurface,
-                                         const IsosurfaceTopology& topology);
+ExactPolygonization exact_polygonization(const ExactSurface& exact);
 
 }  // namespace deliso

@@ -5,17 +5,11 @@
 
 namespace deliso {
 
-ExactSurfaceCache::ExactSurfaceCache(const ScalarGrid& grid, const Isosurface& isosurface,
-                                     const IsosurfaceTopology& topology, int threads)
-    : grid_(grid),
-      topology_(topology),
-      sweeps_(std::async(
-          std::launch::deferred,
-          [&grid, &isosurface, &topology] { return ExactEulerCurves(grid, isosurface.isovalue(), topology); })),
-      polygonized_(std::async(std::launch::deferred, [&grid, &isosurface, &topology] {
-        return exact_polygonization(grid, isosurface, topology);
-      })) {
-  if (threads < 2) return;
+ExactSurfaceCache::ExactSurfaceCache(const ExactSurface& surface)
+    : surface_(surface),
+      sweeps_(std::async(std::launch::deferred, [surface] { return ExactEulerCurves(surface); })),
+      polygonized_(std::async(std::launch::deferred, [surface] { return exact_polygonization(surface); })) {
+  if (surface.threads < 2) return;
   try {
     // Through futures of its own; what a search throws is thrown to those who ask.
     finder_ = std::jthread([sweeps = sweeps_](const std::stop_token& stop) {

@@ -4,11 +4,9 @@
 #include <future>
 #include <thread>
 
-#include "raycast/isosurface.h"
+#include "surface/base/exact_surface.h"
 #include "surface/repair/diagnosis/exact_euler_curves.h"
 #include "surface/repair/diagnosis/exact_polygonization.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -16,19 +14,16 @@ namespace deliso {
 // beforehand, while others build the mesh that they are for. The facts are the same either way.
 class ExactSurfaceCache {
  public:
-  // Keeps references.
-  ExactSurfaceCache(const ScalarGrid& grid, const Isosurface& isosurface, const IsosurfaceTopology& topology,
-                    int threads);
+  // Keeps what `surface` refers to.
+  explicit ExactSurfaceCache(const ExactSurface& surface);
 
-  [[nodiscard]] const ScalarGrid& grid() const { return grid_; }
-  [[nodiscard]] const IsosurfaceTopology& topology() const { return topology_; }
+  [[nodiscard]] const ExactSurface& surface() const { return surface_; }
   [[nodiscard]] const ExactEulerCurves& sweeps() const { return sweeps_.get(); }
   // Needed by few surfaces, and large: never found beforehand.
   [[nodiscard]] const ExactPolygonization& polygonized() const { return polygonized_.get(); }
 
  private:
-  const ScalarGrid& grid_;
-  const IsosurfaceTopology& topology_;
+  ExactSurface surface_;
   // Deferred: whoever asks first does the work, anyone else waits for it.
   std::shared_future<ExactEulerCurves> sweeps_;
   std::shared_future<ExactPolygonization> polygonized_;

@@ -19,8 +19,9 @@ constexpr double kFarthest = 0.8;
 
 }  // namespace
 
-SmallComponents::SmallComponents(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step)
-    : speck_of_(topology.components.size(), kNoSmallComponent) {
+SmallComponents::SmallComponents(const ExactSurface& surface)
+    : speck_of_(surface.topology.components.size(), kNoSmallComponent) {
+  const IsosurfaceTopology& topology = surface.topology;
   std::vector<std::int64_t> count(topology.components.size(), 0);
   for (const EdgeCrossing& crossing : topology.crossings) ++count[crossing.component];
   for (std::uint32_t c = 0; c < count.size(); ++c) {
@@ -30,7 +31,7 @@ SmallComponents::SmallComponents(const ScalarGrid& grid, const IsosurfaceTopolog
   }
   for (const EdgeCrossing& crossing : topology.crossings) {
     const std::uint32_t speck = speck_of_[crossing.component];
-    if (speck != kNoSmallComponent) specks_[speck].crossings.push_back(scaled(crossing_position(grid, crossing), step));
+    if (speck != kNoSmallComponent) specks_[speck].crossings.push_back(surface.position(crossing));
   }
   for (Speck& speck : specks_) {
     Box3 box;

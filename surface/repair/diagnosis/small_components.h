@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "surface/base/exact_surface.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -15,8 +14,7 @@ namespace deliso {
 // piece may have the right topology and be as flat as a leaf, when the crossings on one side of it are left out.
 class SmallComponents {
  public:
-  // `step`: mesh-space units per index step.
-  SmallComponents(const ScalarGrid& grid, const IsosurfaceTopology& topology, const Vec3& step);
+  explicit SmallComponents(const ExactSurface& surface);
 
   // The specks whose main piece lies away from some crossing by more than a part of the speck's size, ascending.
   [[nodiscard]] std::vector<std::uint32_t> missed_by(const MatchedMesh& mesh) const;

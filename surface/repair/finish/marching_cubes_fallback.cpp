@@ -16,16 +16,15 @@ namespace {
 constexpr std::size_t kMostPairs = 4096;
 
 // Drops the pieces of the pairs whose components are not polygonized yet; these are marked and returned.
-std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurfaceCache& facts,
-                              const Isosurface& isosurface, std::vector<bool>& is_polygonized) {
+std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurface& surface,
+                              std::vector<bool>& is_polygonized) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   std::vector<bool> dropped(is_polygonized.size(), false);
   for (const TrianglePair& pair : pairs) {
     for (const std::uint32_t seed : {pair.first, pair.second}) {
       if (is_seen[seed]) continue;
       const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-      const auto component =
-          most_frequent(components_at(mesh, vertices_of(mesh, piece), facts.grid(), isosurface, facts.topology()));
+      const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
       if (!component || is_polygonized[*component]) continue;
       dropped[*component] = is_polygonized[*component] = true;
       for (const std::uint32_t t : piece) is_gone[t] = true;
@@ -36,14 +35,12 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
 }
 
 // Drops the pieces that count for one of these components, or for none at all.
-void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurfaceCache& facts,
-                    const Isosurface& isosurface) {
+void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurface& surface) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (is_seen[seed]) continue;
     const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-    const auto component =
-        most_frequent(components_at(mesh, vertices_of(mesh, piece), facts.grid(), isosurface, facts.topology()));
+    const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
     if (component && !components[*component]) continue;
     for (const std::uint32_t t : piece) is_gone[t] = true;
   }
@@ -52,28 +49,27 @@ void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, cons
 
 }  // namespace
 
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
-                                 std::vector<bool>& is_polygonized, int threads) {
-  const AssignmentFaults faults =
-      assignment_faults(mesh, facts.grid(), isosurface.isovalue(), isosurface.step(), facts.topology(), threads);
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized) {
+  const AssignmentFaults faults = assignment_faults(mesh, facts.surface());
   if (faults.is_empty()) return false;
   std::vector<bool> replaced(is_polygonized.size(), false);
   for (const auto* components : {&faults.without, &faults.repeated, &faults.unlike, &faults.overrunning}) {
     for (const std::uint32_t c : *components) replaced[c] = is_polygonized[c] = true;
   }
-  drop_pieces_of(replaced, mesh, facts, isosurface);
+  drop_pieces_of(replaced, mesh, facts.surface());
   const ExactPolygonization& cubes = facts.polygonized();
   append_pieces(cubes.mesh, cubes.component, replaced, mesh);
   return true;
 }
 
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
-                                std::vector<bool>& is_polygonized, int threads, Controls& controls) {
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized,
+                                Controls& controls) {
   while (!controls.poll()) {
-    const SelfIntersections found = self_intersections(mesh.points, mesh.triangles, kMostPairs, threads);
+    const SelfIntersections found =
+        self_intersections(mesh.points, mesh.triangles, kMostPairs, facts.surface().threads);
     if (found.crossing_pairs == 0) return;
     const ExactPolygonization& cubes = facts.polygonized();
-    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts, isosurface, is_polygonized);
+    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts.surface(), is_polygonized);
     if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
       // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
       is_polygonized.assign(is_polygonized.size(), true);

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "raycast/isosurface.h"
 #include "surface/base/controls.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
@@ -16,12 +15,11 @@ namespace deliso {
 // itself, so with enough of it nothing crosses; where it is not told which pieces are to blame, all components are
 // polygonized. `is_polygonized`, of each component: it comes from marching cubes; kept up to date. The mesh has pole
 // heights. A run that has to stop keeps what there is.
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
-                                std::vector<bool>& is_polygonized, int threads, Controls& controls);
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized,
+                                Controls& controls);
 
 // The same for pieces that are in the wrong place (component_assignment.h): that lie on another component as much as
 // its own piece does, share a component, or are of another topology. True when there were any.
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, const Isosurface& isosurface,
-                                 std::vector<bool>& is_polygonized, int threads);
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized);
 
 }  // namespace deliso

@@ -16,14 +16,14 @@ constexpr std::int32_t kLayers = 3;  // of cells around a crossing
 }  // namespace
 
 std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<const Box3> boxes,
-                                            const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                            const Vec3& step, int threads) {
+                                            const ExactSurface& surface) {
   if (boxes.empty()) return {};
+  const IsosurfaceTopology& topology = surface.topology;
   const BoxTree tree(boxes);
   std::vector<std::uint32_t> inside;
   std::vector<Vec3> points;
   for (std::uint32_t i = 0; i < topology.crossings.size(); ++i) {
-    const Vec3 p = scaled(crossing_position(grid, topology.crossings[i]), step);
+    const Vec3 p = surface.position(topology.crossings[i]);
     bool is_inside = false;
     tree.for_each_meeting({p, p}, [&](std::uint32_t) { is_inside = true; });
     if (!is_inside) continue;
@@ -32,9 +32,9 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
   }
   // Most have a triangle close by; the others are worth a tree of all triangles.
   const auto any = [](std::uint32_t) { return true; };
-  const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, threads);
+  const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, surface.threads);
   if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};
-  const CoverageQuery cover(mesh, threads);
+  const CoverageQuery cover(mesh, surface.threads);
   std::vector<std::uint32_t> left_out;
   std::uint32_t guess = 0;
   for (std::size_t k = 0; k < inside.size(); ++k) {
@@ -43,8 +43,10 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
   return left_out;
 }
 
-std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
-                                   const IsosurfaceTopology& topology, const CellLevels& cells) {
+std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ExactSurface& surface,
+                                   const CellLevels& cells) {
+  const ScalarGrid& grid = surface.grid();
+  const IsosurfaceTopology& topology = surface.topology;
   std::vector<CellName> found;
   for (const std::uint32_t crossing : crossings) {
     const Vec3 p = crossing_position(grid, topology.crossings[crossing]);

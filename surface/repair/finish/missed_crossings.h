@@ -9,21 +9,19 @@
 #include <vector>
 
 #include "delaunay/base/box3.h"
+#include "surface/base/exact_surface.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "volume/scalar_grid.h"
-#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
 // The grid-edge crossings (places in topology.crossings) in some boxes of mesh space that a mesh does not cover (see
-// coverage.h), ascending. `step`: of the grid, in mesh space.
+// coverage_query.h), ascending.
 std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<const Box3> boxes,
-                                            const ScalarGrid& grid, const IsosurfaceTopology& topology,
-                                            const Vec3& step, int threads);
+                                            const ExactSurface& surface);
 
 // The active cells within three layers of one that holds a crossing, for some crossings; may repeat cells.
-std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ScalarGrid& grid,
-                                   const IsosurfaceTopology& topology, const CellLevels& cells);
+std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ExactSurface& surface,
+                                   const CellLevels& cells);
 
 }  // namespace deliso

@@ -17,7 +17,8 @@ using CellName = std::uint64_t;
 
 class CellLevels {
  public:
-  CellLevels(const ScalarGrid& grid, const Isosurface& isosurface) : grid_(grid), isosurface_(isosurface) {}
+  // Keeps a reference.
+  explicit CellLevels(const Isosurface& isosurface) : grid_(isosurface.grid()), isosurface_(isosurface) {}
 
   [[nodiscard]] const Dims& dims() const { return grid_.dims(); }
   [[nodiscard]] CellName name(const CellIndex& c) const { return grid_.index(c[0], c[1], c[2]); }

@@ -23,8 +23,8 @@ double mix(double from, double to, double weight) { return (1 - weight) * from +
 
 }  // namespace
 
-SampleLattice::SampleLattice(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology)
-    : grid_(grid), isovalue_(isovalue), topology_(topology) {}
+SampleLattice::SampleLattice(const ExactSurface& surface)
+    : grid_(surface.grid()), isovalue_(surface.isosurface.isovalue()), topology_(surface.topology) {}
 
 void SampleLattice::append(const CellIndex& cell, int level, std::vector<LatticeSample>& samples) const {
   append_lines(cell, level <= 2 ? 1 : 1 << (level - 2), samples);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/vec3.h"
+#include "surface/base/exact_surface.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -24,7 +25,7 @@ inline constexpr int kMaxLatticeLevel = 5;
 class SampleLattice {
  public:
   // Keeps references.
-  SampleLattice(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology);
+  explicit SampleLattice(const ExactSurface& surface);
 
   // Appends the samples of one cell at a level: 1, the crossings of its grid edges; 2, also a point inside each arc on
   // its faces and the saddles of the surface in the cell; 3, 4, 5, also the crossings of the axis-parallel lines at

@@ -20,7 +20,7 @@ std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
 
 std::vector<Vec3> Resampling::coming_points() const { return points_of(coming); }
 
-Samples::Samples(const SignedDelaunay& restricted) {
+RepairSamples::RepairSamples(const SignedDelaunay& restricted) {
   const auto& points = restricted.delaunay().points();
   samples_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -28,10 +28,10 @@ Samples::Samples(const SignedDelaunay& restricted) {
   }
 }
 
-std::vector<Vec3> Samples::points() const { return points_of(samples_); }
+std::vector<Vec3> RepairSamples::points() const { return points_of(samples_); }
 
-Resampling Samples::resampling(const CellLevels& raised, const SampleLattice& lattice,
-                               const Isosurface& isosurface) const {
+Resampling RepairSamples::resampling(const CellLevels& raised, const SampleLattice& lattice,
+                                     const Isosurface& isosurface) const {
   Resampling resampling;
   std::vector<std::uint64_t> have;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -56,24 +56,24 @@ Resampling Samples::resampling(const CellLevels& raised, const SampleLattice& la
   return resampling;
 }
 
-bool Samples::changes_few(const Resampling& resampling) const {
+bool RepairSamples::changes_few(const Resampling& resampling) const {
   return resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
 }
 
 // A lattice sample that equals a vertex is not kept: should the vertex go, it is found again.
-void Samples::exchange(const Resampling& resampling, std::span<const VertexId> vertex_of) {
+void RepairSamples::exchange(const Resampling& resampling, std::span<const VertexId> vertex_of) {
   remove(resampling.leaving);
   for (std::size_t i = 0; i < resampling.coming.size(); ++i) {
     if (vertex_of[i] == VertexId(samples_.size())) samples_.push_back(resampling.coming[i]);
   }
 }
 
-void Samples::replace(const Resampling& resampling) {
+void RepairSamples::replace(const Resampling& resampling) {
   remove(resampling.leaving);
   samples_.insert(samples_.end(), resampling.coming.begin(), resampling.coming.end());
 }
 
-void Samples::take_vertices(std::span<const VertexId> vertex_of) {
+void RepairSamples::take_vertices(std::span<const VertexId> vertex_of) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (vertex_of[i] == VertexId(kept)) samples_[kept++] = samples_[i];
@@ -81,7 +81,7 @@ void Samples::take_vertices(std::span<const VertexId> vertex_of) {
   samples_.resize(kept);
 }
 
-void Samples::remove(std::span<const VertexId> leaving) {
+void RepairSamples::remove(std::span<const VertexId> leaving) {
   std::size_t kept = 0;
   for (std::size_t i = 0, gone = 0; i < samples_.size(); ++i) {
     if (gone < leaving.size() && leaving[gone] == VertexId(i)) {

@@ -25,10 +25,10 @@ struct Resampling {
 };
 
 // Always the vertices of the triangulation, in order, but for virtual ones, once the calls below have told of a change.
-class Samples {
+class RepairSamples {
  public:
   // All of them free.
-  explicit Samples(const SignedDelaunay& restricted);
+  explicit RepairSamples(const SignedDelaunay& restricted);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] std::vector<Vec3> points() const;

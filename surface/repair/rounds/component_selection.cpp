@@ -197,7 +197,7 @@ void ComponentSelection::cut_down(KeptMesh& kept, const std::vector<bool>& gives
 
 // Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
 // from them.
-void ComponentSelection::give_poles(Round& round) {
+void ComponentSelection::give_poles(RepairRound& round) {
   if (std::all_of(kept_.begin(), kept_.end(), [](const KeptMesh& kept) { return kept.signs.empty(); })) return;
   const TetSigns signs = round.restricted().signs();
   for (KeptMesh& kept : kept_) {

@@ -41,7 +41,7 @@ class ComponentSelection {
   // taken.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Finds pole heights for the meshes of a round, before its triangulation goes.
-  void give_poles(Round& round);
+  void give_poles(RepairRound& round);
   // Every component as the latest mesh that agrees with it at its best has it, less the copies of vertices that find no
   // place on the surface; unless no mesh has all of it or such a copy cannot be taken out: then it is `left`.
   // Precondition: the meshes have pole heights.

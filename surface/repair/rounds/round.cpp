@@ -26,23 +26,21 @@ void make_partial(ComponentMatch& match, std::uint32_t component) {
 
 }  // namespace
 
-Round::Round(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
-             std::unique_ptr<SignedDelaunay> restricted, int threads)
-    : grid_(grid),
-      topology_(topology),
+RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& raised,
+                         std::unique_ptr<SignedDelaunay> restricted)
+    : surface_(surface),
       raised_(raised),
-      specks_(grid, topology, restricted->isosurface().step()),
-      threads_(threads),
+      specks_(surface),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
-      flat_(*restricted_, threads),
-      unfounded_(*restricted_, grid, threads),
+      flat_(*restricted_, surface.threads),
+      unfounded_(*restricted_, surface.grid(), surface.threads),
       poles_(*restricted_) {
   find_components(0);
 }
 
 // Of the vertices from this one on.
-void Round::find_components(std::size_t first_vertex) {
+void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), 0);
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
@@ -52,14 +50,15 @@ void Round::find_components(std::size_t first_vertex) {
       if (restricted_->is_virtual(VertexId(i))) continue;
       const Vec3& p = restricted_->delaunay().point(VertexId(i));
       const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-      component_of_vertex_[i] = component_of(grid_, isosurface.isovalue(), topology_, index_point).value_or(0);
+      component_of_vertex_[i] =
+          component_of(surface_.grid(), isosurface.isovalue(), surface_.topology, index_point).value_or(0);
     }
   };
-  for_each_block(component_of_vertex_.size() - first_vertex, threads_, find, kVerticesAtOnce);
+  for_each_block(component_of_vertex_.size() - first_vertex, surface_.threads, find, kVerticesAtOnce);
 }
 
-bool Round::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
-                     ExchangedPoints& exchanged) {
+bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
+                           ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
   forget_rules();
   at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
@@ -88,41 +87,41 @@ bool Round::exchange(std::span<const VertexId> leaving, std::span<const Vec3> co
   return true;
 }
 
-void Round::keep_signs(const ExchangedPoints& exchanged) {
+void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
   as_before_ = restricted_->signs();
   rules_->take_signs(SignRule::kCentroidWithRing, at_circumcenters_);
   const TetSigns by_rule = restricted_->signs();
   for (const TetId t : exchanged.renewed) as_before_[t.index()] = by_rule[t.index()];
 }
 
-void Round::settle_signs() {
+void RepairRound::settle_signs() {
   flat_.settle(*restricted_);
   unfounded_.overturn(*restricted_);
 }
 
-void Round::take_plain_signs() {
+void RepairRound::take_plain_signs() {
   restricted_->set_signs(at_circumcenters_);
   settle_signs();
 }
 
-void Round::take_signs(SignRule rule) {
+void RepairRound::take_signs(SignRule rule) {
   TetSigns& known = signs_by_rule_[static_cast<std::size_t>(rule)];
   if (!known.empty()) return restricted_->set_signs(known);
-  if (!rules_) rules_.emplace(*restricted_, grid_, raised_, threads_);
+  if (!rules_) rules_.emplace(*restricted_, surface_.grid(), raised_, surface_.threads);
   rules_->take_signs(rule, rule == SignRule::kAsBefore ? as_before_ : at_circumcenters_);
   settle_signs();
   known = restricted_->signs();
 }
 
-void Round::overturn(std::span<const TetId> tets) {
+void RepairRound::overturn(std::span<const TetId> tets) {
   for (const TetId t : tets) restricted_->overturn_sign(t);
   settle_signs();
 }
 
 // None when they would be the same as the last time in this round.
-std::optional<PairedTriangles> Round::take_triangles(const TetSigns& signs) {
+std::optional<PairedTriangles> RepairRound::take_triangles(const TetSigns& signs) {
   if (!pairing_) {
-    pairing_.emplace(*restricted_, signs, threads_);
+    pairing_.emplace(*restricted_, signs, surface_.threads);
   } else if (!pairing_->update(signs) && has_assembled_) {
     return std::nullopt;
   }
@@ -130,20 +129,20 @@ std::optional<PairedTriangles> Round::take_triangles(const TetSigns& signs) {
   return pairing_->triangles();
 }
 
-std::optional<MatchedMesh> Round::assemble(const IsOfUse& is_of_use) {
+std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
   std::optional<PairedTriangles> triangles = take_triangles(restricted_->signs());
   if (!triangles) return std::nullopt;
-  return finished(*std::move(triangles), is_of_use, threads_);
+  return finished(*std::move(triangles), is_of_use, surface_.threads);
 }
 
-std::vector<Round::Attempt> Round::attempts(std::span<const SignRule> rules,
-                                            const std::function<bool(const MatchedMesh&)>& is_last) {
+std::vector<RepairRound::Attempt> RepairRound::attempts(std::span<const SignRule> rules,
+                                                        const std::function<bool(const MatchedMesh&)>& is_last) {
   std::vector<Attempt> attempts(rules.size());
   std::vector<std::optional<PairedTriangles>> triangles(rules.size());
   std::atomic<bool> has_last = false;
-  const int threads = rules.size() > 1 ? 1 : threads_;
+  const int threads = rules.size() > 1 ? 1 : surface_.threads;
   run_in_turn(
-      rules.size(), threads_,
+      rules.size(), surface_.threads,
       [&](std::size_t i) {
         if (has_last) return;
         take_signs(rules[i]);
@@ -161,12 +160,12 @@ std::vector<Round::Attempt> Round::attempts(std::span<const SignRule> rules,
 }
 
 // Takes no account of signs, so that several threads may finish one mesh each while signs change.
-std::optional<MatchedMesh> Round::finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads) {
+std::optional<MatchedMesh> RepairRound::finished(PairedTriangles triangles, const IsOfUse& is_of_use, int threads) {
   const std::vector<FacetId> facets = std::move(triangles.facets);
   MatchedMesh mesh{build_triangle_mesh(*restricted_, std::move(triangles)), {}, {}};
   mesh.component.reserve(mesh.built.vertex_of.size());
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
-  mesh.match = match_components(mesh.built.mesh, mesh.component, topology_.components);
+  mesh.match = match_components(mesh.built.mesh, mesh.component, surface_.topology.components);
   if (is_of_use && !is_of_use(mesh)) return std::nullopt;
   find_missing_parts(mesh, facets, threads);
   for (const std::uint32_t component : specks_.missed_by(mesh)) make_partial(mesh.match, component);
@@ -175,7 +174,7 @@ std::optional<MatchedMesh> Round::finished(PairedTriangles triangles, const IsOf
 
 // A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
 // tell: each must have one of their triangles near. `facets`: of the triangles, ascending, but for the last ones.
-void Round::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads) {
+void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads) {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
     const std::uint32_t piece = match.piece_of[v];
@@ -204,7 +203,8 @@ void Round::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facet
   }
   const std::vector<std::uint32_t> at_strays = crossings_at_strays(mesh);
   for (const std::uint32_t i : at_strays) {
-    points.push_back(scaled(crossing_position(grid_, topology_.crossings[i]), restricted_->isosurface().step()));
+    points.push_back(
+        scaled(crossing_position(surface_.grid(), surface_.topology.crossings[i]), restricted_->isosurface().step()));
   }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, threads);
   const auto take_account = [&](std::uint32_t component, std::uint32_t covered_by) {
@@ -216,13 +216,13 @@ void Round::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facet
     take_account(component_of_vertex_[left_out[i]], covering[i]);
   }
   for (std::size_t i = 0; i < at_strays.size(); ++i) {
-    take_account(topology_.crossings[at_strays[i]].component, covering[left_out.size() + i]);
+    take_account(surface_.topology.crossings[at_strays[i]].component, covering[left_out.size() + i]);
   }
 }
 
 // The grid-edge crossings of components with strays in the cells that strays have vertices in: a stray may be a part of
 // the surface that has come off, larger than its few samples tell.
-std::vector<std::uint32_t> Round::crossings_at_strays(const MatchedMesh& mesh) const {
+std::vector<std::uint32_t> RepairRound::crossings_at_strays(const MatchedMesh& mesh) const {
   const ComponentMatch& match = mesh.match;
   std::vector<std::uint32_t> found;
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
@@ -230,9 +230,10 @@ std::vector<std::uint32_t> Round::crossings_at_strays(const MatchedMesh& mesh) c
     if (piece == kNoPiece) continue;
     const std::uint32_t component = match.pieces[piece].component;
     if (match.main_piece[component] == piece || match.agreement[component] <= Agreement::kPartial) continue;
-    topology_.index.for_each_crossing_of_cell(raised_.cell_of(mesh.built.mesh.points[v]), [&](std::uint32_t crossing) {
-      if (topology_.crossings[crossing].component == component) found.push_back(crossing);
-    });
+    surface_.topology.index.for_each_crossing_of_cell(
+        raised_.cell_of(mesh.built.mesh.points[v]), [&](std::uint32_t crossing) {
+          if (surface_.topology.crossings[crossing].component == component) found.push_back(crossing);
+        });
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

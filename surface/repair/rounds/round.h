@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "surface/base/exact_surface.h"
 #include "surface/extract/facet_pairing.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/diagnosis/small_components.h"
@@ -28,12 +29,11 @@
 
 namespace deliso {
 
-class Round {
+class RepairRound {
  public:
   // The signs of `restricted` are those of the circumcenters. Keeps references to the others. Nothing but the
   // time depends on the number of threads.
-  Round(const ScalarGrid& grid, const IsosurfaceTopology& topology, const CellLevels& raised,
-        std::unique_ptr<SignedDelaunay> restricted, int threads);
+  RepairRound(const ExactSurface& surface, const CellLevels& raised, std::unique_ptr<SignedDelaunay> restricted);
 
   // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
   // SignedDelaunay::exchange; when that says no, this round is of no more use. `keeps_signs`: the signs as they
@@ -74,16 +74,18 @@ class Round {
   std::vector<Attempt> attempts(std::span<const SignRule> rules,
                                 const std::function<bool(const MatchedMesh&)>& is_last);
   // The saddles and critical samples of the volume in the triangulation, as far as they are asked for.
-  LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_, grid_); }
+  LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_); }
   // The pole heights of the wanted vertices for the signs as they stand.
-  const std::vector<double>& pole_heights(const std::vector<bool>& wanted) { return poles_.heights(wanted, threads_); }
+  const std::vector<double>& pole_heights(const std::vector<bool>& wanted) {
+    return poles_.heights(wanted, surface_.threads);
+  }
 
   // The rules that are worth trying now, in order. Where the signs before are tried, too, the last ones hardly ever
   // help: where they did, that is in those signs.
   [[nodiscard]] std::span<const SignRule> rules() const {
     return as_before_.empty() ? std::span(kSignRules).subspan(1) : std::span(kSignRules).first(kRulesAfterExchange);
   }
-  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] int threads() const { return surface_.threads; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // Of each vertex: the exact component it lies on.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
@@ -106,11 +108,9 @@ class Round {
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets, int threads);
   [[nodiscard]] std::vector<std::uint32_t> crossings_at_strays(const MatchedMesh& mesh) const;
 
-  const ScalarGrid& grid_;
-  const IsosurfaceTopology& topology_;
+  ExactSurface surface_;
   const CellLevels& raised_;
   SmallComponents specks_;
-  int threads_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
   TetSigns as_before_;  // of the round before at last, new tetrahedra by the rule that is tried first; or none

@@ -23,10 +23,10 @@
 
 namespace deliso {
 
-class Rounds {
+class RepairRounds {
  public:
   // `restricted` is what stage 1 left: its mesh is the first one kept. Keeps references to facts and counts.
-  Rounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, int threads, RepairStats& stats);
+  RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
 
   // Until every component is done, there have been `max_rounds`, or ends(), asked before each of them, says so: true
   // for that.
@@ -41,14 +41,14 @@ class Rounds {
   [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
                                                         const SurfaceMesh& mesh) const;
 
-  // What the rounds have kept, with pole heights, to be put together.
-  const ComponentSelection& kept() {
-    if (round_) {
-      kept_.give_poles(*round_);
-      round_->rest();
-    }
-    return kept_;
+  // ComputePoles, for what the rounds have kept so far.
+  void give_poles() {
+    if (!round_) return;
+    kept_.give_poles(*round_);
+    round_->rest();
   }
+  // What the rounds have kept. To be put together once it has pole heights.
+  [[nodiscard]] const ComponentSelection& selection() const { return kept_; }
   // Whether another round may follow a mesh that seemed to be right.
   [[nodiscard]] bool may_go_on(std::int32_t max_rounds) const {
     return round_ && stats_.rounds > 0 && stats_.rounds < max_rounds;
@@ -68,7 +68,7 @@ class Rounds {
   void reopen(std::span<const std::uint32_t> crossings);
   void resample();
   bool try_rule(SignRule rule);
-  bool take(Round::Attempt& attempt);
+  bool take(RepairRound::Attempt& attempt);
   void try_rules(Controls& controls);
   void try_signs(Controls& controls);
   const std::vector<IndexRanges>& places_of_difference(std::size_t most, bool takes_curvature) {
@@ -76,17 +76,14 @@ class Rounds {
   }
 
   const ExactSurfaceCache& facts_;
-  const ScalarGrid& grid_;
-  const Isosurface& isosurface_;
-  const IsosurfaceTopology& topology_;
-  int threads_;
+  const ExactSurface& surface_;
   RepairStats& stats_;
   std::int64_t rounds_around_ = 0;  // of them by mend_around()
   std::vector<CellName> along_;     // cells that the next round raises, too
   SampleLattice lattice_;
   CellLevels raised_;
-  std::optional<Round> round_;
-  Samples samples_;                    // its vertices
+  std::optional<RepairRound> round_;
+  RepairSamples samples_;              // its vertices
   std::shared_ptr<MatchedMesh> mesh_;  // the latest
   ComponentSelection kept_;
   EulerDifferences differences_;

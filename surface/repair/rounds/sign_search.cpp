@@ -60,7 +60,7 @@ std::int64_t amount(const ComponentTopology& missing) {
 
 }  // namespace
 
-SignSearch::SignSearch(Round& round, const IsosurfaceTopology& topology, const CellLevels& cells,
+SignSearch::SignSearch(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
                        std::span<const SignRule> rules, const std::vector<IndexRanges>& places)
     : round_(round), topology_(topology), cells_(cells), places_(places) {
   const TetSigns signs = round_.restricted().signs();

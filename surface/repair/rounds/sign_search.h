@@ -24,8 +24,8 @@ namespace deliso {
 class SignSearch {
  public:
   // Keeps references. `places`: of each component, those at which its main piece parts from it.
-  SignSearch(Round& round, const IsosurfaceTopology& topology, const CellLevels& cells, std::span<const SignRule> rules,
-             const std::vector<IndexRanges>& places);
+  SignSearch(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
+             std::span<const SignRule> rules, const std::vector<IndexRanges>& places);
 
   // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
@@ -40,7 +40,7 @@ class SignSearch {
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
   [[nodiscard]] std::vector<DisagreementCluster> clusters_near(const IndexRanges& places) const;
 
-  Round& round_;
+  RepairRound& round_;
   const IsosurfaceTopology& topology_;
   const CellLevels& cells_;
   const std::vector<IndexRanges>& places_;

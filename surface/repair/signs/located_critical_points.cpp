@@ -13,8 +13,8 @@ namespace {
 // Places that one thread looks for at a time.
 constexpr std::size_t kPlacesAtOnce = 4096;
 
-void append_places(const Isosurface& isosurface, const ScalarGrid& grid, const CellIndex& cell,
-                   std::vector<LocatedCriticalPoint>& places) {
+void append_places(const Isosurface& isosurface, const CellIndex& cell, std::vector<LocatedCriticalPoint>& places) {
+  const ScalarGrid& grid = isosurface.grid();
   const auto append = [&](const Vec3& uvw, bool is_above) {
     const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
     places.push_back({scaled(p, isosurface.step()), cell, is_above});
@@ -44,10 +44,9 @@ void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) 
     if (known == places_.end() || known->cell != cell) asked.push_back(cell);
   }
   const Isosurface& isosurface = restricted_.isosurface();
-  add(collect_in_blocks<LocatedCriticalPoint>(asked.size(), threads,
-                                              [&](std::size_t i, std::vector<LocatedCriticalPoint>& places) {
-                                                append_places(isosurface, grid_, asked[i], places);
-                                              }));
+  add(collect_in_blocks<LocatedCriticalPoint>(
+      asked.size(), threads,
+      [&](std::size_t i, std::vector<LocatedCriticalPoint>& places) { append_places(isosurface, asked[i], places); }));
 }
 
 // Those of cells that had none.

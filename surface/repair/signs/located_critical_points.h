@@ -29,9 +29,8 @@ inline bool is_before(const CellIndex& a, const CellIndex& b) {
 
 class LocatedCriticalPoints {
  public:
-  // Keeps references.
-  LocatedCriticalPoints(const SignedDelaunay& restricted, const ScalarGrid& grid)
-      : restricted_(restricted), grid_(grid) {}
+  // Keeps a reference.
+  explicit LocatedCriticalPoints(const SignedDelaunay& restricted) : restricted_(restricted) {}
 
   // Takes account of an exchange of points.
   void renew(const ExchangedPoints& exchanged);
@@ -50,7 +49,6 @@ class LocatedCriticalPoints {
   [[nodiscard]] TetId located(const LocatedCriticalPoint& place, TetId hint) const;
 
   const SignedDelaunay& restricted_;
-  const ScalarGrid& grid_;
   std::vector<LocatedCriticalPoint> places_;
   std::vector<TetId> tets_;  // of each place, as far as it has been asked for
 };

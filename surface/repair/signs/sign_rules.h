@@ -23,7 +23,7 @@ enum class SignRule {
   kCentroidWhereOpposed,  // the same, only where the gradients at two of the vertices oppose each other
   kCircumcenter,
 };
-// All of them, in the order in which repair tries them (Round::rules).
+// All of them, in the order in which repair tries them (RepairRound::rules).
 inline constexpr std::array<SignRule, 5> kSignRules = {SignRule::kAsBefore, SignRule::kCentroidWithRing,
                                                        SignRule::kCentroid, SignRule::kCentroidWhereOpposed,
                                                        SignRule::kCircumcenter};

@@ -21,7 +21,7 @@ std::set<std::uint32_t> ends_of(const SurfaceMesh& mesh, TriangleSide side) {
 TEST(SideAdjacency, AManifoldGetsItsNeighbours) {
   for (const char* name : {"double_torus", "gyroid", "sheets"}) {
     const auto scene = testing::field_scene(name, 16);
-    SurfaceMesh mesh = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
+    SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
     mesh.neighbours.clear();
     set_side_adjacency(mesh);
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << name;

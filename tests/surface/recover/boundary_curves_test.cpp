@@ -31,7 +31,7 @@ Key key(const Vec3& p) { return {p.x, p.y, p.z}; }
 TEST(BoundaryCurves, PointsLieOnTheBoxExactlyAndOnTheSurface) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
-    for (const Vec3& p : boundary_curve_points(scene->grid, *scene->isosurface)) {
+    for (const Vec3& p : boundary_curve_points(*scene->isosurface)) {
       EXPECT_TRUE(SignedDelaunay::on_box(scene->isosurface->box(), p));
       EXPECT_TRUE(scene->isosurface->box().contains(p));
       const auto [low, high] = scene->grid.range();
@@ -44,7 +44,7 @@ TEST(BoundaryCurves, EveryCrossingOnTheBoxIsGivenOnce) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
     std::set<Key> given;
-    const std::vector<Vec3> points = boundary_curve_points(scene->grid, *scene->isosurface);
+    const std::vector<Vec3> points = boundary_curve_points(*scene->isosurface);
     for (const Vec3& p : points) EXPECT_TRUE(given.insert(key(p)).second) << p.x << " " << p.y << " " << p.z;
     // The crossings of all grid edges come from the exact topology.
     std::size_t crossings = 0;
@@ -67,7 +67,7 @@ TEST(BoundaryCurves, FacesWithFourCrossingsGetAPointOnEachArc) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const auto scene = noise_scene({2, 2, 2}, seed);
     SCOPED_TRACE(scene->name);
-    const std::vector<Vec3> points = boundary_curve_points(scene->grid, *scene->isosurface);
+    const std::vector<Vec3> points = boundary_curve_points(*scene->isosurface);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const double side : {0.0, 1.0}) {
         const std::size_t u = (axis + 1) % 3;
@@ -104,7 +104,7 @@ TEST(BoundaryCurves, FacesWithFourCrossingsGetAPointOnEachArc) {
 TEST(BoundaryCurves, ClosedSurfacesHaveNone) {
   for (const char* name : {"sphere", "torus", "shells"}) {
     const auto scene = field_scene(name, 16);
-    EXPECT_TRUE(boundary_curve_points(scene->grid, *scene->isosurface).empty()) << name;
+    EXPECT_TRUE(boundary_curve_points(*scene->isosurface).empty()) << name;
   }
 }
 

@@ -20,7 +20,7 @@ TEST(ComponentSeeds, EveryComponentHasItsOwnThatLieOnIt) {
     std::vector<std::vector<Vec3>> of(scene->topology.components.size());
     std::vector<std::size_t> crossings(of.size(), 0);
     for (const EdgeCrossing& c : scene->topology.crossings) ++crossings[c.component];
-    for (const Vec3& p : component_seeds(scene->grid, *scene->isosurface, scene->topology)) {
+    for (const Vec3& p : component_seeds(scene->surface())) {
       const Vec3& step = scene->isosurface->step();
       const auto c =
           component_of(scene->grid, scene->isovalue, scene->topology, {p.x / step.x, p.y / step.y, p.z / step.z});
@@ -40,7 +40,7 @@ TEST(ComponentSeeds, EveryComponentHasItsOwnThatLieOnIt) {
 // Design decision 3: at least four, and not coplanar, on closed components.
 TEST(ComponentSeeds, SeedsOfClosedComponentsSpanSpace) {
   for (const auto& scene : {field_scene("bubbles", 39, 3), field_scene("shells", 32)}) {
-    const std::vector<Vec3> seeds = component_seeds(scene->grid, *scene->isosurface, scene->topology);
+    const std::vector<Vec3> seeds = component_seeds(scene->surface());
     std::vector<std::vector<Vec3>> of(scene->topology.components.size());
     for (const Vec3& p : seeds) {
       of[component_of(scene->grid, scene->isovalue, scene->topology, p).value()].push_back(p);
@@ -62,9 +62,9 @@ TEST(ComponentSeeds, SeedsOfClosedComponentsSpanSpace) {
 TEST(ComponentSeeds, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({34, 33, 35}, 2);
   ASSERT_GT(scene->topology.crossings.size(), std::size_t{50000}) << "too few to be shared";
-  const std::vector<Vec3> alone = component_seeds(scene->grid, *scene->isosurface, scene->topology);
+  const std::vector<Vec3> alone = component_seeds(scene->surface());
   for (const int threads : {2, 3}) {
-    EXPECT_EQ(component_seeds(scene->grid, *scene->isosurface, scene->topology, threads), alone) << threads;
+    EXPECT_EQ(component_seeds(scene->surface(threads)), alone) << threads;
   }
 }
 
@@ -95,7 +95,7 @@ TEST(RandomRayPoints, GiveUpOnASurfaceThatIsHardlyEverHit) {
   Rng rng(1);
   SearchCounters counters;
   EXPECT_TRUE(random_ray_points(*scene.isosurface, 5, rng, counters).empty());
-  EXPECT_EQ(component_seeds(scene.grid, *scene.isosurface, scene.topology).size(), 6u);
+  EXPECT_EQ(component_seeds(scene.surface()).size(), 6u);
 }
 
 }  // namespace

@@ -117,8 +117,8 @@ TEST(Coverage, FindsTheSameForAnyNumberOfThreads) {
   const auto scene = field_scene("gyroid", 64);
   const RestrictedDelaunay restricted(*scene->isosurface, scene->start());
   const auto found = [&](int threads) {
-    std::vector<std::uint32_t> suspects = all_crossings(scene->grid, scene->topology, threads);
-    std::vector<Vec3> points = uncovered_points(restricted, scene->grid, scene->topology, suspects, threads);
+    std::vector<std::uint32_t> suspects = all_crossings(scene->surface(threads));
+    std::vector<Vec3> points = uncovered_points(restricted, scene->surface(threads), suspects);
     return std::pair(suspects, points);
   };
   ASSERT_GT(scene->topology.crossings.size(), 2 * kBlockSize);
@@ -130,8 +130,8 @@ TEST(Coverage, FindsTheSameForAnyNumberOfThreads) {
 
 TEST(Coverage, OrdersAllCrossings) {
   const auto scene = field_scene("bubbles", 24);
-  std::vector<std::uint32_t> crossings = all_crossings(scene->grid, scene->topology);
-  for (const int threads : {2, 3, 5}) EXPECT_EQ(all_crossings(scene->grid, scene->topology, threads), crossings);
+  std::vector<std::uint32_t> crossings = all_crossings(scene->surface());
+  for (const int threads : {2, 3, 5}) EXPECT_EQ(all_crossings(scene->surface(threads)), crossings);
   // Bricks of 8 samples in order, and within each the crossings in theirs.
   const auto key = [&](std::uint32_t crossing) {
     const Vec3 p = crossing_position(scene->grid, scene->topology.crossings[crossing]);

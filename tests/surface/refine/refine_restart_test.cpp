@@ -92,7 +92,7 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
       const auto run = [&](SurfaceMesh& refined) {
         Controls controls(BudgetParameters{}, nullptr, {});
         RefineStats stats;
-        refine(refined, *scene->isosurface, options, controls, stats);
+        refine_geometry(refined, *scene->isosurface, options, controls, stats);
         return stats;
       };
       SurfaceMesh trusting = mesh;

@@ -137,7 +137,7 @@ TEST(Refine, StoppedAtAnyMomentTheMeshIsWhole) {
     RefineStats stats;
     RefineOptions options = fine_options();
     options.slab_triangles = slab_triangles;
-    refine(mesh, *scene->isosurface, options, controls, stats);
+    refine_geometry(mesh, *scene->isosurface, options, controls, stats);
     EXPECT_TRUE(controls.stopped());
     EXPECT_EQ(stats.insertions, more);
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "");

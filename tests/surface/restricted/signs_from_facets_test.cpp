@@ -73,7 +73,7 @@ TEST(SignsFromFacets, AreNotThereWhenAnyOneFacetIsMissing) {
 TEST(FacetsAlone, OfASphereAreASphereSeenFromBelow) {
   const auto scene = field_scene("sphere", 16);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
-  const TriangleMesh mesh = to_world(facets_alone(restricted), scene->grid, scene->isosurface->step());
+  const TriangleMesh mesh = to_world(facets_alone(restricted), *scene->isosurface);
   EXPECT_EQ(certify(mesh, scene->topology).verdict, Verdict::kHomeomorphic);
   const Vec3 center = 0.5 * (scene->grid.box().low + scene->grid.box().high);
   for (const auto& t : mesh.triangles) {

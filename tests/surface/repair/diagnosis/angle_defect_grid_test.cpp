@@ -39,9 +39,7 @@ std::unique_ptr<Scene> balls(const std::vector<Vec3>& centers, double radius, co
   return std::make_unique<Scene>("balls", testing::sampled_grid<float>(dims, {1, 1, 1}, depth), 0.0);
 }
 
-ExactPolygonization polygonized(const Scene& scene) {
-  return exact_polygonization(scene.grid, *scene.isosurface, scene.topology);
-}
+ExactPolygonization polygonized(const Scene& scene) { return exact_polygonization(scene.surface()); }
 
 TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
   const std::vector<Vec3> centers = {{9.3, 10.1, 11.2}, {37.6, 12.4, 30.8}, {20.2, 35.1, 21.7}};
@@ -94,7 +92,7 @@ TEST(AngleDefectGrid, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
     const MeshingResult result = mesh_isosurface(scene->grid, scene->isovalue, {});
     SurfaceMesh mesh;
     const Vec3& step = scene->isosurface->step();
-    for (const Vec3& p : result.mesh.points) mesh.points.push_back(from_world(p, scene->grid, step));
+    for (const Vec3& p : result.mesh.points) mesh.points.push_back(from_world(p, *scene->isosurface));
     mesh.triangles = result.mesh.triangles;
     set_side_adjacency(mesh);
     AngleDefectGrid difference(scene->grid.dims(), step);

@@ -16,7 +16,7 @@ EulerCurves swept(const SurfaceMesh& mesh, const std::array<std::int32_t, 3>& di
 
 TEST(EulerCurve, EqualMeshesNeverPart) {
   const auto scene = field_scene("gyroid", 24);
-  const SurfaceMesh mesh = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
+  const SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
   for (const auto& layers : jumps_between(swept(mesh, scene->grid.dims()), swept(mesh, scene->grid.dims()))) {
     EXPECT_TRUE(layers.empty());
   }
@@ -25,7 +25,7 @@ TEST(EulerCurve, EqualMeshesNeverPart) {
 // A hole in the mesh changes its Euler characteristic by one, for good: the sweeps must find where.
 TEST(EulerCurve, FindsWhereAHoleIsPunched) {
   const auto scene = field_scene("gyroid", 32);
-  const SurfaceMesh exact = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
+  const SurfaceMesh exact = exact_polygonization(scene->surface()).mesh;
   // The same surface with a patch of a few triangles punched out: the Euler characteristic falls by one there.
   SurfaceMesh punched = exact;
   const Vec3 place = exact.points[exact.triangles[exact.triangles.size() / 2][0]];
@@ -56,7 +56,7 @@ TEST(EulerCurve, FindsWhereAHoleIsPunched) {
 
 TEST(EulerCurve, PartsSweptAtOnceAreLikePartsSweptAlone) {
   const auto scene = field_scene("bubbles", 26);
-  const ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
+  const ExactPolygonization surface = exact_polygonization(scene->surface());
   const std::size_t parts = scene->topology.components.size();
   ASSERT_GT(parts, 1u);
   const auto all = euler_curves(surface.mesh, surface.component, parts, {1, 1, 1}, scene->grid.dims());

@@ -18,15 +18,14 @@ constexpr std::size_t kMany = 1u << 30;
 class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
  protected:
   explicit EulerDifferencesOfNoise(const Dims& dims = {12, 11, 10})
-      : scene_(testing::noise_scene(dims, GetParam())), facts_(scene_->grid, *scene_->isosurface, scene_->topology, 1) {
+      : scene_(testing::noise_scene(dims, GetParam())), facts_(scene_->surface()) {
     std::vector<Vec3> samples;
     for (std::size_t i = 0; i < scene_->topology.crossings.size(); i += 2) {
       const EdgeCrossing& crossing = scene_->topology.crossings[i];
       samples.push_back(scaled(crossing_position(scene_->grid, crossing), scene_->isosurface->step()));
     }
-    CellLevels cells(scene_->grid, *scene_->isosurface);
-    Round round(scene_->grid, scene_->topology, cells, std::make_unique<SignedDelaunay>(*scene_->isosurface, samples),
-                1);
+    CellLevels cells(*scene_->isosurface);
+    RepairRound round(scene_->surface(), cells, std::make_unique<SignedDelaunay>(*scene_->isosurface, samples));
     round.take_plain_signs();
     mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
   }
@@ -62,7 +61,7 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
 };
 
 TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
-  EulerDifferences differences(facts_, *scene_->isosurface);
+  EulerDifferences differences(facts_);
   const std::vector<IndexRanges> places =
       differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
   ASSERT_EQ(places.size(), components());
@@ -76,7 +75,7 @@ TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
 }
 
 TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
-  EulerDifferences differences(facts_, *scene_->isosurface);
+  EulerDifferences differences(facts_);
   const std::vector<bool> none_done(components(), false);
   const std::vector<IndexRanges> all = differences.find(mesh_, none_done, {kMany, false});
   std::size_t most = 0;
@@ -88,7 +87,7 @@ TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
   }
   const std::vector<IndexRanges> again = differences.find(mesh_, none_done, {kMany, false});
   for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
-  EulerDifferences others(facts_, *scene_->isosurface);
+  EulerDifferences others(facts_);
   for (const IndexRanges& places : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
     EXPECT_TRUE(places.all.empty());
   }
@@ -109,7 +108,7 @@ TEST_P(EulerDifferencesOfMuchNoise, TakeTheLikelyPlacesByCurvatureWhenAskedAndSw
     if (main == kNoPiece || mesh_->match.agreement[c] != Agreement::kNone) continue;
     std::vector<bool> others_done(components(), true);
     others_done[c] = false;
-    EulerDifferences differences(facts_, *scene_->isosurface);
+    EulerDifferences differences(facts_);
     const IndexRanges swept = differences.find(mesh_, others_done, {kMany, false})[c];
     const IndexRanges both = differences.find(mesh_, others_done, {kMany, true})[c];
     AngleDefectGrid lattice(scene_->grid.dims(), step);

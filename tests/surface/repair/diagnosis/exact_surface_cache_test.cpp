@@ -55,10 +55,10 @@ std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<Locate
 
 TEST(ExactSurfaceCache, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({14, 13, 12}, 4);
-  const ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
-  const ExactEulerCurves sweeps(scene->grid, scene->isovalue, scene->topology);
+  const ExactPolygonization surface = exact_polygonization(scene->surface());
+  const ExactEulerCurves sweeps(scene->surface());
   for (const int threads : {1, 2, 3, 5}) {
-    const ExactSurfaceCache facts(scene->grid, *scene->isosurface, scene->topology, threads);
+    const ExactSurfaceCache facts(scene->surface(threads));
     EXPECT_EQ(facts.polygonized().mesh.points, surface.mesh.points) << threads;
     EXPECT_EQ(facts.polygonized().mesh.triangles, surface.mesh.triangles) << threads;
     EXPECT_EQ(facts.polygonized().component, surface.component) << threads;
@@ -70,7 +70,7 @@ TEST(ExactSurfaceCache, AreTheSameForAnyNumberOfThreads) {
 
 TEST(ExactSurfaceCache, NobodyHasToAsk) {
   const auto scene = field_scene("gyroid", 32);
-  for (int i = 0; i < 20; ++i) ExactSurfaceCache(scene->grid, *scene->isosurface, scene->topology, 2);
+  for (int i = 0; i < 20; ++i) ExactSurfaceCache(scene->surface(2));
 }
 
 std::vector<CellIndex> active_cells(const Scene& scene) {
@@ -86,12 +86,12 @@ TEST(LocatedCriticalPoints, AreFoundInTheCellsAskedFor) {
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
   for (const int threads : {1, 3}) {
-    LocatedCriticalPoints places(restricted, scene->grid);
+    LocatedCriticalPoints places(restricted);
     places.find(cells, threads);
     EXPECT_EQ(cells_of(places.places()), expected) << threads;
   }
   // Some cells, others, and then all of them, many asked for again.
-  LocatedCriticalPoints places(restricted, scene->grid);
+  LocatedCriticalPoints places(restricted);
   for (const std::size_t step : {7u, 3u}) {
     std::vector<CellIndex> some;
     for (std::size_t i = step / 2; i < cells.size(); i += step) some.push_back(cells[i]);
@@ -106,7 +106,7 @@ TEST(LocatedCriticalPoints, KeepTheirTetrahedraWhenMoreAreFound) {
   const auto scene = noise_scene({14, 13, 12}, 4);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
-  LocatedCriticalPoints places(restricted, scene->grid);
+  LocatedCriticalPoints places(restricted);
   places.find(std::span(cells).subspan(cells.size() / 2), 1);
   const std::size_t count = places.places().size();
   std::vector<std::uint32_t> all(count);
@@ -126,14 +126,14 @@ TEST(LocatedCriticalPoints, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({40, 39, 38}, 6);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
-  LocatedCriticalPoints one(restricted, scene->grid);
+  LocatedCriticalPoints one(restricted);
   one.find(cells, 1);
   const std::size_t count = one.places().size();
   ASSERT_GT(count, 2 * kBlockSize);
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);
   one.locate(all, 1);
-  LocatedCriticalPoints few(restricted, scene->grid);
+  LocatedCriticalPoints few(restricted);
   few.find(cells, 1);
   for (std::size_t i = 0; i < all.size(); i += 100) few.locate(std::span(all).subspan(i, 1), 1);
   for (std::uint32_t i = 0; i < count; i += 100) {
@@ -142,7 +142,7 @@ TEST(LocatedCriticalPoints, AreTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(few.tet(i), one.tet(i));
   }
   for (const int threads : {2, 3, 5}) {
-    LocatedCriticalPoints many(restricted, scene->grid);
+    LocatedCriticalPoints many(restricted);
     many.find(cells, threads);
     many.locate(all, threads);
     for (const std::uint32_t i : all) ASSERT_EQ(many.tet(i), one.tet(i)) << threads;

@@ -19,7 +19,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 struct Swallowing {
   std::unique_ptr<testing::Scene> scene = testing::field_scene("bubbles", 26);
-  ExactPolygonization surface = exact_polygonization(scene->grid, *scene->isosurface, scene->topology);
+  ExactPolygonization surface = exact_polygonization(scene->surface());
 
   ForeignVertices remove() { return remove_foreign_vertices(surface.mesh, surface.component); }
   // A triangle is split at a new corner, at the place of a vertex of another component.

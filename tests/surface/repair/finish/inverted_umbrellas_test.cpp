@@ -171,7 +171,7 @@ TEST(InvertedUmbrellas, TopologyStaysAndNoCrossingsCome) {
   std::int64_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const auto scene = testing::noise_scene({9, 8, 9}, seed);
-    SurfaceMesh mesh = exact_polygonization(scene->grid, *scene->isosurface, scene->topology).mesh;
+    SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
     Rng rng(seed);
     for (Vec3& p : mesh.points) {
       if (rng.uniform() > 0.05) continue;

@@ -14,7 +14,7 @@ namespace {
 // Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
 TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
   const auto scene = testing::field_scene("shells", 48);
-  const ExactSurfaceCache facts(scene->grid, *scene->isosurface, scene->topology, 1);
+  const ExactSurfaceCache facts(scene->surface(1));
   const std::size_t components = scene->topology.components.size();
   ASSERT_GT(components, 1u);
   SurfaceMesh mesh = facts.polygonized().mesh;
@@ -41,16 +41,16 @@ TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
 
   std::vector<bool> is_polygonized(components, false);
   Controls controls(BudgetParameters{}, nullptr, {});
-  polygonize_crossing_pieces(mesh, facts, *scene->isosurface, is_polygonized, 1, controls);
+  polygonize_crossing_pieces(mesh, facts, is_polygonized, controls);
   EXPECT_TRUE(is_polygonized[0] && is_polygonized[1]);
   EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
   EXPECT_EQ(mesh.pole_heights.size(), mesh.points.size());
-  const TriangleMesh world = to_world(mesh, scene->grid, scene->isosurface->step());
+  const TriangleMesh world = to_world(mesh, *scene->isosurface);
   EXPECT_EQ(certify(world, scene->topology).verdict, Verdict::kHomeomorphic);
 
   // Nothing is left to do.
   const std::vector<Vec3> before = mesh.points;
-  polygonize_crossing_pieces(mesh, facts, *scene->isosurface, is_polygonized, 2, controls);
+  polygonize_crossing_pieces(mesh, ExactSurfaceCache(scene->surface(2)), is_polygonized, controls);
   EXPECT_EQ(mesh.points, before);
 }
 

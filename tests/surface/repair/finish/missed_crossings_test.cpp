@@ -20,7 +20,7 @@ using testing::field_scene;
 
 // Marching cubes with a hole of some voxels.
 SurfaceMesh with_hole(const testing::Scene& scene, const Vec3& center, double radius) {
-  SurfaceMesh mesh = exact_polygonization(scene.grid, *scene.isosurface, scene.topology).mesh;
+  SurfaceMesh mesh = exact_polygonization(scene.surface()).mesh;
   std::erase_if(mesh.triangles, [&](const auto& t) { return distance(mesh.points[t[0]], center) < radius; });
   mesh.neighbours.clear();
   return mesh;
@@ -43,18 +43,17 @@ TEST(MissedCrossings, AreTheCrossingsInTheBoxesThatTheMeshDoesNotCover) {
     if (is_asked && !cover.covers(p, guess)) expected.push_back(i);
   }
   EXPECT_GT(expected.size(), 10u);
-  const Vec3 step{1, 1, 1};
   for (const int threads : {1, 3}) {
-    EXPECT_EQ(missed_crossings(mesh, boxes, scene->grid, scene->topology, step, threads), expected);
+    EXPECT_EQ(missed_crossings(mesh, boxes, scene->surface(threads)), expected);
   }
-  EXPECT_TRUE(missed_crossings(mesh, {}, scene->grid, scene->topology, step, 1).empty());
+  EXPECT_TRUE(missed_crossings(mesh, {}, scene->surface()).empty());
   const SurfaceMesh whole = with_hole(*scene, center, 0);
-  EXPECT_TRUE(missed_crossings(whole, boxes, scene->grid, scene->topology, step, 1).empty());
+  EXPECT_TRUE(missed_crossings(whole, boxes, scene->surface()).empty());
 }
 
 TEST(MissedCrossings, HaveTheActiveCellsAroundThem) {
   const auto scene = field_scene("gyroid", 16);
-  const CellLevels cells(scene->grid, *scene->isosurface);
+  const CellLevels cells(*scene->isosurface);
   for (const std::uint32_t crossing : {0u, 100u, 300u}) {
     ASSERT_LT(crossing, scene->topology.crossings.size());
     const Vec3 p = crossing_position(scene->grid, scene->topology.crossings[crossing]);
@@ -67,7 +66,7 @@ TEST(MissedCrossings, HaveTheActiveCellsAroundThem) {
       if (is_near) expected.insert(cells.name(cell));
     });
     const std::vector<std::uint32_t> some = {crossing};
-    const std::vector<CellName> found = cells_around(some, scene->grid, scene->topology, cells);
+    const std::vector<CellName> found = cells_around(some, scene->surface(), cells);
     EXPECT_EQ(std::set<CellName>(found.begin(), found.end()), expected);
   }
 }

@@ -34,7 +34,7 @@ std::vector<std::unique_ptr<Scene>> scenes() {
 TEST(SampleLattice, EqualKeysMeanEqualPointsWhicheverCellAndLevelAsks) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
-    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
+    const SampleLattice lattice(scene->surface());
     std::map<std::uint64_t, Vec3> point_of;
     std::size_t shared = 0;
     for (int level = 1; level <= kMaxLatticeLevel; ++level) {
@@ -55,7 +55,7 @@ TEST(SampleLattice, EqualKeysMeanEqualPointsWhicheverCellAndLevelAsks) {
 
 TEST(SampleLattice, NoKeyIsGivenTwiceByOneCell) {
   for (const auto& scene : scenes()) {
-    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
+    const SampleLattice lattice(scene->surface());
     for_each_cell(scene->grid, [&](const CellIndex& cell) {
       std::vector<LatticeSample> samples;
       lattice.append(cell, kMaxLatticeLevel, samples);
@@ -68,7 +68,7 @@ TEST(SampleLattice, NoKeyIsGivenTwiceByOneCell) {
 TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
-    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
+    const SampleLattice lattice(scene->surface());
     const auto [low, high] = scene->grid.range();
     const double range = high - low;
     for_each_cell(scene->grid, [&](const CellIndex& cell) {
@@ -89,7 +89,7 @@ TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
 TEST(SampleLattice, LevelsGrow) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
-    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
+    const SampleLattice lattice(scene->surface());
     std::map<std::uint64_t, Vec3> before;
     for (int level = 1; level <= kMaxLatticeLevel; ++level) {
       std::map<std::uint64_t, Vec3> now;

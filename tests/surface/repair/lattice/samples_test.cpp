@@ -14,7 +14,7 @@ using testing::noise_scene;
 
 // The samples are the vertices, one by one, however they came to be: with lattice samples that equal free ones or stand
 // where one has gone.
-TEST(Samples, StayTheVerticesOfTheTriangulation) {
+TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
   int exchanges = 0;
   int rebuilds = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -22,9 +22,9 @@ TEST(Samples, StayTheVerticesOfTheTriangulation) {
     const auto scene = noise_scene({9, 8, 9}, seed);
     std::vector<Vec3> points = testing::crossing_points(*scene);  // lattice samples of level 1 equal these
     auto restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, points);
-    Samples samples(*restricted);
-    const SampleLattice lattice(scene->grid, scene->isovalue, scene->topology);
-    CellLevels raised(scene->grid, *scene->isosurface);
+    RepairSamples samples(*restricted);
+    const SampleLattice lattice(scene->surface());
+    CellLevels raised(*scene->isosurface);
     Rng rng(seed);
     for (int round = 0; round < 6; ++round) {
       std::vector<CellName> cells;

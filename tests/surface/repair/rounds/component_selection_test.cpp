@@ -42,9 +42,9 @@ std::unique_ptr<Scene> blobs(std::uint64_t seed) {
 // Meshes of one round with random signs turned over, each with its signs.
 struct Attempts {
   explicit Attempts(const Scene& scene, std::uint64_t seed)
-      : cells(scene.grid, *scene.isosurface),
-        round(scene.grid, scene.topology, cells,
-              std::make_unique<SignedDelaunay>(*scene.isosurface, testing::crossing_points(scene)), 1) {
+      : cells(*scene.isosurface),
+        round(scene.surface(), cells,
+              std::make_unique<SignedDelaunay>(*scene.isosurface, testing::crossing_points(scene))) {
     constexpr int kAttempts = 12;
     Rng rng(seed);
     round.take_plain_signs();
@@ -64,7 +64,7 @@ struct Attempts {
     }
   }
   CellLevels cells;
-  Round round;
+  RepairRound round;
   std::vector<MatchedMesh> meshes;
   std::vector<TetSigns> signs;
 };

@@ -35,7 +35,7 @@ std::unique_ptr<SignedDelaunay> grown(const Scene& scene, const std::vector<Vec3
   return std::make_unique<SignedDelaunay>(std::move(restricted));
 }
 
-std::vector<Vec3> points_of(const Round& round) {
+std::vector<Vec3> points_of(const RepairRound& round) {
   const auto points = round.restricted().delaunay().points();
   return {points.begin(), points.end()};
 }
@@ -48,7 +48,7 @@ std::vector<Vec3> all_crossings(const Scene& scene) {
   return points;
 }
 
-std::map<TetName, int> evidence_by_name(const Round& round) {
+std::map<TetName, int> evidence_by_name(const RepairRound& round) {
   std::map<TetName, int> names;
   const Tetrahedralization& delaunay = round.restricted().delaunay();
   for (std::size_t i = 0; i < round.evidence().size(); ++i) {
@@ -63,7 +63,7 @@ std::map<TetName, int> evidence_by_name(const Round& round) {
 
 // A mesh's triangles by the vertices of the triangulation, the least first; so copies of a vertex are not told apart. A
 // vertex on a subdivided edge, whose place may be rounded otherwise, counts as the infinite one.
-std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const Round& round) {
+std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const RepairRound& round) {
   const auto name = [&](std::uint32_t v) {
     const VertexId vertex = built.vertex_of[v];
     return built.mesh.points[v] == round.restricted().delaunay().point(vertex) ? vertex.value : kInfiniteVertex.value;
@@ -89,7 +89,7 @@ std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& mat
 }
 
 // Takes signs by every rule in both and compares all that comes of it.
-void compare(Round& continued, Round& fresh, const std::string& where) {
+void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
   ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
   ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
   const std::vector<bool> all(points_of(fresh).size(), true);
@@ -129,11 +129,10 @@ void raise_some(const Scene& scene, CellLevels& raised, Rng& rng) {
 
 void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool is_grown = false) {
   Rng rng(seed);
-  const SampleLattice lattice(scene.grid, scene.isovalue, scene.topology);
-  CellLevels raised(scene.grid, *scene.isosurface);
+  const SampleLattice lattice(scene.surface());
+  CellLevels raised(*scene.isosurface);
   const std::vector<Vec3> start = all_crossings(scene);
-  Round continued(scene.grid, scene.topology, raised, is_grown ? grown(scene, start) : triangulation(scene, start),
-                  threads);
+  RepairRound continued(scene.surface(threads), raised, is_grown ? grown(scene, start) : triangulation(scene, start));
   std::vector<Vec3> points = points_of(continued);
   continued.take_plain_signs();
   ASSERT_TRUE(continued.assemble());
@@ -163,21 +162,21 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
     for (std::size_t i = 0; i < coming.size(); ++i) {
       ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]), SignedDelaunay::snapped(coming[i]));
     }
-    Round fresh(scene.grid, scene.topology, raised, triangulation(scene, left), 1);
+    RepairRound fresh(scene.surface(), raised, triangulation(scene, left));
     compare(continued, fresh, where);
     if (::testing::Test::HasFatalFailure()) return;
     points = points_of(continued);
   }
 }
 
-TEST(Round, GoingOnIsLikeBeginningAnew) {
+TEST(RepairRound, GoingOnIsLikeBeginningAnew) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     go_on_and_compare(*noise_scene({11, 10, 9}, seed), seed, seed % 2 == 0 ? 3 : 1);
     if (HasFatalFailure()) return;
   }
 }
 
-TEST(Round, GoingOnFromStageOneIsLikeBeginningAnew) {
+TEST(RepairRound, GoingOnFromStageOneIsLikeBeginningAnew) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     go_on_and_compare(*noise_scene({10, 9, 9}, seed), seed, 1, true);
     if (HasFatalFailure()) return;
@@ -185,22 +184,22 @@ TEST(Round, GoingOnFromStageOneIsLikeBeginningAnew) {
 }
 
 // Where many samples of the grid lie on facets.
-TEST(Round, GoingOnIsLikeBeginningAnewOnASymmetricField) {
+TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
 // Beside each other on several threads or one after the other by hand; and missing parts that were covered before.
-TEST(Round, AttemptsAreTheSameForAnyNumberOfThreads) {
+TEST(RepairRound, AttemptsAreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto scene = noise_scene({11, 10, 9}, seed);
     Rng rng(seed);
-    CellLevels raised(scene->grid, *scene->isosurface);
+    CellLevels raised(*scene->isosurface);
     raise_some(*scene, raised, rng);
     const auto never = [](const MatchedMesh&) { return false; };
     for (const int threads : {1, 2, 3}) {
-      Round beside(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), threads);
-      Round fresh(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
-      const std::vector<Round::Attempt> attempts = beside.attempts(kRules, never);
+      RepairRound beside(scene->surface(threads), raised, triangulation(*scene, all_crossings(*scene)));
+      RepairRound fresh(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
+      const std::vector<RepairRound::Attempt> attempts = beside.attempts(kRules, never);
       ASSERT_EQ(attempts.size(), kRules.size());
       for (std::size_t i = 0; i < attempts.size(); ++i) {
         fresh.take_signs(kRules[i]);
@@ -218,14 +217,14 @@ TEST(Round, AttemptsAreTheSameForAnyNumberOfThreads) {
 }
 
 // What a round has turned over stays so in the next one, where its tetrahedra do.
-TEST(Round, SignsCanStayAsTheyWereBefore) {
+TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
   std::size_t stayed = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto scene = noise_scene({11, 10, 9}, seed);
     Rng rng(seed);
-    CellLevels raised(scene->grid, *scene->isosurface);
+    CellLevels raised(*scene->isosurface);
     raise_some(*scene, raised, rng);
-    Round round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+    RepairRound round(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
     round.take_signs(SignRule::kCentroid);
     EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
     const Tetrahedralization& delaunay = round.restricted().delaunay();
@@ -259,10 +258,10 @@ TEST(Round, SignsCanStayAsTheyWereBefore) {
   EXPECT_GT(stayed, 1000u);
 }
 
-TEST(Round, SignsThatAreNotKeptAreNotTriedAgain) {
+TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
   const auto scene = noise_scene({9, 9, 9}, 1);
-  const CellLevels raised(scene->grid, *scene->isosurface);
-  Round round(scene->grid, scene->topology, raised, triangulation(*scene, all_crossings(*scene)), 1);
+  const CellLevels raised(*scene->isosurface);
+  RepairRound round(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
   round.take_signs(SignRule::kCircumcenter);
   ExchangedPoints exchanged;
   const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
@@ -274,11 +273,11 @@ TEST(Round, SignsThatAreNotKeptAreNotTriedAgain) {
   EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
 }
 
-TEST(Round, WithGuardsHasToBeginAnew) {
+TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
-  CellLevels raised(scene->grid, *scene->isosurface);
-  Round round(scene->grid, scene->topology, raised, triangulation(*scene, points), 1);
+  CellLevels raised(*scene->isosurface);
+  RepairRound round(scene->surface(), raised, triangulation(*scene, points));
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};
   EXPECT_FALSE(round.exchange({}, coming, true, exchanged));

@@ -24,9 +24,9 @@ struct MendedScene {
     std::vector<Vec3> points = scene->start();
     const std::vector<Vec3> crossings = testing::crossing_points(*scene);
     for (std::size_t i = 0; i < crossings.size(); i += 3) points.push_back(crossings[i]);
-    facts = std::make_unique<ExactSurfaceCache>(scene->grid, *scene->isosurface, scene->topology, threads);
-    rounds = std::make_unique<Rounds>(*facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads),
-                                      threads, stats);
+    facts = std::make_unique<ExactSurfaceCache>(scene->surface(threads));
+    rounds = std::make_unique<RepairRounds>(
+        *facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), stats);
     mend();
   }
   void mend() {
@@ -36,7 +36,8 @@ struct MendedScene {
   [[nodiscard]] AssembledMesh assembled() {
     std::vector<bool> left;
     RepairStats ignored;
-    return rounds->kept().assemble(left, scene->isosurface->box(), 1, ignored);
+    rounds->give_poles();
+    return rounds->selection().assemble(left, scene->isosurface->box(), 1, ignored);
   }
   // Vertices within a voxel and a half of the first of some crossings.
   [[nodiscard]] std::int64_t vertices_near(const std::vector<std::uint32_t>& crossings) {
@@ -50,7 +51,7 @@ struct MendedScene {
   std::unique_ptr<ExactSurfaceCache> facts;
   RepairStats stats;
   Controls controls{{}, nullptr, {}};
-  std::unique_ptr<Rounds> rounds;
+  std::unique_ptr<RepairRounds> rounds;
 };
 
 // Few crossings of the component that has the most of them.
@@ -64,7 +65,7 @@ std::vector<std::uint32_t> some_crossings(const testing::Scene& scene) {
   return {};
 }
 
-TEST(Rounds, WhatIsTakenAlongIsSampledInTheNextRound) {
+TEST(RepairRounds, WhatIsTakenAlongIsSampledInTheNextRound) {
   int finer = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -85,7 +86,7 @@ TEST(Rounds, WhatIsTakenAlongIsSampledInTheNextRound) {
   EXPECT_GE(finer, 2);
 }
 
-TEST(Rounds, MendingAroundCrossingsIsARoundOfItsOwn) {
+TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   int finer = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -104,7 +105,7 @@ TEST(Rounds, MendingAroundCrossingsIsARoundOfItsOwn) {
 
 // Several threads try later rules beside the one that is taken. The signs are those of the latter all the same: pole
 // heights tell, and what the next round makes of them.
-TEST(Rounds, AreTheSameForAnyNumberOfThreads) {
+TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
     MendedScene one(seed, {12, 11, 12}, 1), three(seed, {12, 11, 12}, 3);
@@ -123,7 +124,7 @@ TEST(Rounds, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Rounds, CrossingsWhereTrianglesMeetAreThoseOfTheirCellAndComponent) {
+TEST(RepairRounds, CrossingsWhereTrianglesMeetAreThoseOfTheirCellAndComponent) {
   MendedScene mended(2);
   const AssembledMesh all = mended.assembled();
   const IsosurfaceTopology& topology = mended.scene->topology;

@@ -167,9 +167,9 @@ TEST(SignSearch, MendASpoiltPlace) {
   int mended = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto scene = noise_scene({7, 7, 7}, seed);
-    const CellLevels cells(scene->grid, *scene->isosurface);
-    Round round(scene->grid, scene->topology, cells,
-                std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)), 1);
+    const CellLevels cells(*scene->isosurface);
+    RepairRound round(scene->surface(), cells,
+                      std::make_unique<SignedDelaunay>(*scene->isosurface, testing::crossing_points(*scene)));
     round.take_signs(SignRule::kCircumcenter);
     const MatchedMesh before = *round.assemble();
     const TetSigns signs = round.restricted().signs();

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const Sc
 }
 
 CellLevels everywhere(const Scene& scene) {
-  CellLevels raised(scene.grid, *scene.isosurface);
+  CellLevels raised(*scene.isosurface);
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell(
       [&](const CellIndex& cell, unsigned) { cells.push_back(raised.name(cell)); });
@@ -74,7 +74,7 @@ TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
 TEST(SignConstraint, IsNoneWithoutRaisedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
-  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, CellLevels(scene->grid, *scene->isosurface))) {
+  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, CellLevels(*scene->isosurface))) {
     ASSERT_EQ(e, kNoConstraint);
   }
 }

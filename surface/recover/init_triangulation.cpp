@@ -1,4 +1,4 @@
-#include "surface/recover/initial_triangulation.h"
+#include "surface/recover/init_triangulation.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -36,26 +36,26 @@ void insert_further(RestrictedDelaunay& restricted, const std::vector<Vec3>& poi
 
 }  // namespace
 
-std::unique_ptr<RestrictedDelaunay> initial_triangulation(const ScalarGrid& grid, const Isosurface& isosurface,
-                                                          const IsosurfaceTopology& topology,
-                                                          const Parameters& parameters, std::uint64_t seed, int threads,
-                                                          Controls& controls, SearchCounters& counters) {
+std::unique_ptr<RestrictedDelaunay> init_triangulation(const ExactSurface& surface, const Parameters& parameters,
+                                                       std::uint64_t seed, Controls& controls,
+                                                       SearchCounters& counters) {
   const InitialParameters& initial = parameters.initial;
+  const Isosurface& isosurface = surface.isosurface;
   Rng rng(seed);
   std::vector<Vec3> points = random_ray_points(isosurface, initial.random_points, rng, counters, &controls);
   const auto first_further = points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kMostAtOnce));
   std::vector<Vec3> further(first_further, points.end());
   points.erase(first_further, points.end());
-  const std::vector<Vec3> curves = boundary_curve_points(grid, isosurface);
+  const std::vector<Vec3> curves = boundary_curve_points(isosurface);
   points.insert(points.end(), curves.begin(), curves.end());
   if (initial.seeding == Seeding::kComponents) {
-    const std::vector<Vec3> seeds = component_seeds(grid, isosurface, topology, threads);
+    const std::vector<Vec3> seeds = component_seeds(surface);
     points.insert(points.end(), seeds.begin(), seeds.end());
   }
   check_enough(points, initial);
 
   const FacetRule rule = parameters.stage1.one_sign_per_tetrahedron ? FacetRule::kSigns : FacetRule::kHits;
-  auto restricted = std::make_unique<RestrictedDelaunay>(isosurface, points, rule, threads);
+  auto restricted = std::make_unique<RestrictedDelaunay>(isosurface, points, rule, surface.threads);
   insert_further(*restricted, further, controls);
   return restricted;
 }

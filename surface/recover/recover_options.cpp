@@ -1,0 +1,32 @@
+#include "surface/recover/recover_options.h"
+
+#include <algorithm>
+
+namespace deliso {
+
+RecoverOptions recover_options(const Parameters& parameters, const Box3& box, int threads) {
+  const Stage1Parameters& stage1 = parameters.stage1;
+  RecoverOptions options;
+  options.threads = threads;
+  options.geometry = {.epsilon = stage1.epsilon, .rho = stage1.rho, .r_min = stage1.r_min * box.smallest_side()};
+  options.size_bound = std::max(options.geometry.r_min, stage1.size_bound_voxels);
+  options.order = parameters.queue_order;
+  return options;
+}
+
+RecoverOptions full3d_options(const Parameters& parameters, const Box3& box) {
+  const Stage2Parameters& stage2 = parameters.stage2;
+  RecoverOptions options;
+  options.geometry = {.epsilon = stage2.epsilon1,
+                      .rho = stage2.rho,
+                      .r_min = stage2.r_min * box.smallest_side(),
+                      .epsilon2 = stage2.epsilon2,
+                      .criterion2 = stage2.criterion2,
+                      .new_pole = stage2.new_pole};
+  if (stage2.max_distance) options.geometry.max_distance = *stage2.max_distance;
+  options.size_bound = options.geometry.r_min;
+  options.order = parameters.queue_order;
+  return options;
+}
+
+}  // namespace deliso

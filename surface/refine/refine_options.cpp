@@ -1,0 +1,25 @@
+#include "surface/refine/refine_options.h"
+
+namespace deliso {
+
+RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
+                             int threads) {
+  const Stage2Parameters& stage2 = parameters.stage2;
+  RefineOptions options;
+  options.epsilon1 = stage2.epsilon1;
+  options.epsilon2 = stage2.epsilon2;
+  options.rho = stage2.rho;
+  options.r_min = stage2.r_min * box.smallest_side();
+  if (stage2.max_distance) options.max_distance = *stage2.max_distance;
+  options.order = parameters.queue_order;
+  options.restart_at_crossings = repairs(parameters);
+  options.criterion2 = stage2.criterion2;
+  options.new_pole = stage2.new_pole;
+  options.store_hits = stage2.store_hits;
+  options.keep_neighbours = false;
+  options.coverage_targets = coverage_targets;
+  options.threads = threads;
+  return options;
+}
+
+}  // namespace deliso
