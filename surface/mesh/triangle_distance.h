@@ -1,4 +1,4 @@
-// The distance from a point to a triangle. The mesher and the verification both measure with it.
+// The distance from a point to a triangle, as the mesher measures it.
 #pragma once
 
 #include "delaunay/base/vec3.h"

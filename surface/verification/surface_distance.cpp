@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 
 namespace deliso {
@@ -35,6 +34,25 @@ class FigureBuilder {
   double sum_ = 0;
   double weight_ = 0;
 };
+
+// The squared distance from p to the triangle abc: to the nearest point of its three edges, or to the foot of p in its
+// plane where that has no negative weight. Whatever rounding does to the weights, they name a point of the triangle.
+// The mesher measures in another way (surface/mesh/triangle_distance.h).
+double squared_distance_to(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  double least = squared_distance(p, a);
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const double length = squared_norm(to - from);
+    if (!(length > 0)) continue;
+    const double along = std::clamp(dot(p - from, to - from) / length, 0.0, 1.0);
+    least = std::min(least, squared_distance(p, from + along * (to - from)));
+  }
+  const Vec3 u = b - a, v = c - a, w = p - a;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  const double of_b = (vv * uw - uv * vw) / determinant, of_c = (uu * vw - uv * uw) / determinant;
+  if (of_b >= 0 && of_c >= 0 && of_b + of_c <= 1) least = std::min(least, squared_distance(p, a + of_b * u + of_c * v));
+  return least;
+}
 
 }  // namespace
 
@@ -96,7 +114,7 @@ DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& 
   for (const Vec3& p : points) {
     const auto measure = [&](std::uint32_t t) {
       const auto& [a, b, c] = mesh.triangles[t];
-      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
+      return squared_distance_to(p, mesh.points[a], mesh.points[b], mesh.points[c]);
     };
     // Consecutive points are neighbours mostly: the last answer bounds the next.
     const double bound = measure(nearest);

@@ -1,5 +1,8 @@
-// Judges any triangle mesh as an image of an isosurface. It shares the exact topology, the certificate's comparison
-// with it and the search for triangles that meet with the mesher, and measures with code that the mesher does not use.
+// Judges any triangle mesh as an image of an isosurface.
+//
+// It shares with the mesher: the exact topology, the comparison with it (certificate/), the exact tests for triangles
+// that meet (intersection/), and the tree of boxes that finds near triangles (search/box_tree.h). Residuals, distances
+// both ways, normals and orientation it measures with code of its own, without the mesher's ray search.
 //
 // Every check is plain data: whether it passed, and its figures. Lengths are in voxels: units of the smallest spacing.
 #pragma once
