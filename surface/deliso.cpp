@@ -28,18 +28,6 @@ namespace deliso {
 
 namespace {
 
-// Runs one stage and adds its wall-clock time to `stage`.
-template <class Body>
-auto timed(StageStats& stage, Body body) {
-  const Stopwatch watch;
-  struct AddAtEnd {
-    StageStats& stage;
-    const Stopwatch& watch;
-    ~AddAtEnd() { stage.seconds += watch.seconds(); }
-  } const add_at_end{stage, watch};
-  return body();
-}
-
 void check_isovalue(const ScalarGrid& grid, double isovalue) {
   if (!std::isfinite(isovalue)) {
     throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
@@ -74,6 +62,7 @@ class Pipeline {
   DelS recover_topology(DelS del_s0);
   SurfaceMesh refine(DelS del_s1);
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
+  void take_inner_seconds(const RecoveredSurface& recovered);
   void find_faults(const SurfaceMesh& mesh);
   void drop_crossings();
   void certify(SurfaceMesh mesh);
@@ -156,6 +145,7 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   timed(result_.poles, [&] { recovered->compute_poles(); });
   SurfaceMesh mesh = timed(result_.build, [&] { return recovered->build_triangle_mesh(); });
   timed(result_.repair, [&] { recovered->mend(mesh); });
+  take_inner_seconds(*recovered);
   result_.build.bounds_a_solid = recovered->bounds_a_solid();
   recovered.reset();
   cache_.reset();
@@ -170,6 +160,13 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
   return mesh;
+}
+
+// Poles and meshes that repair has found for further rounds count as what they are.
+void Pipeline::take_inner_seconds(const RecoveredSurface& recovered) {
+  result_.poles.seconds += recovered.inner_poles_seconds();
+  result_.build.seconds += recovered.inner_build_seconds();
+  result_.repair.seconds -= recovered.inner_poles_seconds() + recovered.inner_build_seconds();
 }
 
 // With new samples and signs where the mesh to be would differ from the exact topology.

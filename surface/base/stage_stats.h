@@ -3,11 +3,25 @@
 
 #include <cstdint>
 
+#include "delaunay/base/stopwatch.h"
+
 namespace deliso {
 
 struct StageStats {
   double seconds = 0;
 };
+
+// Runs one stage, or a part of it, and adds its wall-clock time to `stage`. Returns what body() returns.
+template <class Body>
+auto timed(StageStats& stage, Body body) {
+  const Stopwatch watch;
+  struct AddAtEnd {
+    StageStats& stage;
+    const Stopwatch& watch;
+    ~AddAtEnd() { stage.seconds += watch.seconds(); }
+  } const add_at_end{stage, watch};
+  return body();
+}
 
 struct RepairStats : StageStats {
   std::int64_t rounds = 0;                      // resamplings made

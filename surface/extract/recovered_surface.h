@@ -25,6 +25,9 @@ class RecoveredSurface {
   virtual SurfaceMesh build_triangle_mesh() = 0;
   // What is done to the mesh before RefineGeom; the paper does nothing.
   virtual void mend(SurfaceMesh& /*mesh*/) {}
+  // How long mending has spent on ComputePoles and BuildTriMesh of further meshes.
+  [[nodiscard]] virtual double inner_poles_seconds() const { return 0; }
+  [[nodiscard]] virtual double inner_build_seconds() const { return 0; }
   // False only without one sign per tetrahedron: the restricted facets bound no set of tetrahedra, so they are the mesh
   // as they are, and RefineGeom is left out.
   [[nodiscard]] virtual bool bounds_a_solid() const { return true; }

@@ -140,8 +140,8 @@ std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t>
   mend_by_rounds();
   const bool is_done = is_assembled_ || rounds_.is_done();
   if (is_done) {
-    compute_poles();
-    build();
+    timed(inner_poles_, [this] { compute_poles(); });
+    timed(inner_build_, [this] { build(); });
     mend_vertices();
   }
   if (is_done && !controls_.poll() && is_polygonized_ == before.is_polygonized) return before;
@@ -170,8 +170,8 @@ void Repair::return_to(Ending ending) {
 // is the crossing of triangles that is wrong, the next round is to sample around them.
 bool Repair::ends_without_foreign_vertices() {
   if (!rounds_.is_done_but_for_mixing()) return false;
-  rounds_.give_poles();
-  const bool is_whole = assemble();
+  timed(inner_poles_, [this] { rounds_.give_poles(); });
+  const bool is_whole = timed(inner_build_, [this] { return assemble(); });
   if (is_whole && take_foreign_vertices_out()) return true;
   if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};

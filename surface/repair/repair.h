@@ -48,6 +48,8 @@ class Repair : public RecoveredSurface {
   // Takes out what is in the wrong place. Goes on with rounds, ComputePoles and BuildTriMesh where triangles cross or
   // parts of the surface are missed.
   void mend(SurfaceMesh& mesh) override;
+  [[nodiscard]] double inner_poles_seconds() const override { return inner_poles_.seconds; }
+  [[nodiscard]] double inner_build_seconds() const override { return inner_build_.seconds; }
 
  private:
   // What rounds have led to.
@@ -86,6 +88,7 @@ class Repair : public RecoveredSurface {
   bool is_apart_ = false;             // its triangles are known not to cross; taking vertices out keeps that
   bool is_assembled_ = false;         // rounds ended with it, foreign vertices taken out
   bool is_as_it_was_ = false;         // the run had to end before any round
+  StageStats inner_poles_, inner_build_;
 };
 
 }  // namespace deliso
