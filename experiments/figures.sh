@@ -40,10 +40,11 @@ picture() {
   "$deliso" render "$1" --isovalue "$2" -o "$out/$name.png" "${@:3}"
 }
 
-# The built-in volume: the surface, the mesh, both cut open.
+# The built-in volume: the surface, the mesh after Recover, the mesh after Refine, all cut open.
 "$deliso" generate shells -o "$out/shells.nrrd"
 make_mesh shells "$out/shells.nrrd" 100.5
-picture shells "$out/shells.nrrd" 100.5 --surface --mesh "$out/shells.ply" --clip x=32 --size 1600x800
+picture shells "$out/shells.nrrd" 100.5 --surface --mesh "$out/shells-recover.ply" --mesh "$out/shells.ply" \
+  --clip x=32 --size 1080x360
 
 # Figures 1 and 2: marching cubes, DelIso.
 if is_there "figure 1 (ATOM)" hydrogen_atom.nrrd; then

@@ -21,12 +21,13 @@ mkdir -p "$out"
 say "a volume to start with: $out/shells.nrrd"
 "$deliso" generate shells -o "$out/shells.nrrd"
 say "meshing its isosurface at $isovalue: $out/shells.ply, $out/report.json"
-"$deliso" mesh "$out/shells.nrrd" --isovalue "$isovalue" -o "$out/shells.ply" --report "$out/report.json"
+"$deliso" mesh "$out/shells.nrrd" --isovalue "$isovalue" -o "$out/shells.ply" \
+  --stage1-out "$out/shells-recover.ply" --report "$out/report.json"
 say "checking the mesh with code of its own: $out/verification.txt, $out/verification.json"
 "$deliso" verify "$out/shells.ply" "$out/shells.nrrd" --isovalue "$isovalue" --report "$out/verification.json" \
   >"$out/verification.txt"
 tail -n 1 "$out/verification.txt"
-say "a picture of both, cut open: $out/shells.png"
-"$deliso" render "$out/shells.nrrd" --isovalue "$isovalue" --surface --mesh "$out/shells.ply" --clip x=32 \
-  -o "$out/shells.png"
+say "a picture of the surface, the mesh after Recover and the mesh, cut open: $out/shells.png"
+"$deliso" render "$out/shells.nrrd" --isovalue "$isovalue" --surface --mesh "$out/shells-recover.ply" \
+  --mesh "$out/shells.ply" --clip x=32 --size 1080x360 -o "$out/shells.png"
 say "done; the mesh is $root/$out/shells.ply, its picture $root/$out/shells.png"
