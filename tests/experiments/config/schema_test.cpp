@@ -91,12 +91,12 @@ TEST(Schema, TheCommandPrintsIt) {
   EXPECT_EQ(document["$defs"]["parameters"], parameters_schema());
 }
 
-TEST(Schema, TheReadmeHoldsTheTableOfTheParameters) {
+TEST(Schema, ThePageHoldsTheTableOfTheParameters) {
   const testing::ProgramResult result = testing::run_deliso({"schema", "--markdown"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::string readme = testing::read_file(std::string(DELISO_SOURCE_DIR) + "/README.md");
-  EXPECT_NE(readme.find(result.out), std::string::npos)
-      << "README.md must hold the output of `deliso schema --markdown`:\n"
+  const std::string page = testing::read_file(std::string(DELISO_SOURCE_DIR) + "/experiments/config/README.md");
+  EXPECT_NE(page.find(result.out), std::string::npos)
+      << "experiments/config/README.md must hold the output of `deliso schema --markdown`:\n"
       << result.out;
 }
 
