@@ -17,7 +17,9 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-NO_FIGURE = "–"
+BENCH_PAGE = "configs/bench/README.md"
+ABLATIONS_PAGE = "configs/ablation/README.md"
+ANSWERS = "configs/ablation/answers.txt"
 
 # Sections that show the table of one experiment as it is: name, page, experiment.
 PLAIN = [
@@ -27,10 +29,9 @@ PLAIN = [
     ("table4", "configs/paper/README.md", "configs/paper/table4.json"),
     ("error_against_size", "configs/paper/README.md", "configs/paper/error_against_size.json"),
     ("time_by_stage", "configs/paper/README.md", "configs/paper/time_by_stage.json"),
-    ("seven_volumes", "configs/bench/README.md", "configs/bench/seven_volumes.json"),
+    ("seven_volumes", BENCH_PAGE, "configs/bench/seven_volumes.json"),
+    ("noisy_isovalues", BENCH_PAGE, "configs/bench/noisy_isovalues.json"),
 ]
-ABLATIONS_PAGE = "configs/ablation/README.md"
-ANSWERS = "configs/ablation/answers.txt"
 
 
 class Failure(Exception):
@@ -61,11 +62,12 @@ class Program:
             raise Failure(f"deliso {' '.join(map(str, arguments))} ended with {done.returncode}")
         return done.stdout
 
-    def run(self, experiment):
+    def run(self, experiment, threads=1):
         """The folder with the table of an experiment, run as far as it has not been."""
-        folder = self.out / Path(experiment).with_suffix("").relative_to("configs")
-        print(f"== {experiment}", flush=True)
-        self.call(["run", ROOT / experiment, "--data", self.data, "--out", folder, "--resume", "--progress"])
+        folder = self.out / f"{threads}_threads" / Path(experiment).with_suffix("").relative_to("configs")
+        print(f"== {experiment}, threads {threads}", flush=True)
+        self.call(["run", ROOT / experiment, "--data", self.data, "--out", folder, "--threads", threads, "--resume",
+                   "--progress"])
         return folder
 
 
@@ -104,15 +106,19 @@ class Results:
         program = self.table["programs"][0]
         commit = re.search(r"commit (\S+),", program).group(1)
         compiler = re.search(r"commit \S+, ([^(]*[^( ])", program).group(1)
-        runs = re.search(r"^(One run each.*|Median .* runs, seeds .*)\.$", self.text, re.M).group(1)
-        return f"Commit {commit}, {compiler}; {machine()}. {runs}."
+        return f"Commit {commit}, {compiler}; {machine()}."
+
+    def runs(self, with_spread=True):
+        """The number of runs behind each figure, in one sentence."""
+        sentence = re.search(r"^(One run each.*|Median .* runs, seeds .*)$", self.text, re.M).group(1)
+        return sentence if with_spread else re.sub(r"^Median \(\S+\)", "Medians", sentence)
 
 
 def machine():
     with open("/proc/cpuinfo", encoding="utf-8") as stream:
         model = re.search(r"^model name\s*: (.*)$", stream.read(), re.M)
     cores = os.cpu_count()
-    return f"{cores} cores, shared ({model.group(1).strip() if model else 'unknown'}), one thread a run"
+    return f"{cores} cores, shared ({model.group(1).strip() if model else 'unknown'})"
 
 
 # ---- figures --------------------------------------------------------------------------------------------------------
@@ -126,6 +132,10 @@ def figure_text(value, digits=3):
     if abs(value) >= 10 ** digits:
         return f"{value:.0f}"
     return f"{value:.{digits}g}" if abs(value) >= 1e-3 else f"{value:.{digits - 1}e}".replace("e-0", "e-")
+
+
+def percent_text(value):
+    return f"{value:+d} %".replace("-", "−") if value else "0 %"
 
 
 def spread(values, text):
@@ -154,7 +164,7 @@ def quoted(results, expression):
             medians.append(cell.get("median", cell.get("text")))
         values.append(medians[0] if len(medians) == 1 else medians[0] / medians[1])
     if len(parts) == 4:
-        return spread([round(100 * (value - 1)) for value in values], lambda value: f"{value:+d} %".replace("-", "−") if value else "0 %")
+        return spread([round(100 * (value - 1)) for value in values], percent_text)
     return spread(values, (lambda value: f"{value:.2g}") if len(variants) == 2 else figure_text)
 
 
@@ -171,7 +181,7 @@ def plain_section(results):
     absent = {row["dataset"] for row in results.table["rows"] if row["state"] == "absent"}
     lines = [line for line in results.text.splitlines() if line.startswith("|")]
     kept = [line for line in lines if line.split("|")[1].strip() not in absent]
-    text = "\n".join(kept) + f"\n\n{results.provenance()}"
+    text = "\n".join(kept) + f"\n\n{results.provenance()} {results.runs()}"
     return text + (f" Absent: {', '.join(sorted(absent))}." if absent else "")
 
 
@@ -184,7 +194,25 @@ def fidelity_section(results):
             cells = results.cells(dataset, variant)
             row.append(", ".join(f"{cells[name]['ratio']:.2f}" for name in ("n_RC", "n_RF")))
         rows.append(row)
-    return markdown_table(["reading"] + results.datasets(), rows) + f"\n\n{results.provenance()}"
+    text = markdown_table(["reading"] + results.datasets(), rows)
+    return text + f"\n\n{results.provenance()} {results.runs(with_spread=False)}"
+
+
+def two_threads_section(one, two):
+    """Whole runs with one thread and with two, beside each other."""
+    rows = []
+    for dataset in one.datasets():
+        alone, together = one.cells(dataset), two.cells(dataset)
+        if alone["vertices"]["median"] != together["vertices"]["median"]:
+            raise Failure(f"{dataset}: another mesh with two threads")
+        seconds = [cells["seconds"]["median"] for cells in (alone, together)]
+        peaks = [cells["peak memory (bytes)"]["median"] / 2 ** 20 for cells in (alone, together)]
+        per_vertex = [1e6 * value / alone["vertices"]["median"] for value in seconds]
+        rows.append([dataset, *map(figure_text, seconds), f"{seconds[0] / seconds[1]:.2f}",
+                     *(f"{value:.1f}" for value in per_vertex), *(f"{value:.0f}" for value in peaks)])
+    header = ["data set", "one thread (s)", "two threads (s)", "times faster", "µs per vertex, one thread",
+              "µs per vertex, two threads", "peak MiB, one thread", "peak MiB, two threads"]
+    return markdown_table(header, rows) + f"\n\n{one.provenance()} {one.runs(with_spread=False)}"
 
 
 def read_answers():
@@ -209,11 +237,11 @@ def answers_section(all_results):
         answer = re.sub(r"\{([^{}]*)\}", lambda match: quoted(results, match.group(1)), sentence)
         rows.append([f"`{name}`", results.table["question"], answer])
     header = "| config | question | answer |\n|---|---|---|\n"
-    commits = {results.provenance().split("; ")[0] for results in all_results.values()}
-    if len(commits) != 1:
-        raise Failure(f"the ablations come from {len(commits)} programs, expected one")
+    sources = {results.provenance() for results in all_results.values()}
+    if len(sources) != 1:
+        raise Failure(f"the ablations come from {len(sources)} programs, expected one")
     body = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return header + body + f"\n\n{commits.pop()}; {machine()}. Medians of the runs that each config asks for."
+    return header + body + f"\n\n{sources.pop()} Medians of the runs that each config asks for."
 
 
 def verification_section(program, allow_absent):
@@ -275,7 +303,7 @@ def main():
     parser.add_argument("--allow-absent", action="store_true", help="for trials: leave absent volumes out")
     parser.add_argument("--allow-dirty", action="store_true", help="for trials: any program will do")
     options = parser.parse_args()
-    names = [name for name, _, _ in PLAIN] + ["verification", "fidelity", "ablations"]
+    names = [name for name, _, _ in PLAIN] + ["two_threads", "verification", "fidelity", "ablations"]
     unknown = [name for name in options.only or [] if name not in names]
     if unknown:
         raise Failure(f"there is no section '{unknown[0]}', but {', '.join(names)}")
@@ -284,15 +312,18 @@ def main():
     def is_wanted(name):
         return options.only is None or name in options.only
 
-    def results_of(experiment):
-        return Results(program.run(experiment), options.allow_absent)
+    def results_of(experiment, threads=1):
+        return Results(program.run(experiment, threads), options.allow_absent)
 
     for name, page, experiment in PLAIN:
         if is_wanted(name):
             replace_section(options.pages / page, name, plain_section(results_of(experiment)))
+    if is_wanted("two_threads"):
+        both = [results_of("configs/bench/seven_volumes.json", threads) for threads in (1, 2)]
+        replace_section(options.pages / BENCH_PAGE, "two_threads", two_threads_section(*both))
     if is_wanted("verification"):
         section = verification_section(program, options.allow_absent)
-        replace_section(options.pages / "configs/bench/README.md", "verification", section)
+        replace_section(options.pages / BENCH_PAGE, "verification", section)
     if is_wanted("fidelity"):
         section = fidelity_section(results_of("configs/ablation/fidelity.json"))
         replace_section(options.pages / ABLATIONS_PAGE, "fidelity", section)

@@ -116,9 +116,10 @@ TEST(Pages, GeneratedSectionsNameTheirCommit) {
       EXPECT_TRUE(!is_made || std::regex_search(text, kCommit)) << page << ", " << name;
     }
   }
-  const std::set<std::string> expected = {"parameters",    "table1",       "table2",       "table3",
-                                          "table4",        "fidelity",     "ablations",    "error_against_size",
-                                          "time_by_stage", "verification", "seven_volumes"};
+  const std::set<std::string> expected = {"parameters",  "table1",        "table2",          "table3",
+                                          "table4",      "fidelity",      "ablations",       "error_against_size",
+                                          "two_threads", "seven_volumes", "noisy_isovalues", "time_by_stage",
+                                          "verification"};
   EXPECT_EQ(names, expected);
 }
 
