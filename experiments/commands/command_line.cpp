@@ -69,24 +69,24 @@ RawOptions raw_options(const VolumeOptions& options) {
 
 }  // namespace
 
-void add_volume_options(CLI::App& command, VolumeOptions& options) {
+void add_volume_options(Command& command, VolumeOptions& options) {
   command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")
-      ->type_name("")
-      ->required()
-      ->check(refuse_empty_name);
+      .type_name("")
+      .required()
+      .check(refuse_empty_name);
   command.add_option("--dims", options.dims, "Of a .raw file: samples along x,y,z (default: from its name)")
-      ->type_name("NX,NY,NZ")
-      ->check(refuse_empty_value);
+      .type_name("NX,NY,NZ")
+      .check(refuse_empty_value);
   command
       .add_option("--type", options.type, "Of a .raw file: " + supported_sample_types() + " (default: from its name)")
-      ->type_name("T")
-      ->check(refuse_empty_value);
+      .type_name("T")
+      .check(refuse_empty_value);
   command.add_option("--endian", options.endian, "Of a .raw file: little (default) or big")
-      ->type_name("ORDER")
-      ->check(refuse_empty_value);
+      .type_name("ORDER")
+      .check(refuse_empty_value);
   command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)")
-      ->type_name("SX,SY,SZ")
-      ->check(refuse_empty_value);
+      .type_name("SX,SY,SZ")
+      .check(refuse_empty_value);
 }
 
 ScalarGrid load_volume(const VolumeOptions& options) {

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "experiments/commands/command.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -18,7 +17,7 @@ struct VolumeOptions {
   std::string spacing;
 };
 
-void add_volume_options(CLI::App& command, VolumeOptions& options);
+void add_volume_options(Command& command, VolumeOptions& options);
 
 // Throws InputError when the file or the options are wrong.
 ScalarGrid load_volume(const VolumeOptions& options);

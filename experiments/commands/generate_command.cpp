@@ -5,6 +5,7 @@
 #include <string>
 
 #include "delaunay/base/check.h"
+#include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
 #include "experiments/system/files.h"
 #include "experiments/system/parse_number.h"
@@ -83,20 +84,18 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
 
 }  // namespace
 
-void add_generate_command(CLI::App& app, ExitCode& exit_code) {
+void add_generate_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<GenerateCommandOptions>();
-  CLI::App* command = app.add_subcommand("generate", "Write a built-in volume");
-  command->add_option("NAME", options->name, "Which one")->type_name("");
-  command->add_option("-o,--output", options->output, "The volume: .nrrd or .raw")->type_name("VOLUME");
-  command->add_option("--size", options->size, "Samples along each axis (default: the field's own)")->type_name("N");
-  command->add_option("--seed", options->seed, "Seed of the fields that are random")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
-      ->type_name("gzip|raw")
-      ->capture_default_str();
-  command->add_flag("--list", options->list, "List the built-in volumes");
-  command->callback([options, &exit_code] { exit_code = run_generate(*options); });
+  Command command = line.add_command("generate", "Write a built-in volume");
+  command.add_option("NAME", options->name, "Which one").type_name("");
+  command.add_option("-o,--output", options->output, "The volume: .nrrd or .raw").type_name("VOLUME");
+  command.add_option("--size", options->size, "Samples along each axis (default: the field's own)").type_name("N");
+  command.add_option("--seed", options->seed, "Seed of the fields that are random").type_name("N").show_default();
+  command.add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
+      .type_name("gzip|raw")
+      .show_default();
+  command.add_flag("--list", options->list, "List the built-in volumes");
+  command.callback(exit_code, [options] { return run_generate(*options); });
 }
 
 }  // namespace deliso

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/sample_histogram.h"
@@ -101,15 +102,15 @@ ExitCode run_info(const InfoCommandOptions& options) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, ExitCode& exit_code) {
+void add_info_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<InfoCommandOptions>();
-  CLI::App* command = app.add_subcommand("info", "Dimensions, range, histogram and suggested isovalues of a volume");
-  add_volume_options(*command, options->volume);
-  command->add_flag("--json", options->json, "Print JSON");
-  command->add_option("--report", options->report, "Write the JSON to a file")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->callback([options, &exit_code] { exit_code = run_info(*options); });
+  Command command = line.add_command("info", "Dimensions, range, histogram and suggested isovalues of a volume");
+  add_volume_options(command, options->volume);
+  command.add_flag("--json", options->json, "Print JSON");
+  command.add_option("--report", options->report, "Write the JSON to a file")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.callback(exit_code, [options] { return run_info(*options); });
 }
 
 }  // namespace deliso

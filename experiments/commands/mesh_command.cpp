@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
@@ -144,35 +145,32 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
 
 }  // namespace
 
-void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
+void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<MeshCommandOptions>();
-  CLI::App* command = app.add_subcommand("mesh", "Mesh an isosurface and certify the mesh");
-  add_volume_options(*command, options->volume);
-  command->add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")
-      ->type_name("K")
-      ->required();
-  command->add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
-      ->type_name("MESH")
-      ->required();
-  command->add_option("--config", options->config, "Parameters in a JSON file")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
-  command->add_option("--seed", options->seed, "Seed of the random choices")->type_name("N")->capture_default_str();
-  command->add_option("--report", options->report, "Write a JSON report of the run")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
-      ->type_name("MESH")
-      ->check(refuse_empty_name);
-  command->add_option("--threads", options->threads, "Threads to use")->type_name("N")->capture_default_str();
-  command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
-  command->add_flag("--ascii", options->ascii, "Write PLY as text");
-  command->footer(parameters_help());
-  command->callback([options, &exit_code] { exit_code = run_mesh(*options); });
+  Command command = line.add_command("mesh", "Mesh an isosurface and certify the mesh");
+  add_volume_options(command, options->volume);
+  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K").required();
+  command.add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
+      .type_name("MESH")
+      .required();
+  command.add_option("--config", options->config, "Parameters in a JSON file")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
+      .type_name("KEY=VALUE")
+      .repeatable();
+  command.add_option("--seed", options->seed, "Seed of the random choices").type_name("N").show_default();
+  command.add_option("--report", options->report, "Write a JSON report of the run")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
+      .type_name("MESH")
+      .check(refuse_empty_name);
+  command.add_option("--threads", options->threads, "Threads to use").type_name("N").show_default();
+  command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
+  command.add_flag("--ascii", options->ascii, "Write PLY as text");
+  command.footer(parameters_help());
+  command.callback(exit_code, [options] { return run_mesh(*options); });
 }
 
 }  // namespace deliso

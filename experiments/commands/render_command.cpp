@@ -10,6 +10,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/stopwatch.h"
+#include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/pictures/isosurface_shape.h"
@@ -198,33 +199,31 @@ ExitCode run_render(const RenderCommandOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, ExitCode& exit_code) {
+void add_render_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<RenderCommandOptions>();
-  CLI::App* command = app.add_subcommand("render", "A picture of an isosurface by ray casting, or of meshes of it");
-  add_volume_options(*command, options->volume);
-  const auto add = [command](const std::string& name, auto& value, const std::string& help, const std::string& type) {
-    return command->add_option(name, value, help)->type_name(type);
+  Command command = line.add_command("render", "A picture of an isosurface by ray casting, or of meshes of it");
+  add_volume_options(command, options->volume);
+  const auto add = [&command](const std::string& name, auto& value, const std::string& help, const std::string& type) {
+    return command.add_option(name, value, help).type_name(type);
   };
   const auto add_many = [&add](const std::string& name, auto& values, const std::string& help,
-                               const std::string& type) {
-    add(name, values, help, type)->take_all()->allow_extra_args(false);
-  };
-  add("--isovalue", options->isovalue, "The value of the isosurface", "K")->required();
-  add("-o,--output", options->output, "The picture: .png", "PNG")->required();
+                               const std::string& type) { add(name, values, help, type).repeatable(); };
+  add("--isovalue", options->isovalue, "The value of the isosurface", "K").required();
+  add("-o,--output", options->output, "The picture: .png", "PNG").required();
   add_many("--mesh", options->meshes, "Draw this mesh with its edges (repeatable: side by side)", "MESH");
-  command->add_flag("--surface", options->surface, "Draw the isosurface itself beside the meshes");
-  command->add_flag("--marching-cubes", options->marching_cubes, "Draw the mesh of marching cubes, beside the others");
+  command.add_flag("--surface", options->surface, "Draw the isosurface itself beside the meshes");
+  command.add_flag("--marching-cubes", options->marching_cubes, "Draw the mesh of marching cubes, beside the others");
   add_many("--clip", options->clips, "Cut away what lies between this plane and the eye (repeatable)", "AXIS=VALUE");
-  add("--view", options->view, "Direction of the eye in degrees; z is up", "AZIMUTH,ELEVATION")->capture_default_str();
-  add("--zoom", options->zoom, "1: the whole surface fits", "FACTOR")->capture_default_str();
+  add("--view", options->view, "Direction of the eye in degrees; z is up", "AZIMUTH,ELEVATION").show_default();
+  add("--zoom", options->zoom, "1: the whole surface fits", "FACTOR").show_default();
   add("--look-at", options->look_at, "The middle of the picture (default: of the surface)", "X,Y,Z");
-  add("--perspective", options->field_of_view, "Field of view; 0: parallel rays", "DEGREES")->capture_default_str();
+  add("--perspective", options->field_of_view, "Field of view; 0: parallel rays", "DEGREES").show_default();
   add("--size", options->size, "Of the whole picture (default 800x600, 600x600 for each of several parts)", "WxH");
-  add("--samples", options->samples, "N x N rays per pixel", "N")->capture_default_str();
-  add("--line-width", options->line_width, "Of the edges, in pixels; 0: none", "W")->capture_default_str();
+  add("--samples", options->samples, "N x N rays per pixel", "N").show_default();
+  add("--line-width", options->line_width, "Of the edges, in pixels; 0: none", "W").show_default();
   add("--threads", options->threads, "Threads to use (default: all)", "N");
-  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
-  command->callback([options, &exit_code] { exit_code = run_render(*options); });
+  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.callback(exit_code, [options] { return run_render(*options); });
 }
 
 }  // namespace deliso

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "delaunay/base/check.h"
+#include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
 #include "experiments/results/results.h"
 #include "experiments/runs/experiment_config.h"
@@ -111,36 +112,33 @@ ExitCode run_run(const RunCommandOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, ExitCode& exit_code) {
+void add_run_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<RunCommandOptions>();
-  CLI::App* command = app.add_subcommand("run", "Do an experiment and make its table and plots");
-  command->add_option("EXPERIMENT", options->experiment, "The experiment: a JSON file (configs/paper/table3.json)")
-      ->type_name("")
-      ->required()
-      ->check(refuse_empty_name);
-  command->add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
-      ->type_name("DIR")
-      ->check(refuse_empty_name);
-  command->add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")
-      ->type_name("DIR")
-      ->check(refuse_empty_name);
-  command->add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
-      ->type_name("I/N")
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads to use in each run")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--resume", options->resume,
-                    "Go on with the records in the folder: finished runs are not repeated");
-  command->add_flag("--dry-run", options->dry_run, "List the runs that would be made");
-  command->add_flag("--builtin", options->builtin, "Take the experiment's built-in fields, which need no file");
-  command->add_flag("--smoke", options->smoke, "Do every variant once on one tiny field: does the experiment work?");
-  command->add_flag("--progress", options->progress, "A line on stderr for every run that ends (for log files)");
-  command->add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
-  command->footer(
+  Command command = line.add_command("run", "Do an experiment and make its table and plots");
+  command.add_option("EXPERIMENT", options->experiment, "The experiment: a JSON file (configs/paper/table3.json)")
+      .type_name("")
+      .required()
+      .check(refuse_empty_name);
+  command.add_option("--data", options->data, "Folder with the volumes (default: $DELISO_DATA, else data/)")
+      .type_name("DIR")
+      .check(refuse_empty_name);
+  command.add_option("--out", options->out, "Folder for records, tables and plots (default: out/NAME)")
+      .type_name("DIR")
+      .check(refuse_empty_name);
+  command.add_option("--shard", options->shard, "Do the I-th of N parts of the runs alone")
+      .type_name("I/N")
+      .show_default();
+  command.add_option("--threads", options->threads, "Threads to use in each run").type_name("N").show_default();
+  command.add_flag("--resume", options->resume, "Go on with the records in the folder: finished runs are not repeated");
+  command.add_flag("--dry-run", options->dry_run, "List the runs that would be made");
+  command.add_flag("--builtin", options->builtin, "Take the experiment's built-in fields, which need no file");
+  command.add_flag("--smoke", options->smoke, "Do every variant once on one tiny field: does the experiment work?");
+  command.add_flag("--progress", options->progress, "A line on stderr for every run that ends (for log files)");
+  command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
+  command.footer(
       "A volume that is absent is listed as absent, with the way to get it, and is no failure.\n"
       "Exit codes: 0 every run was made, or is absent; 1 a run failed; 3 stopped, --resume goes on.");
-  command->callback([options, &exit_code] { exit_code = run_run(*options); });
+  command.callback(exit_code, [options] { return run_run(*options); });
 }
 
 }  // namespace deliso

@@ -2,17 +2,18 @@
 #include <iostream>
 #include <memory>
 
+#include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/experiment_config.h"
 
 namespace deliso {
 
-void add_schema_command(CLI::App& app, ExitCode& exit_code) {
+void add_schema_command(CommandLine& line, ExitCode& exit_code) {
   const auto markdown = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of parameters and experiments");
-  command->add_flag("--markdown", *markdown, "Print the parameters as a Markdown table instead");
-  command->callback([markdown, &exit_code] {
+  Command command = line.add_command("schema", "Print the JSON schema of parameters and experiments");
+  command.add_flag("--markdown", *markdown, "Print the parameters as a Markdown table instead");
+  command.callback(exit_code, [markdown] {
     if (*markdown) {
       std::cout << parameters_markdown();
     } else {
@@ -22,7 +23,7 @@ void add_schema_command(CLI::App& app, ExitCode& exit_code) {
                {"$ref", "#/$defs/parameters"},
                {"$defs", Json{{"parameters", parameters_schema()}, {"experiment", experiment_schema()}}}});
     }
-    exit_code = ExitCode::kDone;
+    return ExitCode::kDone;
   });
 }
 

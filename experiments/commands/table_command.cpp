@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
 #include "experiments/results/results.h"
 #include "experiments/system/parse_number.h"
@@ -30,28 +31,28 @@ ExitCode run_table(const TableCommandOptions& options) {
 
 }  // namespace
 
-void add_table_command(CLI::App& app, ExitCode& exit_code) {
+void add_table_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<TableCommandOptions>();
-  CLI::App* command =
-      app.add_subcommand("table", "Make tables (Markdown, CSV, JSON) and plots (SVG) from the records of a run");
-  command->add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
-      ->type_name("")
-      ->required()
-      ->check(refuse_empty_name);
+  Command command =
+      line.add_command("table", "Make tables (Markdown, CSV, JSON) and plots (SVG) from the records of a run");
+  command.add_option("OUT_DIR", options->folders, "Folders with records of one experiment, of any number of shards")
+      .type_name("")
+      .required()
+      .check(refuse_empty_name);
   command
-      ->add_option("-o,--output", options->output,
-                   "Folder for table.md, table.csv, table.json and the plots (default: the first)")
-      ->type_name("DIR")
-      ->check(refuse_empty_name);
+      .add_option("-o,--output", options->output,
+                  "Folder for table.md, table.csv, table.json and the plots (default: the first)")
+      .type_name("DIR")
+      .check(refuse_empty_name);
   command
-      ->add_option("--experiment", options->experiment,
-                   "Take words, metrics and plots from this file; its runs must be those of the records")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->footer(
+      .add_option("--experiment", options->experiment,
+                  "Take words, metrics and plots from this file; its runs must be those of the records")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.footer(
       "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
       "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");
-  command->callback([options, &exit_code] { exit_code = run_table(*options); });
+  command.callback(exit_code, [options] { return run_table(*options); });
 }
 
 }  // namespace deliso

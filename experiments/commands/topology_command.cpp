@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delaunay/base/stopwatch.h"
+#include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/record.h"
@@ -86,16 +87,16 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
 
 }  // namespace
 
-void add_topology_command(CLI::App& app, ExitCode& exit_code) {
+void add_topology_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<TopologyCommandOptions>();
-  CLI::App* command = app.add_subcommand("topology", "Exact topology of an isosurface, without a mesh");
-  add_volume_options(*command, options->volume);
-  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
-  command->add_option("--report", options->report, "Write the result as JSON")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
-  command->callback([options, &exit_code] { exit_code = run_topology(*options); });
+  Command command = line.add_command("topology", "Exact topology of an isosurface, without a mesh");
+  add_volume_options(command, options->volume);
+  command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
+  command.add_option("--report", options->report, "Write the result as JSON")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.callback(exit_code, [options] { return run_topology(*options); });
 }
 
 }  // namespace deliso

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/record.h"
@@ -178,22 +179,22 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
 
 }  // namespace
 
-void add_verify_command(CLI::App& app, ExitCode& exit_code) {
+void add_verify_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyCommandOptions>();
-  CLI::App* command = app.add_subcommand("verify", "Check any mesh against an isosurface");
-  command->add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))
-      ->type_name("")
-      ->required()
-      ->check(refuse_empty_name);
-  add_volume_options(*command, options->volume);
-  command->add_option("--isovalue", options->isovalue, "The value of the isosurface")->type_name("K")->required();
-  command->add_option("--report", options->report, "Write every figure as JSON")
-      ->type_name("FILE")
-      ->check(refuse_empty_name);
-  command->add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
-  command->add_flag("--ignore-spacing", options->ignore_spacing,
-                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
-  command->callback([options, &exit_code] { exit_code = run_verify(*options); });
+  Command command = line.add_command("verify", "Check any mesh against an isosurface");
+  command.add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))
+      .type_name("")
+      .required()
+      .check(refuse_empty_name);
+  add_volume_options(command, options->volume);
+  command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
+  command.add_option("--report", options->report, "Write every figure as JSON")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.add_flag("--ignore-spacing", options->ignore_spacing,
+                   "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
+  command.callback(exit_code, [options] { return run_verify(*options); });
 }
 
 }  // namespace deliso

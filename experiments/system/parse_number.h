@@ -12,7 +12,7 @@ double parse_number(const std::string& text, const std::string& option);
 // A whole number from `low` to `high`. Throws InputError naming the option and the range.
 std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high);
 
-// For CLI::Option::check of an option that names a file or folder: what is wrong with the name, or nothing. An empty
+// For CommandOption::check of an option that names a file or folder: what is wrong with the name, or nothing. An empty
 // name would pass for an option that is not there.
 std::string refuse_empty_name(const std::string& name);
 

@@ -1,0 +1,74 @@
+// The command line: the part of CLI11 that the program needs, without CLI11's headers, which take seconds to compile.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/system/exit_code.h"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the name is CLI11's
+class App;
+class Option;
+}  // namespace CLI
+
+namespace deliso {
+
+// An option that takes a value. Each function gives it back, so that they chain.
+class CommandOption {
+ public:
+  explicit CommandOption(CLI::Option& option) : option_(&option) {}
+
+  // What the help calls the value; empty: nothing.
+  CommandOption& type_name(const std::string& name);
+  CommandOption& required();
+  // `refusal` says of a value as typed what is wrong with it, or nothing.
+  CommandOption& check(std::string (*refusal)(const std::string& value));
+  // The help tells the value that the variable has now.
+  CommandOption& show_default();
+  // It may come again, with one value each time.
+  CommandOption& repeatable();
+
+ private:
+  CLI::Option* option_;
+};
+
+// Variables that options set must live until the command line is parsed.
+class Command {
+ public:
+  explicit Command(CLI::App& command) : command_(&command) {}
+
+  // A name without dashes is that of an argument by position.
+  CommandOption add_option(const std::string& names, std::string& value, const std::string& help);
+  CommandOption add_option(const std::string& names, std::vector<std::string>& values, const std::string& help);
+  void add_flag(const std::string& names, bool& value, const std::string& help);
+  // The last paragraph of the help.
+  void footer(const std::string& text);
+  // What the command does, while the command line is parsed; `exit_code` takes its result.
+  void callback(ExitCode& exit_code, std::function<ExitCode()> action);
+
+ private:
+  CLI::App* command_;
+};
+
+// All commands.
+class CommandLine {
+ public:
+  // What `deliso --help` says first and last, and `deliso --version`.
+  CommandLine(const std::string& description, const std::string& footer, std::function<std::string()> version);
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  // A command without options yet.
+  Command add_command(const std::string& name, const std::string& help);
+  // Runs the command that the arguments name, or prints help or version. Throws InputError, with the nearest name where
+  // one is unknown, and whatever the command throws.
+  void parse(int argc, const char* const* argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace deliso
