@@ -224,8 +224,8 @@ TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const st
     }
   }
   constexpr std::array<std::size_t, 8> kOnlyBit = {0, 0, 1, 0, 2, 0, 0, 0};
-  constexpr std::array<int, 8> kBits = {0, 1, 1, 2, 1, 2, 2, 3};
-  switch (kBits[in_s]) {
+  constexpr std::array<int, 8> kBitCounts = {0, 1, 1, 2, 1, 2, 2, 3};
+  switch (kBitCounts[in_s]) {
     case 0:
       return contact_of_disjoint(s_points, t_points);
     case 1:

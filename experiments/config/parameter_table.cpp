@@ -203,7 +203,7 @@ constexpr std::array kTable = {
 };
 
 // The bounds of the table are whole numbers.
-std::string bound_text(double bound) { return std::to_string(static_cast<std::int64_t>(bound)); }
+std::string whole_number_text(double bound) { return std::to_string(static_cast<std::int64_t>(bound)); }
 
 }  // namespace
 
@@ -219,8 +219,8 @@ std::string allowed_values(const ParameterField& field) {
   }
   if (field.type == ParameterType::kNumber || field.type == ParameterType::kInteger) {
     text = field.type == ParameterType::kNumber ? "a number " : "an integer ";
-    text += (field.range.low_excluded ? "> " : ">= ") + bound_text(field.range.low);
-    if (std::isfinite(field.range.high)) text += " and <= " + bound_text(field.range.high);
+    text += (field.range.low_excluded ? "> " : ">= ") + whole_number_text(field.range.low);
+    if (std::isfinite(field.range.high)) text += " and <= " + whole_number_text(field.range.high);
   }
   return field.nullable ? text + " or null" : text;
 }

@@ -15,8 +15,8 @@ namespace {
 constexpr double kBarsWidth = 520;
 constexpr double kBarHeight = 18;
 constexpr double kPitch = 26;
-constexpr double kTop = 44;
-constexpr double kRight = 80;
+constexpr double kBarsTop = 44;
+constexpr double kBarsRight = 80;
 
 double whole(const Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
 
@@ -33,18 +33,18 @@ std::string draw_bars(const BarPlot& plot) {
   const Axis axis = linear_axis(ends, true);
   std::vector<LegendEntry> legend;
   for (const std::string& name : plot.legend) legend.push_back({name, LegendKey::kBox});
-  const double bottom = kTop + kPitch * static_cast<double>(plot.bars.size());
-  SvgDrawing drawing(left + kBarsWidth + kRight, bottom + 40 + legend_height(legend, kBarsWidth) + 10);
+  const double bottom = kBarsTop + kPitch * static_cast<double>(plot.bars.size());
+  SvgDrawing drawing(left + kBarsWidth + kBarsRight, bottom + 40 + legend_height(legend, kBarsWidth) + 10);
   drawing.text({left, 24}, plot.title, {kTitleSize, "start", true});
 
   for (const double tick : axis.ticks()) {
     const double x = left + kBarsWidth * axis.place(tick);
-    drawing.line({x, kTop}, {x, bottom}, {kGridColor});
+    drawing.line({x, kBarsTop}, {x, bottom}, {kGridColor});
     drawing.text({x, bottom + 16}, tick_text(tick) + (plot.share ? " %" : ""), {kTickSize, "middle"});
   }
   for (std::size_t i = 0; i < plot.bars.size(); ++i) {
     const Bar& bar = plot.bars[i];
-    const double y = kTop + kPitch * static_cast<double>(i) + (kPitch - kBarHeight) / 2;
+    const double y = kBarsTop + kPitch * static_cast<double>(i) + (kPitch - kBarHeight) / 2;
     const double total = whole(bar);
     const double unit = plot.share && total > 0 ? 100 / total : 1;
     drawing.text({left - 8, y + kBarHeight - 5}, bar.name, {kNameSize, "end"});

@@ -9,7 +9,7 @@ namespace {
 constexpr double kFontSize = 12;
 constexpr double kRow = 20;
 constexpr double kKeyWidth = 26;
-constexpr double kGap = 22;
+constexpr double kEntryGap = 22;
 
 // Where each entry stands.
 std::vector<SvgPoint> places(std::span<const LegendEntry> entries, double width) {
@@ -19,7 +19,7 @@ std::vector<SvgPoint> places(std::span<const LegendEntry> entries, double width)
     const double needed = kKeyWidth + 6 + text_width(entry.name, kFontSize);
     if (at.x > 0 && at.x + needed > width) at = {0, at.y + kRow};
     places.push_back(at);
-    at.x += needed + kGap;
+    at.x += needed + kEntryGap;
   }
   return places;
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Places = std::span<LatticePlace>;
 
-constexpr int kTaskDepth = 4;       // parts of this depth are tasks
+constexpr int kPartDepth = 4;       // parts of this depth are tasks
 constexpr unsigned kIndexBits = 5;  // so many are parted by counting
 constexpr std::size_t kSmall = std::size_t{1} << kIndexBits;
 constexpr std::size_t kMostSamples = 32;
@@ -151,7 +151,7 @@ std::uint32_t left_half(std::uint32_t count) {
 std::vector<std::uint32_t> kd_order(std::vector<LatticePlace> places, const CentreOf& centre_of, int threads) {
   // The uppermost levels one after the other, then what hangs below them.
   std::vector<Places> parts = {places};
-  for (int depth = 0; depth < kTaskDepth; ++depth) {
+  for (int depth = 0; depth < kPartDepth; ++depth) {
     std::vector<Places> halves(2 * parts.size());
     run_tasks(parts.size(), threads, [&](std::size_t i) {
       const Places whole = parts[i];

@@ -27,7 +27,7 @@ using testing::random_line;
 using testing::RayOracle;
 using testing::wave_grid;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 std::vector<SearchOptions> all_options() {
   std::vector<SearchOptions> list;
@@ -54,8 +54,8 @@ TEST(Isosurface, EveryTraversalFindsTheSameHitsBitForBit) {
       for (int trial = 0; trial < 300; ++trial) {
         const Line line = random_line(surface, rng);
         const bool infinite = rng.below(4) == 0;
-        const double t0 = infinite ? -kInfinity : rng.uniform(-20, 20);
-        const double t1 = infinite ? kInfinity : rng.uniform(t0, 40);
+        const double t0 = infinite ? -kUnbounded : rng.uniform(-20, 20);
+        const double t1 = infinite ? kUnbounded : rng.uniform(t0, 40);
         const std::vector<Hit> expected = hits_of(reference, line, t0, t1);
         const std::vector<Hit> hits = hits_of(surface, line, t0, t1);
         ASSERT_EQ(hits.size(), expected.size()) << describe(line, t0, t1);
@@ -70,7 +70,7 @@ TEST(Isosurface, EveryTraversalFindsTheSameHitsBitForBit) {
 
 std::optional<double> nearest_of_all_hits(const Isosurface& surface, const Line& line, double reach) {
   std::optional<double> nearest;
-  for (const Hit& hit : hits_of(surface, line, -kInfinity, kInfinity))
+  for (const Hit& hit : hits_of(surface, line, -kUnbounded, kUnbounded))
     if (hit.falling && std::abs(hit.t) <= reach && (!nearest || std::abs(hit.t) <= std::abs(*nearest))) nearest = hit.t;
   return nearest;
 }
@@ -89,7 +89,7 @@ TEST(Isosurface, NearestFallingHitIsTheNearestOfAllHitsWithEveryOption) {
         Rng rng(17);
         for (int trial = 0; trial < 300; ++trial) {
           const Line line = random_line(surface, rng);
-          const double reach = rng.below(2) == 0 ? kInfinity : rng.uniform(0, 5);
+          const double reach = rng.below(2) == 0 ? kUnbounded : rng.uniform(0, 5);
           const std::optional<double> expected = nearest_of_all_hits(reference, line, reach);
           SearchCounters counters;
           const std::optional<double> found = surface.nearest_falling_hit(line, reach, counters);

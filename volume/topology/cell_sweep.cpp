@@ -13,17 +13,15 @@ namespace deliso {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // The corner values minus the isovalue, in either kind of number.
 template <class Number>
 Number corner_value(const CellCorners& corners, double isovalue, int corner) {
-  return Number::difference(corners[at(corner)], isovalue);
+  return Number::difference(corners[as_index(corner)], isovalue);
 }
 
 template <class Number>
 Number determinant_value(const CellCorners& corners, double isovalue, const std::array<int, 4>& c) {
-  const auto f = [&](int i) { return corner_value<Number>(corners, isovalue, c[at(i)]); };
+  const auto f = [&](int i) { return corner_value<Number>(corners, isovalue, c[as_index(i)]); };
   return f(0) * f(3) - f(1) * f(2);
 }
 
@@ -110,7 +108,7 @@ CellSweep::CellSweep(const CellCorners& corners, double isovalue)
   start();
   for (int interval = 0; interval <= flip_count_; ++interval) {
     cross_interval(interval);
-    if (interval < flip_count_) flip(flips_[at(interval)]);
+    if (interval < flip_count_) flip(flips_[as_index(interval)]);
   }
   finish();
   renumber();
@@ -127,9 +125,9 @@ void CellSweep::order_flips() {
   for (int corner = 0; corner < 4; ++corner) {
     if ((pattern_ >> corner & 1) == (pattern_ >> (corner + 4) & 1)) continue;
     int place = flip_count_++;
-    for (; place > 0 && !flips_before(flips_[at(place - 1)], corner); --place)
-      flips_[at(place)] = flips_[at(place - 1)];
-    flips_[at(place)] = corner;
+    for (; place > 0 && !flips_before(flips_[as_index(place - 1)], corner); --place)
+      flips_[as_index(place)] = flips_[as_index(place - 1)];
+    flips_[as_index(place)] = corner;
   }
 }
 
@@ -138,7 +136,7 @@ void CellSweep::start() {
   std::array<bool, 4> crossed{};
   for (int side = 0; side < 4; ++side) {
     const std::array<int, 2> ends = side < 2 ? std::array{2 * side, 2 * side + 1} : std::array{side - 2, side};
-    crossed[at(side)] = (slice_.above >> ends[0] & 1u) != (slice_.above >> ends[1] & 1u);
+    crossed[as_index(side)] = (slice_.above >> ends[0] & 1u) != (slice_.above >> ends[1] & 1u);
   }
   if (slice_.is_ambiguous()) {
     // The bottom and the top side always belong to different arcs; D < 0 cuts off corners 00 and 11.
@@ -149,7 +147,7 @@ void CellSweep::start() {
   } else if (slice_.above != 0 && slice_.above != 0xFu) {
     const int piece = new_piece();
     for (int side = 0; side < 4; ++side) {
-      if (crossed[at(side)]) slice_.piece_of_side[at(side)] = piece;
+      if (crossed[as_index(side)]) slice_.piece_of_side[as_index(side)] = piece;
     }
   }
   record_edges(0);
@@ -158,8 +156,8 @@ void CellSweep::start() {
 // From one flip (or the bottom) to the next (or the top): only saddles can happen, and only in an ambiguous slice.
 void CellSweep::cross_interval(int interval) {
   if (slice_.is_ambiguous()) {
-    const int start = interval == 0 ? kBottom : flips_[at(interval - 1)];
-    const int end = interval == flip_count_ ? kTop : flips_[at(interval)];
+    const int start = interval == 0 ? kBottom : flips_[as_index(interval - 1)];
+    const int end = interval == flip_count_ ? kTop : flips_[as_index(interval)];
     const int sign = det_sign(start);
     slice_.det_sign = sign;
     if (sign != det_sign(end)) {
@@ -171,14 +169,14 @@ void CellSweep::cross_interval(int interval) {
       if (two_roots == 0) singular_inside_ = true;
     }
   }
-  history_[at(interval)] = slice_;
+  history_[as_index(interval)] = slice_;
 }
 
 // Two arcs meet in a saddle and part again: one node of the graph, two edges leave it.
 void CellSweep::add_saddles(int count, int start, int end) {
   const int piece = merge(slice_.piece_of_side[0], slice_.piece_of_side[1]);
   slice_.piece_of_side.fill(piece);
-  euler_[at(piece)] -= count;
+  euler_[as_index(piece)] -= count;
 
   // The roots of D as doubles: this only measures.
   const auto det = [&](double w) {
@@ -196,15 +194,15 @@ void CellSweep::add_saddles(int count, int start, int end) {
   const auto outside = [&](double w) { return std::max({0.0, low - w, w - high}); };
   if (count == 1 && outside(roots[1]) < outside(roots[0])) std::swap(roots[0], roots[1]);
   if (count == 2 && roots[1] < roots[0]) std::swap(roots[0], roots[1]);
-  for (int i = 0; i < count && at(saddle_count_) < saddles_.size(); ++i) {
-    saddles_[at(saddle_count_++)] = {slice_saddle(std::clamp(roots[at(i)], low, high)), piece};
+  for (int i = 0; i < count && as_index(saddle_count_) < saddles_.size(); ++i) {
+    saddles_[as_index(saddle_count_++)] = {slice_saddle(std::clamp(roots[as_index(i)], low, high)), piece};
   }
 }
 
 // A slice corner changes sign: on the two sides that meet there an arc is born, dies, or moves from one to the other.
 void CellSweep::flip(int corner) {
-  int& across = slice_.piece_of_side[at(corner / 2)];     // on the bottom or top side
-  int& along = slice_.piece_of_side[at(2 + corner % 2)];  // on the left or right side
+  int& across = slice_.piece_of_side[as_index(corner / 2)];     // on the bottom or top side
+  int& along = slice_.piece_of_side[as_index(2 + corner % 2)];  // on the left or right side
   int piece = 0;
   if (across < 0 && along < 0) {
     piece = new_piece();
@@ -212,29 +210,29 @@ void CellSweep::flip(int corner) {
   } else if (across >= 0 && along >= 0) {
     DELISO_CHECK(across == along, "the arc that ends at a corner joins the corner's two sides");
     piece = across;
-    ++euler_[at(piece)];
+    ++euler_[as_index(piece)];
     across = along = -1;
   } else {
     std::swap(across, along);
     piece = std::max(across, along);
   }
   slice_.above ^= 1u << corner;
-  piece_of_edge_[at(8 + corner)] = piece;
+  piece_of_edge_[as_index(8 + corner)] = piece;
 }
 
 // The arcs on the top face are the last nodes of the graph.
 void CellSweep::finish() {
   record_edges(2);
   if (slice_.is_ambiguous()) {
-    ++euler_[at(slice_.piece_of_side[0])];
-    ++euler_[at(slice_.piece_of_side[1])];
+    ++euler_[as_index(slice_.piece_of_side[0])];
+    ++euler_[as_index(slice_.piece_of_side[1])];
   } else if (slice_.above != 0 && slice_.above != 0xFu) {
-    ++euler_[at(*std::max_element(slice_.piece_of_side.begin(), slice_.piece_of_side.end()))];
+    ++euler_[as_index(*std::max_element(slice_.piece_of_side.begin(), slice_.piece_of_side.end()))];
   }
 }
 
 int CellSweep::new_piece() {
-  DELISO_CHECK(at(pieces_) < euler_.size(), "a cell's sweep starts at most eight arcs");
+  DELISO_CHECK(as_index(pieces_) < euler_.size(), "a cell's sweep starts at most eight arcs");
   return pieces_++;
 }
 
@@ -248,17 +246,17 @@ int CellSweep::merge(int a, int b) {
   std::for_each(slice_.piece_of_side.begin(), slice_.piece_of_side.end(), rename);
   for (Slice& slice : history_) std::for_each(slice.piece_of_side.begin(), slice.piece_of_side.end(), rename);
   for (int i = 0; i < saddle_count_; ++i) {
-    if (saddles_[at(i)].piece == b) saddles_[at(i)].piece = a;
+    if (saddles_[as_index(i)].piece == b) saddles_[as_index(i)].piece = a;
   }
-  euler_[at(a)] += euler_[at(b)];
-  euler_[at(b)] = 0;
+  euler_[as_index(a)] += euler_[as_index(b)];
+  euler_[as_index(b)] = 0;
   return a;
 }
 
 // The current slice's sides are edges of the cell's bottom (offset 0) or top (offset 2) face.
 void CellSweep::record_edges(int first_edge_offset) {
   for (int side = 0; side < 4; ++side) {
-    piece_of_edge_[at((side < 2 ? side : side + 2) + first_edge_offset)] = slice_.piece_of_side[at(side)];
+    piece_of_edge_[as_index((side < 2 ? side : side + 2) + first_edge_offset)] = slice_.piece_of_side[as_index(side)];
   }
 }
 
@@ -270,18 +268,18 @@ void CellSweep::renumber() {
   std::array<int, 8> euler{};
   for (int& piece : piece_of_edge_) {
     if (piece < 0) continue;
-    if (number[at(piece)] < 0) {
-      euler[at(count)] = euler_[at(piece)];
-      number[at(piece)] = count++;
+    if (number[as_index(piece)] < 0) {
+      euler[as_index(count)] = euler_[as_index(piece)];
+      number[as_index(piece)] = count++;
     }
-    piece = number[at(piece)];
+    piece = number[as_index(piece)];
   }
   for (Slice& slice : history_) {
     for (int& piece : slice.piece_of_side) {
-      if (piece >= 0) piece = number[at(piece)];
+      if (piece >= 0) piece = number[as_index(piece)];
     }
   }
-  for (int i = 0; i < saddle_count_; ++i) saddles_[at(i)].piece = number[at(saddles_[at(i)].piece)];
+  for (int i = 0; i < saddle_count_; ++i) saddles_[as_index(i)].piece = number[as_index(saddles_[as_index(i)].piece)];
   euler_ = euler;
   pieces_ = count;
 }

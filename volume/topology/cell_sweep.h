@@ -17,12 +17,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "delaunay/base/vec3.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
+
+// An int as a place in an array.
+inline std::size_t as_index(int index) { return static_cast<std::size_t>(index); }
 
 // Corner i + 2j + 4k of a cell as in CellCorners. Edge 4 axis + n starts at the corner whose offsets along the two
 // other axes are the bits of n, lower axis first. Face 2 axis + side lies at offset `side` along axis.

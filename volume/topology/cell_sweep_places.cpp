@@ -7,12 +7,6 @@
 
 namespace deliso {
 
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 void CellSweep::scale_values() {
   double largest = std::abs(isovalue_);
   for (const double corner : corners_) largest = std::max(largest, std::abs(corner));
@@ -30,7 +24,7 @@ double CellSweep::position(int end) const {
 
 std::array<double, 4> CellSweep::slice_values(double w) const {
   std::array<double, 4> f;
-  for (int corner = 0; corner < 4; ++corner) f[at(corner)] = (1 - w) * value(corner) + w * value(corner + 4);
+  for (int corner = 0; corner < 4; ++corner) f[as_index(corner)] = (1 - w) * value(corner) + w * value(corner + 4);
   return f;
 }
 
@@ -44,8 +38,8 @@ Vec3 CellSweep::slice_saddle(double w) const {
 int CellSweep::piece_at(const Vec3& uvw) const {
   // The interval of the sweep that holds w.
   int interval = 0;
-  while (interval < flip_count_ && position(flips_[at(interval)]) <= uvw.z) ++interval;
-  const Slice& slice = history_[at(interval)];
+  while (interval < flip_count_ && position(flips_[as_index(interval)]) <= uvw.z) ++interval;
+  const Slice& slice = history_[as_index(interval)];
   if (slice.above == 0 || slice.above == 0xFu) return -1;
   if (!slice.is_ambiguous()) {
     return *std::max_element(slice.piece_of_side.begin(), slice.piece_of_side.end());

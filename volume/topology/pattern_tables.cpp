@@ -11,8 +11,6 @@ namespace deliso {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 bool is_above(unsigned pattern, int corner) { return (pattern >> corner & 1u) != 0; }
 
 struct PatternTables {
@@ -40,7 +38,7 @@ struct PatternTables {
     if (crossings == 0) return true;
     const auto first = std::find_if(next.begin(), next.end(), [](int successor) { return successor >= 0; });
     int length = 1;
-    for (int edge = *first; edge != first - next.begin(); edge = next[at(edge)]) ++length;
+    for (int edge = *first; edge != first - next.begin(); edge = next[as_index(edge)]) ++length;
     return length == crossings;
   }
 };
@@ -100,10 +98,10 @@ bool above_joined_on_face(const CellCorners& corners, double isovalue, int face)
   // A positive determinant joins the first corner with the opposite one.
   const int sign = exact_sign([&](const auto& kind) {
     using Number = std::decay_t<decltype(kind)>;
-    const auto f = [&](std::size_t i) { return Number::difference(corners[at(c[i])], isovalue); };
+    const auto f = [&](std::size_t i) { return Number::difference(corners[as_index(c[i])], isovalue); };
     return f(0) * f(2) - f(1) * f(3);
   });
-  return (sign >= 0) == (corners[at(c[0])] > isovalue);
+  return (sign >= 0) == (corners[as_index(c[0])] > isovalue);
 }
 
 int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face) {
@@ -113,10 +111,10 @@ int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face
     using Number = std::decay_t<decltype(kind)>;
     // The saddle divides the face's sides in the ratios of these differences: weights of the corners, up to a square.
     const auto step = [&](std::size_t to, std::size_t from) {
-      return Number::difference(corners[at(c[to])], corners[at(c[from])]);
+      return Number::difference(corners[as_index(c[to])], corners[as_index(c[from])]);
     };
     // There the interpolant is the isovalue on the face; what it is across the cell gives the sign.
-    const auto across = [&](std::size_t i) { return Number::difference(corners[at(c[i] ^ inwards)], isovalue); };
+    const auto across = [&](std::size_t i) { return Number::difference(corners[as_index(c[i] ^ inwards)], isovalue); };
     return across(0) * step(2, 1) * step(2, 3) + across(1) * step(0, 3) * step(2, 3) +
            across(2) * step(0, 3) * step(0, 1) + across(3) * step(2, 1) * step(0, 1);
   });
@@ -124,8 +122,8 @@ int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face
 
 CellFaceArcs arcs_on_cell_face(std::uint8_t pattern, int face, bool above_joined) {
   const std::array<int, 4> corners = face_corners(face);
-  const auto above = [&](int i) { return is_above(pattern, corners[at(i % 4)]); };
-  const auto side = [&](int i) { return edge_between(corners[at(i % 4)], corners[at((i + 1) % 4)]); };
+  const auto above = [&](int i) { return is_above(pattern, corners[as_index(i % 4)]); };
+  const auto side = [&](int i) { return edge_between(corners[as_index(i % 4)], corners[as_index((i + 1) % 4)]); };
   CellFaceArcs arcs;
   // Walk around the face: an arc starts where the walk enters the region above the isovalue and ends where it leaves
   // it.
@@ -133,8 +131,8 @@ CellFaceArcs arcs_on_cell_face(std::uint8_t pattern, int face, bool above_joined
     if (above(i) || !above(i + 1)) continue;
     int last = i + 1;
     while (above(last + 1)) ++last;
-    arcs.from[at(arcs.count)] = side(i);
-    arcs.to[at(arcs.count)] = side(last);
+    arcs.from[as_index(arcs.count)] = side(i);
+    arcs.to[as_index(arcs.count)] = side(last);
     ++arcs.count;
   }
   // When the two regions above are joined, each arc ends where the walk left the other one.
@@ -147,7 +145,7 @@ EdgeSuccessors edge_successors(std::uint8_t pattern, unsigned joined) {
   next.fill(-1);
   for (int face = 0; face < kCellFaces; ++face) {
     const CellFaceArcs arcs = arcs_on_cell_face(pattern, face, (joined >> face & 1u) != 0);
-    for (int i = 0; i < arcs.count; ++i) next[at(arcs.from[at(i)])] = arcs.to[at(i)];
+    for (int i = 0; i < arcs.count; ++i) next[as_index(arcs.from[as_index(i)])] = arcs.to[as_index(i)];
   }
   return next;
 }

@@ -14,7 +14,7 @@ constexpr std::int32_t kSpacing = 4;
 // What is missing or too much counts two; of that a window may not hold all.
 constexpr float kLeast = 1;
 // Windows nearer than this, in nodes along the axis along which they are farthest, see the same place.
-constexpr std::int32_t kClose = 2;
+constexpr std::int32_t kCloseNodes = 2;
 
 // The weights of a quadratic B-spline at three nodes in a row, the point lying `u` (-1/2 to 1/2) from the middle one.
 std::array<float, 3> weights(double u) {
@@ -113,7 +113,7 @@ std::vector<IndexBox> AngleDefectGrid::places(bool is_positive, std::size_t most
       for (std::size_t axis = 0; axis < 3; ++axis) {
         farthest = std::max(farthest, std::abs(other[axis] - window.node[axis]));
       }
-      return farthest <= kClose;
+      return farthest <= kCloseNodes;
     };
     if (std::any_of(taken.begin(), taken.end(), is_close)) continue;
     taken.push_back(window.node);

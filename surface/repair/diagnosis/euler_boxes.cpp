@@ -7,7 +7,7 @@ namespace deliso {
 namespace {
 
 // Layers nearer than this (as sweeps err by some) belong together.
-constexpr std::int32_t kClose = 4;
+constexpr std::int32_t kCloseLayers = 4;
 // From a place to the sides of the smallest box, in layers.
 constexpr std::int32_t kSmallest = 4;
 constexpr std::size_t kMostBoxes = 1u << 13;
@@ -15,7 +15,7 @@ constexpr std::size_t kMostBoxes = 1u << 13;
 std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
   std::vector<LayerRange> ranges;
   for (const std::int32_t layer : layers) {
-    if (!ranges.empty() && layer - ranges.back().last < kClose) {
+    if (!ranges.empty() && layer - ranges.back().last < kCloseLayers) {
       ranges.back().last = layer;
     } else {
       ranges.push_back({layer, layer});

@@ -13,7 +13,7 @@ namespace {
 // So many components are swept in one go.
 constexpr std::size_t kAtOnce = 256;
 // Where sweeps tell of no more places than this, none of more layers than this, they are believed.
-constexpr std::size_t kFewPlaces = 8;
+constexpr std::size_t kFewSwept = 8;
 constexpr std::int32_t kWidest = 16;
 // Curvature is looked at for no more components than this, and so many places of each are taken.
 constexpr std::size_t kFewComponents = 8;
@@ -24,7 +24,7 @@ bool tell(const std::vector<IndexBox>& swept) {
     return std::all_of(place.begin(), place.end(),
                        [](const auto& range) { return range.last - range.first < kWidest; });
   };
-  return !swept.empty() && swept.size() <= kFewPlaces && std::all_of(swept.begin(), swept.end(), is_narrow);
+  return !swept.empty() && swept.size() <= kFewSwept && std::all_of(swept.begin(), swept.end(), is_narrow);
 }
 
 }  // namespace

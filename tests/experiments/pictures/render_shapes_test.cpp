@@ -19,7 +19,7 @@
 namespace deliso::testing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 TriangleMesh cubes_mesh(const ScalarGrid& grid, double isovalue) {
   MarchingCubesMesh cubes = marching_cubes(grid, isovalue);
@@ -83,7 +83,7 @@ TEST(MeshShape, FirstHitIsThatOfEveryTriangleTried) {
   for (int n = 0; n < 1500; ++n) {
     const Line ray = random_ray(shape.box(), rng);
     // The plane's point in the triangle: on the inner side of each edge.
-    double first = kInfinity;
+    double first = kUnbounded;
     for (const auto& [i, j, k] : mesh.triangles) {
       const std::array<Vec3, 3> p{mesh.points[i], mesh.points[j], mesh.points[k]};
       const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
@@ -95,7 +95,7 @@ TEST(MeshShape, FirstHitIsThatOfEveryTriangleTried) {
       if (inside) first = std::min(first, t);
     }
     const auto point = shape.first_hit(ray, 0, 1000);
-    ASSERT_EQ(point.has_value(), first < kInfinity) << n;
+    ASSERT_EQ(point.has_value(), first < kUnbounded) << n;
     if (!point) continue;
     ++found;
     EXPECT_NEAR(point->t, first, 1e-9) << n;

@@ -75,7 +75,7 @@ std::int64_t meeting_triangles(const SurfaceMesh& mesh) {
   return found.crossing_pairs + found.touching_pairs;
 }
 
-RefineOptions fine_options() {
+RefineOptions finest_options() {
   RefineOptions options;
   options.r_min = 0.3;
   return options;
@@ -87,12 +87,13 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
       SCOPED_TRACE(slab_triangles);
       auto [scene, mesh] = crossed_hill_at(place);
       ASSERT_EQ(meeting_triangles(mesh), 0);
-      RefineOptions options = fine_options();
+      RefineOptions options = finest_options();
       options.slab_triangles = slab_triangles;
+      const Isosurface& isosurface = *scene->isosurface;
       const auto run = [&](SurfaceMesh& refined) {
         Controls controls(BudgetParameters{}, nullptr, {});
         RefineStats stats;
-        refine_geometry(refined, *scene->isosurface, options, controls, stats);
+        refine_geometry(refined, isosurface, options, controls, stats);
         return stats;
       };
       SurfaceMesh trusting = mesh;
@@ -117,7 +118,7 @@ RefinementMesh refined_once(const Vec3& place, Trust trust, RefineStats& stats) 
   part.mesh = RefinementMesh(mesh);
   set_clearances(part.mesh);
   if (trust == Trust::kNone) distrust_all(part.mesh);
-  const RefineOptions options = fine_options();
+  const RefineOptions options = finest_options();
   Controls controls(BudgetParameters{}, nullptr, {});
   RefineLoop(part, *scene->isosurface, options, stats).measure_all(1);
   RefineLoop(part, *scene->isosurface, options, stats).run(controls, 1);

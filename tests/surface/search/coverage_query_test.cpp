@@ -21,7 +21,7 @@ using Cover = CoverageQuery::Cover;
 constexpr double kSide = 100;
 
 Vec3 random_place(Rng& rng) { return {kSide * rng.uniform(), kSide * rng.uniform(), kSide * rng.uniform()}; }
-Vec3 random_step(Rng& rng) { return {2 * rng.uniform() - 1, 2 * rng.uniform() - 1, 2 * rng.uniform() - 1}; }
+Vec3 unit_step(Rng& rng) { return {2 * rng.uniform() - 1, 2 * rng.uniform() - 1, 2 * rng.uniform() - 1}; }
 
 // Triangles from tiny to large, two of three at the corners of others; sides lead to triangles at random, or nowhere.
 SurfaceMesh soup(Rng& rng, std::uint32_t count, double largest) {
@@ -34,8 +34,8 @@ SurfaceMesh soup(Rng& rng, std::uint32_t count, double largest) {
     const Vec3 at = hangs_on ? mesh.points[first] : random_place(rng);
     if (!hangs_on) mesh.points.push_back(at);
     const auto second = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.push_back(at + size * random_step(rng));
-    mesh.points.push_back(at + size * random_step(rng));
+    mesh.points.push_back(at + size * unit_step(rng));
+    mesh.points.push_back(at + size * unit_step(rng));
     mesh.triangles.push_back({first, second, second + 1});
     mesh.neighbours.push_back({4 * ((7 * t + 1) % count), kNoSide, 4 * ((t + count - 1) % count)});
   }
@@ -67,7 +67,7 @@ TEST(CoverageQuery, PointsInARowAreAnsweredLikeEachAlone) {
     while (points.size() < 3000) {
       const std::size_t t = static_cast<std::size_t>(rng.uniform() * 80);
       Vec3 p = points.size() % 2 == 0 ? random_place(rng) : mesh.points[mesh.triangles[t][1]];
-      for (double more = 30 * rng.uniform(); more > 0; --more) points.push_back(p += random_step(rng));
+      for (double more = 30 * rng.uniform(); more > 0; --more) points.push_back(p += unit_step(rng));
     }
     std::vector<Cover> answers(points.size(), Cover::kNone);
     const CoverageQuery cover(mesh);

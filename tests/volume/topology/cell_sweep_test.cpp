@@ -37,7 +37,7 @@ test::IntegerGrid random_cell(Rng& rng, unsigned pattern, std::int64_t range) {
 }
 
 // A cell alone: its faces lie on the box.
-bool is_singular(const CellSweep& sweep) { return sweep.singular_inside() || sweep.saddle_faces() != 0; }
+bool is_degenerate(const CellSweep& sweep) { return sweep.singular_inside() || sweep.saddle_faces() != 0; }
 
 // The loops of crossings on the cell's boundary.
 std::vector<std::vector<int>> loops_of(const CellCorners& corners, double isovalue) {
@@ -89,7 +89,7 @@ TEST(CellSweep, AgreesWithAFineLatticeForEverySignPattern) {
     for (const std::int64_t range : {2, 8, 1000}) {
       for (int i = 0; i < 4; ++i) {
         const test::IntegerGrid cell = random_cell(rng, pattern, range);
-        if (is_singular(CellSweep(corners_of(cell), -0.5))) continue;
+        if (is_degenerate(CellSweep(corners_of(cell), -0.5))) continue;
         ASSERT_TRUE(agrees_with_lattice(cell, piece_topologies(corners_of(cell), -0.5), 128))
             << "pattern " << pattern << ", range " << range << ", case " << i << " after seed 11";
       }
@@ -107,7 +107,7 @@ TEST(CellSweep, AgreesWithAFineLatticeAroundTunnels) {
     const std::int64_t sign = cell.samples[0] >= 0 ? 1 : -1;
     cell.samples[0] += sign * static_cast<std::int64_t>(rng.below(80));
     cell.samples[7] += sign * static_cast<std::int64_t>(rng.below(80));
-    if (is_singular(CellSweep(corners_of(cell), -0.5))) continue;
+    if (is_degenerate(CellSweep(corners_of(cell), -0.5))) continue;
     const std::vector<ComponentTopology> pieces = piece_topologies(corners_of(cell), -0.5);
     ++seen[pieces.size()];
     ASSERT_TRUE(agrees_with_lattice(cell, pieces, 128)) << "case " << i << " after seed 12";

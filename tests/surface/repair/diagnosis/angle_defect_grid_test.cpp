@@ -18,7 +18,7 @@ namespace {
 
 using testing::Scene;
 
-constexpr std::size_t kMany = 1000;
+constexpr std::size_t kManyPlaces = 1000;
 
 bool takes_all(std::uint32_t) { return true; }
 
@@ -49,8 +49,9 @@ TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
   // Which ball each component is.
   std::vector<Vec3> center_of(centers.size());
   for (std::size_t v = 0; v < component.size(); ++v) {
+    const Vec3& p = mesh.points[v];
     center_of[component[v]] = *std::min_element(centers.begin(), centers.end(), [&](const Vec3& a, const Vec3& b) {
-      return squared_distance(a, mesh.points[v]) < squared_distance(b, mesh.points[v]);
+      return squared_distance(a, p) < squared_distance(b, p);
     });
   }
   AngleDefectGrid difference(scene->grid.dims(), scene->isosurface->step());
@@ -58,7 +59,8 @@ TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
       mesh, [&, &component = component](std::uint32_t v) { return component[v] != 0; }, 1);
   difference.add(
       mesh, [&, &component = component](std::uint32_t v) { return component[v] != 1; }, -1);
-  const std::vector<IndexBox> too_much = difference.places(true, kMany), missing = difference.places(false, kMany);
+  const std::vector<IndexBox> too_much = difference.places(true, kManyPlaces),
+                              missing = difference.places(false, kManyPlaces);
   ASSERT_EQ(too_much.size(), 1u);
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_TRUE(holds(too_much.front(), center_of[1], 2));
@@ -79,8 +81,8 @@ TEST(AngleDefectGrid, FindsHandles) {
   AngleDefectGrid difference(torus->grid.dims(), torus->isosurface->step());
   difference.add(polygonized(*torus).mesh, takes_all, 1);
   difference.add(polygonized(*ball).mesh, takes_all, -1);
-  EXPECT_TRUE(difference.places(true, kMany).empty());
-  const std::vector<IndexBox> missing = difference.places(false, kMany);
+  EXPECT_TRUE(difference.places(true, kManyPlaces).empty());
+  const std::vector<IndexBox> missing = difference.places(false, kManyPlaces);
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_TRUE(holds(missing.front(), center, 2));
 }
@@ -97,10 +99,10 @@ TEST(AngleDefectGrid, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
     set_side_adjacency(mesh);
     AngleDefectGrid difference(scene->grid.dims(), step);
     difference.add(mesh, takes_all, 1);
-    ASSERT_FALSE(difference.places(true, kMany).empty() && difference.places(false, kMany).empty());
+    ASSERT_FALSE(difference.places(true, kManyPlaces).empty() && difference.places(false, kManyPlaces).empty());
     difference.add(polygonized(*scene).mesh, takes_all, -1);
-    EXPECT_TRUE(difference.places(true, kMany).empty());
-    EXPECT_TRUE(difference.places(false, kMany).empty());
+    EXPECT_TRUE(difference.places(true, kManyPlaces).empty());
+    EXPECT_TRUE(difference.places(false, kManyPlaces).empty());
   }
 }
 
@@ -113,7 +115,7 @@ TEST(AngleDefectGrid, GivesTheLargestDifferencesFirstAndNoMoreThanAskedFor) {
   // Once more.
   sums.add(
       mesh, [&, &component = component](std::uint32_t v) { return component[v] == 2; }, 1);
-  const std::vector<IndexBox> all = sums.places(true, kMany);
+  const std::vector<IndexBox> all = sums.places(true, kManyPlaces);
   ASSERT_EQ(all.size(), centers.size());
   const auto of_second = std::find(component.begin(), component.end(), 2u);
   ASSERT_NE(of_second, component.end());
