@@ -109,7 +109,7 @@ TEST(Parts, GiveTheTriangulationOfAllPointsInTheOrderOfTheirVertices) {
   Counts counts;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Rng rng(seed);
-    for (const std::size_t size : {80, 900}) {
+    for (const std::size_t size : {80u, 900u}) {
       for (auto [name, points] : test::all_kinds(size, rng)) {
         test::shuffle(points, rng);
         const std::size_t slabs = 2 + rng.below(3);

@@ -32,8 +32,7 @@ constexpr std::int32_t kRoundOfAllTrouble = 3;
 
 RepairRounds::RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted,
                            RepairStats& stats)
-    : facts_(facts),
-      surface_(facts.surface()),
+    : surface_(facts.surface()),
       stats_(stats),
       lattice_(surface_),
       raised_(surface_.isosurface),

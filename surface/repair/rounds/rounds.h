@@ -75,7 +75,6 @@ class RepairRounds {
     return differences_.find(mesh_, kept_.done(), {most, takes_curvature});
   }
 
-  const ExactSurfaceCache& facts_;
   const ExactSurface& surface_;
   RepairStats& stats_;
   std::int64_t rounds_around_ = 0;  // of them by mend_around()

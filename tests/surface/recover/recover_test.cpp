@@ -186,7 +186,7 @@ TEST(Recover, SlabsLeaveNoViolation) {
 
 // An umbrella may need several points, and the first ones may leave it as it is.
 TEST(Recover, LooksAtAnUmbrellaAgainAfterEachPoint) {
-  for (const std::uint64_t seed : {2, 5, 23, 26}) {
+  for (const std::uint64_t seed : {2u, 5u, 23u, 26u}) {
     const auto scene = field_scene("bubbles", 20 + static_cast<std::int32_t>(seed), seed);
     Recovered result = run(*scene, coarse_options());
     RecoverStats again;
@@ -234,7 +234,7 @@ TEST(Recover, WithMorePointsEndsAtTheVertexBudget) {
 
 TEST(Recover, SlabsEndAtTheVertexBudget) {
   const auto scene = field_scene("gyroid", 40);
-  for (const std::size_t more : {100, 777, 1500}) {
+  for (const std::size_t more : {100u, 777u, 1500u}) {
     RestrictedDelaunay restricted(*scene->isosurface, scene->start());
     const std::size_t most = restricted.delaunay().vertex_count() + more;
     BudgetParameters budget;

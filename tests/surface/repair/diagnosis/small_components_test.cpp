@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "raycast/isosurface.h"
+#include "surface/base/exact_surface.h"
 #include "surface/certificate/component_match.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
@@ -38,7 +40,8 @@ TEST(SmallComponents, AreMissedWhereACrossingIsFarForTheirSize) {
   ASSERT_EQ(topology.components.size(), 2u);
   const MarchingCubesMesh cubes = marching_cubes(grid, 1);
   const TriangleMesh mesh{cubes.points, cubes.triangles};
-  const SmallComponents specks(grid, topology, {1, 1, 1});
+  const Isosurface isosurface(grid, 1, {});
+  const SmallComponents specks(ExactSurface{isosurface, topology});
   EXPECT_TRUE(specks.missed_by(matched(mesh, topology)).empty());
 
   // One corner of the small octahedron is drawn in to the middle: nearer than a tenth of a voxel, but half of it.
@@ -77,7 +80,8 @@ TEST(SmallComponents, MayBeOffByNoMoreThanAnyOtherPartOfTheSurface) {
   ASSERT_EQ(topology.components.size(), 1u);
   ASSERT_EQ(topology.crossings.size(), 26u);
   const MarchingCubesMesh cubes = marching_cubes(grid, 1);
-  const SmallComponents specks(grid, topology, {1, 1, 1});
+  const Isosurface isosurface(grid, 1, {});
+  const SmallComponents specks(ExactSurface{isosurface, topology});
   for (const double cut : {0.0, 0.6, 1.0, 1.3}) {
     TriangleMesh mesh{cubes.points, cubes.triangles};
     for (Vec3& p : mesh.points) p.y = std::min(p.y, 7 + 2.0 / 3 - cut);

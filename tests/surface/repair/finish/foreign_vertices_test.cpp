@@ -74,7 +74,7 @@ TEST(ForeignVertices, AMeshWithoutAnyStaysAsItIs) {
 }
 
 TEST(ForeignVertices, VerticesGoAndTheTriangleThatWasSplitAtThemComesBack) {
-  for (const std::size_t count : {1, 4}) {
+  for (const std::size_t count : {1u, 4u}) {
     SCOPED_TRACE(count);
     Swallowing mesh;
     const std::vector<Triangle> before = mesh.triangles();
