@@ -55,8 +55,11 @@ install_missing() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
 }
 
-# configure_preset PRESET [OPTION ...]: with ccache when it is there.
+# configure_preset PRESET [OPTION ...]: with ccache when it is there, which needs leave to store what was compiled with
+# precompiled headers.
 configure_preset() {
-  if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+  if command -v ccache >/dev/null; then
+    set -- "$@" "-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime;ccache"
+  fi
   cmake --preset "$@"
 }
