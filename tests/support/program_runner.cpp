@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "delaunay/base/stopwatch.h"
 
@@ -16,15 +17,16 @@ namespace deliso::testing {
 namespace {
 
 // In the child: the streams go to files (a pipe could fill up while nobody reads), then the program takes over.
-[[noreturn]] void become_program(std::vector<std::string> arguments, const std::string& out, const std::string& err) {
-  arguments.insert(arguments.begin(), DELISO_PROGRAM);
+[[noreturn]] void become_program(const std::string& program, std::vector<std::string> arguments, const std::string& out,
+                                 const std::string& err) {
+  arguments.insert(arguments.begin(), program);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
   dup2(open(out.c_str(), kFlags, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), kFlags, 0600), STDERR_FILENO);
-  execv(DELISO_PROGRAM, pointers.data());
+  execv(program.c_str(), pointers.data());
   _exit(127);
 }
 
@@ -41,13 +43,18 @@ void wait_for(const std::filesystem::path& file) {
 }  // namespace
 
 ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optional<SignalAfter> signal) {
+  return run_program_at(DELISO_PROGRAM, arguments, std::move(signal));
+}
+
+ProgramResult run_program_at(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                             std::optional<SignalAfter> signal) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::string err = folder / "err";
   const Stopwatch stopwatch;
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become_program(arguments, out, err);
+  if (child == 0) become_program(program.string(), arguments, out, err);
   if (signal) {
     if (!signal->file.empty()) wait_for(signal->file);
     std::this_thread::sleep_for(signal->delay);

@@ -27,6 +27,10 @@ struct SignalAfter {
 // Runs the program of this build to its end.
 ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optional<SignalAfter> signal = std::nullopt);
 
+// The same of another program.
+ProgramResult run_program_at(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                             std::optional<SignalAfter> signal = std::nullopt);
+
 // An empty folder, removed with all it holds at the end.
 class TemporaryFolder {
  public:

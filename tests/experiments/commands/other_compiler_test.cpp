@@ -1,0 +1,56 @@
+// The program of another compiler, named by DELISO_OTHER_PROGRAM, makes the same meshes to the last byte.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "tests/support/program_runner.h"
+#include "tests/support/volume_files.h"
+
+namespace deliso::testing {
+namespace {
+
+struct VolumeAtIsovalue {
+  const char* file;
+  const char* isovalue;
+};
+
+std::ostream& operator<<(std::ostream& out, const VolumeAtIsovalue& pair) {
+  return out << pair.file << " at " << pair.isovalue;
+}
+
+class OtherCompiler : public ::testing::TestWithParam<VolumeAtIsovalue> {};
+
+TEST_P(OtherCompiler, MakesTheSameMesh) {
+  const char* const other = std::getenv("DELISO_OTHER_PROGRAM");
+  if (other == nullptr || *other == '\0') GTEST_SKIP() << "set DELISO_OTHER_PROGRAM to the program of another compiler";
+  const std::optional<std::filesystem::path> data = data_directory();
+  if (!data) GTEST_SKIP() << "set DELISO_DATA to the directory of the public volumes";
+  const std::filesystem::path volume = *data / GetParam().file;
+  if (!std::filesystem::exists(volume)) GTEST_SKIP() << volume << " is not there";
+
+  const TemporaryFolder folder;
+  const auto mesh = [&](const std::filesystem::path& program, const std::string& name) {
+    return run_program_at(program, {"mesh", volume.string(), "--isovalue", GetParam().isovalue, "-o", folder / name,
+                                    "--threads", "2", "--quiet"});
+  };
+  const ProgramResult ours = mesh(DELISO_PROGRAM, "ours.ply");
+  const ProgramResult others = mesh(other, "others.ply");
+  ASSERT_TRUE(ours.exit_code == 0 || ours.exit_code == 1) << ours.err;  // proven or not, there is a mesh
+  ASSERT_EQ(others.exit_code, ours.exit_code) << others.err;
+  // Not EXPECT_EQ, which would print megabytes.
+  EXPECT_TRUE(read_file(folder / "others.ply") == read_file(folder / "ours.ply"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    PublicVolumes, OtherCompiler,
+    ::testing::Values(VolumeAtIsovalue{"engine.nrrd", "40.1"}, VolumeAtIsovalue{"baby.nrrd", "35.8"},
+                      VolumeAtIsovalue{"baby.nrrd", "131.6"}, VolumeAtIsovalue{"aneurism.nrrd", "124.6"},
+                      VolumeAtIsovalue{"fuel.nrrd", "70.1"}, VolumeAtIsovalue{"hydrogen_atom.nrrd", "20.1"},
+                      VolumeAtIsovalue{"leg.nrrd", "22.1"}));
+
+}  // namespace
+}  // namespace deliso::testing
