@@ -79,7 +79,8 @@ struct Isosurface::Segment {
     Cell cell;
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int32_t step = 1 | ((last[a] - first[a]) >> 31);  // -1 when it goes back
-      const auto passed = [&](std::int32_t c) { return line.crossing(a, c - (step + 1) / 2) <= s; };  // on the way to c
+      const std::int32_t upward = (step + 1) / 2;  // 1 or 0
+      const auto passed = [&](std::int32_t c) { return line.crossing(a, c - upward) <= s; };  // on the way to c
       // A guess from the rounded position, then settled by crossings.
       std::int32_t& c = cell[a];
       c = std::clamp(extended_cell(line.base[a] + s * line.direction[a], dims[a]), std::min(first[a], last[a]),

@@ -40,8 +40,8 @@ template <class Step, class... Arguments>
 // lanes where the processor has them, chosen when the program runs, or else in those of two numbers that all have.
 template <class Step, class... Arguments>
 void run_in_lanes(Arguments&... arguments) {
-  static const bool has_wide_registers = __builtin_cpu_supports("avx2") != 0;
-  if (has_wide_registers) {
+  static const bool kHasWideRegisters = __builtin_cpu_supports("avx2") != 0;
+  if (kHasWideRegisters) {
     run_in_wide_registers<Step>(arguments...);
   } else {
     Step::run(arguments...);

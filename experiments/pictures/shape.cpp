@@ -11,6 +11,13 @@ namespace {
 
 constexpr char kAxisNames[] = "xyz";
 
+InputError nothing_left(const ClipPlane& plane, const Box3& whole, const std::string& option) {
+  const std::size_t a = plane.axis;
+  const std::string name(1, kAxisNames[a]);
+  return InputError(option + ": " + name + "=" + number_text(plane.value) + " leaves nothing to see, " + name +
+                    " goes from " + number_text(whole.low[a]) + " to " + number_text(whole.high[a]));
+}
+
 }  // namespace
 
 ClipPlane parse_clip_plane(const std::string& text, const std::string& option) {
@@ -33,9 +40,7 @@ Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec
       kept.low[a] = std::max(kept.low[a], plane.value);
     }
     if (std::max(kept.low[a], whole.low[a]) < std::min(kept.high[a], whole.high[a])) continue;
-    const std::string name(1, kAxisNames[a]);
-    throw InputError(option + ": " + name + "=" + number_text(plane.value) + " leaves nothing to see, " + name +
-                     " goes from " + number_text(whole.low[a]) + " to " + number_text(whole.high[a]));
+    throw nothing_left(plane, whole, option);
   }
   return kept;
 }

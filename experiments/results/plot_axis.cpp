@@ -39,12 +39,12 @@ std::vector<double> Axis::ticks() const {
   }
   // Powers of ten; their double and fivefold where these are few; all their multiples where even those are.
   constexpr std::array<std::span<const double>, 3> kDigits = {std::span(kAllDigits).first(1), kRoundDigits, kAllDigits};
-  const double first = std::floor(std::log10(low));
-  const double last = std::ceil(std::log10(high));
-  const double stride = std::max(1.0, std::ceil((last - first) / (2 * kWantedTicks)));
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  const int last = static_cast<int>(std::ceil(std::log10(high)));
+  const int stride = std::max(1, static_cast<int>(std::ceil((last - first) / (2 * kWantedTicks))));
   for (std::size_t level = high / low > kManyDecades ? 0 : 1; level < kDigits.size() && ticks.size() < 2; ++level) {
     ticks.clear();
-    for (double e = first; e <= last; e += stride) {
+    for (int e = first; e <= last; e += stride) {
       for (const double digit : kDigits[level]) {
         const double value = digit * std::pow(10, e);
         if (value >= low && value <= high) ticks.push_back(value);
