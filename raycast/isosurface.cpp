@@ -10,87 +10,13 @@
 #include "raycast/cell_hits.h"
 #include "raycast/cell_walk.h"
 #include "raycast/empty_bricks.h"
+#include "raycast/intersect.h"
 #include "raycast/line.h"
+#include "raycast/line_segment.h"
 #include "raycast/min_max_kdtree.h"
 #include "raycast/voxel_intersection.h"
 
 namespace deliso {
-
-// A segment of a line, from cell to cell.
-struct Isosurface::Segment {
-  IndexLine line;
-  AxisValues low{};  // its ends in index space
-  AxisValues high{};
-  double s_low = 0;
-  double s_high = 0;
-  Cell first{};
-  Cell last{};
-
-  Segment(const Isosurface& surface, const Line& mesh_line, double t0, double t1)
-      : line(index_line(mesh_line, surface.inverse_step_, surface.grid_.dims())) {
-    const Dims& dims = surface.grid_.dims();
-    // Where an infinite line starts and stops to move.
-    double moves_from = kNever;
-    double moves_to = -kNever;
-    const bool any_infinite = std::isinf(t0) || std::isinf(t1);
-    for (std::size_t a = 0; any_infinite && a < 3; ++a) {
-      if (line.direction[a] == 0) continue;
-      const double at_low = line.crossing(a, 0);
-      const double at_high = line.crossing(a, dims[a] - 1);
-      moves_from = std::min({moves_from, at_low, at_high});
-      moves_to = std::max({moves_to, at_low, at_high});
-    }
-    // An end is where the caller's line.at(t) is, so that its side is that of is_above(line.at(t)).
-    const auto end = [&](double t, double s_infinite, double& s, Cell& cell) {
-      AxisValues point{};
-      const bool is_infinite = std::isinf(t);
-      if (!is_infinite) point = axis_values(scaled(mesh_line.at(t), surface.inverse_step_));
-      s = is_infinite ? s_infinite : std::clamp(t - line.t_origin, -kNever, kNever);
-      for (std::size_t a = 0; a < 3; ++a) {
-        if (is_infinite)
-          point[a] = line.direction[a] == 0 ? line.base[a] : std::copysign(kNever, line.direction[a] * t);
-        cell[a] = extended_cell(point[a], dims[a]);
-      }
-      return point;
-    };
-    low = end(t0, moves_from, s_low, first);
-    high = end(t1, moves_to, s_high, last);
-    if (s_low > s_high) (std::isinf(t0) ? s_low : s_high) = std::isinf(t0) ? s_high : s_low;
-  }
-
-  // How far from its first (side +1) or last (side -1) cell on the segment certainly stays within a block around it.
-  [[nodiscard]] double within(const CellBlock& block, const Dims& dims, int side) const {
-    constexpr double kMargin = 1.0 / 16;  // cells, far above rounding
-    double until = kNever;                // times `side`
-    for (std::size_t a = 0; a < 3; ++a) {
-      // Without branches: where it goes cannot be foretold.
-      const auto is_up = static_cast<std::size_t>(line.direction[a] * side > 0);
-      const std::int32_t plane = std::array{block.low[a] - 1, block.high[a]}[is_up];
-      const double s = side * line.crossing(a, plane + std::array{kMargin, -kMargin}[is_up]);
-      // Outermost cells go on for ever.
-      const std::size_t is_open = static_cast<std::size_t>(line.direction[a] == 0) |
-                                  static_cast<std::size_t>(plane < 0) | static_cast<std::size_t>(plane >= dims[a]);
-      until = std::min(until, std::array{s, kNever}[is_open]);
-    }
-    return side * until;
-  }
-  // The cell that the walk over the segment is in when all crossings up to parameter s are behind it.
-  [[nodiscard]] Cell cell_at(double s, const Dims& dims) const {
-    Cell cell;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::int32_t step = 1 | ((last[a] - first[a]) >> 31);  // -1 when it goes back
-      const std::int32_t upward = (step + 1) / 2;  // 1 or 0
-      const auto passed = [&](std::int32_t c) { return line.crossing(a, c - upward) <= s; };  // on the way to c
-      // A guess from the rounded position, then settled by crossings.
-      std::int32_t& c = cell[a];
-      c = std::clamp(extended_cell(line.base[a] + s * line.direction[a], dims[a]), std::min(first[a], last[a]),
-                     std::max(first[a], last[a]));
-      while (c != first[a] && !passed(c)) c -= step;
-      while (c != last[a] && passed(c + step)) c += step;
-    }
-    return cell;
-  }
-};
 
 Isosurface::Isosurface(const ScalarGrid& grid, double isovalue, const SearchOptions& options)
     : Isosurface(grid, isovalue, options, grid.spacing()) {}
@@ -142,7 +68,7 @@ Vec3 Isosurface::gradient(const Vec3& p) const {
 
 // The first and the last cell of a segment but for what lies near an end that is far from the isosurface. The walk from
 // one to the other is a part of the whole one, and meets all of its active cells.
-std::pair<Cell, Cell> Isosurface::without_clear_ends(const Segment& segment) const {
+std::pair<Cell, Cell> Isosurface::without_clear_ends(const LineSegment& segment) const {
   constexpr int kWorthwhile = 2;  // bricks: what is nearer is passed as fast step by step
   std::pair<Cell, Cell> ends(segment.first, segment.last);
   double from = segment.s_low;
@@ -151,9 +77,9 @@ std::pair<Cell, Cell> Isosurface::without_clear_ends(const Segment& segment) con
     for (;;) {
       const int clearance = bricks_->clearance(end);
       if (std::abs(clearance) < kWorthwhile) return true;
-      const double s = segment.within(EmptyBricks::clear_block(end, clearance), grid_.dims(), side);
+      const double s = segment.within(EmptyBricks::clear_block(end, clearance), side);
       if (side > 0 ? s >= segment.s_high : s <= from) return false;
-      end = segment.cell_at(s, grid_.dims());
+      end = segment.cell_at(s);
       if (side > 0) from = s;
     }
   };
@@ -161,9 +87,10 @@ std::pair<Cell, Cell> Isosurface::without_clear_ends(const Segment& segment) con
   return ends;
 }
 
-// Calls solve(walk) for every cell of the segment that can hold the isovalue, front to back.
+// CollectVoxels of Figure 12 (section 4.1), without a list: calls solve(visit) for every voxel cell of the segment that
+// can hold the isovalue, front to back. The plain form is collect_voxels() of intersect.h, which gives the same cells.
 template <class Solve>
-void Isosurface::search_cells(const Segment& segment, Solve&& solve) const {
+void Isosurface::visit_voxels(const LineSegment& segment, Solve&& solve) const {
   const auto [first, last] = active_ != nullptr ? without_clear_ends(segment) : std::pair(segment.first, segment.last);
   CellWalk<> walk(segment.line, first, last, segment.s_low, segment.s_high);
   if (active_ != nullptr) {
@@ -199,19 +126,18 @@ void Isosurface::search_cells(const Segment& segment, Solve&& solve) const {
   }
 }
 
+// Intersect of Figure 12 with its two steps fused: FindIntersections solves each voxel cell as CollectVoxels comes to
+// it. The plain form is intersect() of intersect.h, which gives the same hits.
 void Isosurface::all_hits(const Line& line, double t0, double t1, std::vector<Hit>& hits,
                           SearchCounters& counters) const {
   hits.clear();
   ++counters.searches;
   if (!(t0 < t1)) return;
-  const Segment segment(*this, line, t0, t1);
+  const LineSegment segment(line, t0, t1, inverse_step_, grid_.dims());
   std::uint64_t solves = 0;
-  search_cells(segment, [&](const CellVisit& visit) {
+  visit_voxels(segment, [&](const CellVisit& voxel) {
     ++solves;
-    const CellHits found =
-        solve_cell(grid_, isovalue_, options_.solver, segment.line, visit, segment.low, segment.high);
-    for (int i = 0; i < found.changes.count; ++i)
-      hits.push_back({std::clamp(found.t(segment.line, i), t0, t1), found.falling(i)});
+    find_intersections_in(voxel, grid_, isovalue_, options_.solver, segment, hits);
   });
   counters.solves += solves;
   if (hits.empty()) return;

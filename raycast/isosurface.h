@@ -25,15 +25,10 @@
 
 namespace deliso {
 
-// A line parameter at which the extended field equals the isovalue.
-struct Hit {
-  double t = 0;
-  bool falling = false;  // the field falls from above to below the isovalue as t grows
-};
-
 class ActiveCells;
 class EmptyBricks;
 class MinMaxKdTree;
+struct LineSegment;
 
 class Isosurface {
  public:
@@ -78,15 +73,16 @@ class Isosurface {
   // Gradient of the field at p (clamped to the box), with respect to mesh-space coordinates.
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
-  // All hits with t0 <= t <= t1, ascending, appended to `hits` (which is cleared first). Falling and rising hits
-  // alternate: tangential touches are left out. Their number is odd exactly when is_above(line.at(t0)) and
-  // is_above(line.at(t1)) differ, whatever the rounding. t0 and t1 may be infinite (the line is then cut where its
-  // clamped image no longer moves). Precondition: the line is finite, its direction may be zero.
+  // Intersect of the paper (Dey and Levine, Figure 12): all hits with t0 <= t <= t1, ascending, appended to `hits`
+  // (which is cleared first). Falling and rising hits alternate: tangential touches are left out. Their number is odd
+  // exactly when is_above(line.at(t0)) and is_above(line.at(t1)) differ, whatever the rounding. t0 and t1 may be
+  // infinite (the line is then cut where its clamped image no longer moves). Precondition: the line is finite, its
+  // direction may be zero.
   void all_hits(const Line& line, double t0, double t1, std::vector<Hit>& hits, SearchCounters& counters) const;
 
-  // The falling hit nearest to t = 0 with |t| <= reach, searched outward from t = 0 by growing steps (or over the whole
-  // line when options.incremental is off). The caller gives the outward normal (towards lower values) as direction, so
-  // hits on sheets that face the other way are passed over.
+  // The falling hit nearest to t = 0 with |t| <= reach, searched outward from t = 0 by growing steps (section 4.2), or
+  // over the whole line when options.incremental is off. The caller gives the outward normal (towards lower values) as
+  // direction, so hits on sheets that face the other way are passed over.
   [[nodiscard]] std::optional<double> nearest_falling_hit(const Line& line, double reach,
                                                           SearchCounters& counters) const;
   // The same for the lines in those lanes that are asked for; a hit that is not found is NaN.
@@ -94,13 +90,12 @@ class Isosurface {
                             SearchCounters& counters) const;
 
  private:
-  struct Segment;
   [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b,
                               int halvings) const;
   [[nodiscard]] CellCorners relative_corners(const Vec3& p, Vec3& uvw) const;
-  [[nodiscard]] std::pair<Cell, Cell> without_clear_ends(const Segment& segment) const;
+  [[nodiscard]] std::pair<Cell, Cell> without_clear_ends(const LineSegment& segment) const;
   template <class Solve>
-  void search_cells(const Segment& segment, Solve&& solve) const;
+  void visit_voxels(const LineSegment& segment, Solve&& solve) const;
   void hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;

@@ -19,6 +19,12 @@ struct Line {
   [[nodiscard]] Vec3 at(double t) const { return origin + t * direction; }
 };
 
+// A line parameter at which the extended field equals the isovalue.
+struct Hit {
+  double t = 0;
+  bool falling = false;  // the field falls from above to below the isovalue as t grows
+};
+
 // A line in each lane.
 struct LineLanes {
   Vec3Lanes origin;

@@ -1,4 +1,9 @@
-// The hit of a line nearest to its origin: in the cell where it starts, or from there outward.
+// The hit of a line nearest to its origin, which stage 2 asks for (Dey and Levine, sections 2.2.3 and 4.2).
+//
+// nearest_on_line() takes the nearest of all hits. nearest_outward() is the paper's enhancement: a small segment around
+// the origin grows until it holds the hit. hits_in_start_cells() is its first step in a fast form, for several lines
+// side by side; lines that it finds nothing for are left to nearest_outward(). All find the same hit, the start cells
+// to within rounding (tests/raycast/isosurface_options_test.cpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,6 +47,7 @@ struct Nearest {
 
 }  // namespace
 
+// Without the enhancement: the nearest of the hits of Intersect (Figure 12).
 std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<Hit> hits;
@@ -55,8 +61,8 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
   return nearest.within(reach);
 }
 
-// Most hits that are asked for lie close to t = 0, and are found so in a third of the time. Schwarze's solver does
-// without: it is there to be compared.
+// Most hits that are asked for lie close to t = 0, in the cell of the line's origin, and are found so in a third of the
+// time. Schwarze's solver does without: it is there to be compared.
 void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const {
   if (options_.solver != CubicSolver::kBracketed || !options_.incremental) {
     hits.fill(kNothing);
@@ -78,6 +84,7 @@ void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes
   hits = cells.hit;
 }
 
+// Section 4.2: voxel cells are traversed from the origin in both directions, the nearest first, each of them once.
 std::optional<double> Isosurface::nearest_outward(const Line& mesh_line, double reach, std::uint64_t& solves) const {
   const Dims& dims = grid_.dims();
   const IndexLine line = index_line(mesh_line, inverse_step_, dims);

@@ -75,7 +75,9 @@ std::optional<double> nearest_of_all_hits(const Isosurface& surface, const Line&
   return nearest;
 }
 
-// Bit for bit by the walks; a hit that is found in the start cell without them differs by rounding, but by no option.
+// Section 4.2 against the whole line: bit for bit by the walks outward. A hit that is found in the start cell without
+// them differs by rounding (another cubic, of the cell's own parameter, and another iteration), but by no option; it
+// counts as one solve, so several solves tell of the walks.
 TEST(Isosurface, NearestFallingHitIsTheNearestOfAllHitsWithEveryOption) {
   for (const CubicSolver solver : {CubicSolver::kBracketed, CubicSolver::kSchwarze}) {
     SearchOptions plain;
@@ -97,8 +99,10 @@ TEST(Isosurface, NearestFallingHitIsTheNearestOfAllHitsWithEveryOption) {
           if (!found) continue;
           if (is_quick) {
             ASSERT_NEAR(*found, *expected, 1e-12) << describe(line, -reach, reach);
-            ASSERT_EQ(*found, *reference.nearest_falling_hit(line, reach, counters)) << describe(line, -reach, reach);
-          } else {
+            SearchCounters other;
+            ASSERT_EQ(*found, *reference.nearest_falling_hit(line, reach, other)) << describe(line, -reach, reach);
+          }
+          if (!is_quick || counters.solves > 1) {
             ASSERT_EQ(*found, *expected) << describe(line, -reach, reach);
           }
         }
