@@ -136,7 +136,7 @@ void RecoverLoop::inherit_pole_height() {
       nearest_height = height;
     }
   }
-  const double inherited = options_.geometry.new_pole == NewPole::kMean ? sum / count : nearest_height;
+  const double inherited = options_.new_pole == NewPole::kMean ? sum / count : nearest_height;
   pole_heights_->push_back(count > 0 ? inherited : isosurface_.box().diagonal());
 }
 

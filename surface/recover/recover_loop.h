@@ -11,6 +11,7 @@
 
 #include "delaunay/base/slab.h"
 #include "surface/base/controls.h"
+#include "surface/base/criteria.h"
 #include "surface/recover/recover.h"
 #include "surface/recover/violation_queue.h"
 #include "surface/restricted/restricted_delaunay.h"
@@ -65,6 +66,7 @@ class RecoverLoop {
   std::optional<RefinementPoint> farthest_in_voronoi_cell(VertexId q);
   [[nodiscard]] std::optional<Vec3> onto_surface(const Vec3& p) const;
   [[nodiscard]] double geometric_badness(const DualEdge& edge) const;
+  [[nodiscard]] bool is_below_size_bound(const TriangleMeasures& sigma) const;
   [[nodiscard]] double mean_pole_height(const DualEdge& edge) const;
 
   // Vertices on the faces of the volume's box.

@@ -21,8 +21,8 @@ RecoverOptions full3d_options(const Parameters& parameters, const Box3& box) {
                       .rho = stage2.rho,
                       .r_min = stage2.r_min * box.smallest_side(),
                       .epsilon2 = stage2.epsilon2,
-                      .criterion2 = stage2.criterion2,
-                      .new_pole = stage2.new_pole};
+                      .criterion2 = stage2.criterion2};
+  options.new_pole = stage2.new_pole;
   if (stage2.max_distance) options.geometry.max_distance = *stage2.max_distance;
   options.size_bound = options.geometry.r_min;
   options.order = parameters.queue_order;

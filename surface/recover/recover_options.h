@@ -2,29 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "delaunay/base/box3.h"
 #include "raycast/isosurface.h"
+#include "surface/base/criteria.h"
 #include "surface/base/parameters.h"
 #include "surface/base/stage_stats.h"
 
 namespace deliso {
 
-// When a restricted triangle larger than r_min is too coarse. Lengths in mesh-space units.
-struct GeometryCriterion {
-  double epsilon = 0.2;  // largest h / r
-  double rho = 2;        // largest r / l
-  double r_min = 0;
-  double max_distance = std::numeric_limits<double>::infinity();  // largest h
-  double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / mean pole height; needs pole heights
-  Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / mean pole height
-  NewPole new_pole = NewPole::kMean;
-};
-
 struct RecoverOptions {
-  GeometryCriterion geometry;
-  double size_bound = 0;  // no insertion nearer than this to a vertex
+  Criteria geometry;                  // when a restricted triangle is too coarse
+  NewPole new_pole = NewPole::kMean;  // of a new vertex, where pole heights are known
+  double size_bound = 0;              // no insertion nearer than this to a vertex
   QueueOrder order = QueueOrder::kWorstFirst;
   int threads = 1;  // the result is the same for any number
 };

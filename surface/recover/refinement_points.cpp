@@ -115,26 +115,27 @@ std::optional<RefinementPoint> RecoverLoop::approximate_geometry(DualEdgeId e) c
   return point_at(edge, surface_hit(edge));
 }
 
-// The largest of the criteria's ratios to their thresholds: above 1 the triangle is too coarse.
+// How far a restricted triangle is beyond the criteria (surface/base/criteria.h): above 1 x_sigma is to be inserted.
 double RecoverLoop::geometric_badness(const DualEdge& edge) const {
-  const GeometryCriterion& limit = options_.geometry;
-  if (!restricted_.is_dual_to_surface(edge.facet) || edge.radius <= limit.r_min) return 0;
-  const double h = std::abs(surface_hit(edge));
-  // Squares tell, but for near ties.
-  const double squared_bound = options_.size_bound * options_.size_bound;
-  const bool may_be_small = h * h + edge.radius * edge.radius <= 1.001 * squared_bound;
-  if (may_be_small && std::hypot(h, edge.radius) < options_.size_bound) return 0;
+  const Criteria& limit = options_.geometry;
+  if (!restricted_.is_dual_to_surface(edge.facet) || !exceeds_r_min(edge.radius, limit)) return 0;
+  TriangleMeasures sigma{.h = std::abs(surface_hit(edge)), .r = edge.radius};
+  if (is_below_size_bound(sigma)) return 0;
   const Vec3& a = delaunay_.point(edge.vertices[0]);
   const Vec3& b = delaunay_.point(edge.vertices[1]);
   const Vec3& c = delaunay_.point(edge.vertices[2]);
-  const double shortest = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-  double badness = std::max(h / (edge.radius * limit.epsilon), edge.radius / (shortest * limit.rho));
-  badness = std::max(badness, h / limit.max_distance);
-  if (std::isfinite(limit.epsilon2)) {
-    const double size = limit.criterion2 == Criterion2::kCircumradius ? edge.radius : shortest;
-    badness = std::max(badness, size / (mean_pole_height(edge) * limit.epsilon2));
-  }
-  return badness;
+  sigma.l = std::sqrt(std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+  if (std::isinf(limit.epsilon2)) return approximate_geometry_badness(sigma, limit);
+  sigma.h_mean = mean_pole_height(edge);
+  return refine_geometry_badness(sigma, limit);
+}
+
+// Is x_sigma nearer to the vertices of sigma than the size bound allows?
+bool RecoverLoop::is_below_size_bound(const TriangleMeasures& sigma) const {
+  // Squares tell, but for near ties.
+  const double bound = options_.size_bound;
+  const bool may_be = sigma.h * sigma.h + sigma.r * sigma.r <= 1.001 * (bound * bound);
+  return may_be && std::hypot(sigma.h, sigma.r) < bound;
 }
 
 double RecoverLoop::mean_pole_height(const DualEdge& edge) const {

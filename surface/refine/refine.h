@@ -1,9 +1,9 @@
 // RefineGeom, stage 2 (Dey and Levine, sections 2.2.2 and 3.2, Figure 9): refine the surface mesh without tetrahedra.
 //
-// A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E;
-// it is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no triangle
-// turned against the gradient, no triangle that crosses another), so the mesh stays homeomorphic to what stage 1 gave,
-// whatever the data.
+// A triangle that fails a criterion (surface/base/criteria.h) gives p = x_sigma. The triangles whose surface Delaunay
+// balls hold p form a disk E; it is replaced by the star of p. Every replacement is checked first (one boundary cycle,
+// no vertex lost, no triangle turned against the gradient, no triangle that crosses another), so the mesh stays
+// homeomorphic to what stage 1 gave, whatever the data.
 #pragma once
 
 #include <vector>

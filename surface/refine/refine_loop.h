@@ -37,6 +37,7 @@ class RefineLoop {
         mesh_(part.mesh),
         isosurface_(isosurface),
         options_(options),
+        criteria_(criteria_of(options)),
         stats_(stats),
         disk_(part.mesh, part.frozen) {}
 
@@ -93,6 +94,7 @@ class RefineLoop {
   RefinementMesh& mesh_;
   const Isosurface& isosurface_;
   const RefineOptions& options_;
+  Criteria criteria_;
   RefineStats& stats_;
   BucketQueue queue_;
   RefinementDisk disk_;                 // E

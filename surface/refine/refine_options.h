@@ -11,6 +11,7 @@
 #include "delaunay/base/box3.h"
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
+#include "surface/base/criteria.h"
 #include "surface/base/parameters.h"
 #include "surface/base/stage_stats.h"
 
@@ -36,6 +37,16 @@ struct RefineOptions {
 // What RefineGeom is asked for by a run's parameters; lengths are made absolute by the volume's box (in mesh space).
 RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
                              int threads);
+
+// The thresholds of RefineGeom.
+inline Criteria criteria_of(const RefineOptions& options) {
+  return {.epsilon = options.epsilon1,
+          .rho = options.rho,
+          .r_min = options.r_min,
+          .max_distance = options.max_distance,
+          .epsilon2 = options.epsilon2,
+          .criterion2 = options.criterion2};
+}
 
 // Why an insertion was refused.
 enum class Refusal {

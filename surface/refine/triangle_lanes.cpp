@@ -6,7 +6,6 @@ namespace deliso {
 
 namespace {
 
-[[gnu::always_inline]] inline double larger(double a, double b) { return a < b ? b : a; }
 [[gnu::always_inline]] inline double smaller(double a, double b) { return b < a ? b : a; }
 
 struct MeasureInPlanes {
@@ -37,19 +36,17 @@ struct MeasureInPlanes {
 };
 
 struct MeasureBalls {
-  [[gnu::always_inline]] static void run(TriangleLanes& triangles, const BadnessLimits& limits) {
-    const BadnessLimits of = limits;
-    const Lanes size = of.by_shortest_edge ? triangles.shortest : triangles.radius;
+  [[gnu::always_inline]] static void run(TriangleLanes& triangles, const Criteria& limits) {
+    const Criteria limit = limits;
     Vec3Lanes x;
     Lanes squared_radius, badness;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const double h = std::abs(triangles.height[i]), r = triangles.radius[i], l = triangles.shortest[i];
+      const double h = std::abs(triangles.height[i]);
       const Vec3 hit = triangles.dual.at(i).at(triangles.height[i]);
       x.set(i, hit);
       squared_radius[i] = squared_distance(hit, triangles.a.at(i));
-      badness[i] = larger(
-          larger(larger(h / (r * of.epsilon1), size[i] / (triangles.mean_pole[i] * of.epsilon2)), r / (l * of.rho)),
-          h / of.max_distance);
+      badness[i] =
+          refine_geometry_badness({h, triangles.radius[i], triangles.shortest[i], triangles.mean_pole[i]}, limit);
     }
     triangles.x = x;
     triangles.squared_radius = squared_radius;
@@ -61,8 +58,6 @@ struct MeasureBalls {
 
 void measure_in_planes(TriangleLanes& triangles) { run_in_lanes<MeasureInPlanes>(triangles); }
 
-void measure_balls(TriangleLanes& triangles, const BadnessLimits& limits) {
-  run_in_lanes<MeasureBalls>(triangles, limits);
-}
+void measure_balls(TriangleLanes& triangles, const Criteria& limits) { run_in_lanes<MeasureBalls>(triangles, limits); }
 
 }  // namespace deliso

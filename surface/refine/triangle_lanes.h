@@ -1,8 +1,11 @@
-// What stage 2 measures of triangles (Dey and Levine, section 3.2), for several of them side by side.
+// What stage 2 measures of triangles (Dey and Levine, section 3.2), for several of them side by side. Each gets what
+// the plain formulas give it alone, to the last bit: circumcircle() of delaunay/constructions.h and
+// refine_geometry_badness() of surface/base/criteria.h (tests/surface/refine/triangle_lanes_test.cpp).
 #pragma once
 
 #include "delaunay/base/lanes.h"
 #include "raycast/line.h"
+#include "surface/base/criteria.h"
 
 namespace deliso {
 
@@ -21,16 +24,10 @@ struct TriangleLanes {
   // From all of these.
   Vec3Lanes x;             // the hit
   Lanes squared_radius{};  // of the ball around it
-  Lanes badness{};         // the largest of the criteria's ratios to their thresholds: above 1 it is too coarse
-};
-
-// The criteria of stage 2 (refine.h).
-struct BadnessLimits {
-  double epsilon1 = 0, epsilon2 = 0, rho = 0, max_distance = 0;
-  bool by_shortest_edge = false;  // the second one compares the shortest edge, not the circumradius
+  Lanes badness{};         // refine_geometry_badness of each
 };
 
 void measure_in_planes(TriangleLanes& triangles);
-void measure_balls(TriangleLanes& triangles, const BadnessLimits& limits);
+void measure_balls(TriangleLanes& triangles, const Criteria& limits);
 
 }  // namespace deliso

@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kMostExpected = 1e6;  // insertions for one triangle
 
-BadnessLimits badness_limits(const RefineOptions& options) {
-  return {options.epsilon1, options.epsilon2, options.rho, options.max_distance,
-          options.criterion2 == Criterion2::kShortestEdge};
-}
-
 }  // namespace
 
 RefineLoop::NewTriangle RefineLoop::measure(const Shape& shape) {
@@ -31,7 +26,6 @@ RefineLoop::NewTriangle RefineLoop::measure(const Shape& shape) {
 
 // Balls and badness of triangles; a dual line without a falling hit gives its circumball and no further refinement.
 void RefineLoop::measure(std::span<const Shape> shapes, std::span<NewTriangle> measured) {
-  const BadnessLimits limits = badness_limits(options_);
   TriangleLanes lanes;
   for (std::size_t first = 0; first < shapes.size(); first += kLanes) {
     const std::size_t count = std::min(kLanes, shapes.size() - first);
@@ -47,7 +41,7 @@ void RefineLoop::measure(std::span<const Shape> shapes, std::span<NewTriangle> m
     for (std::size_t i = 0; i < count; ++i)
       has_area[i] = std::isfinite(lanes.radius[i]) && is_finite(lanes.dual.direction.at(i));
     isosurface_.nearest_falling_hits(lanes.dual, has_area, isosurface_.box().diagonal(), lanes.height, stats_.search);
-    measure_balls(lanes, limits);
+    measure_balls(lanes, criteria_);
     for (std::size_t i = 0; i < count; ++i) {
       NewTriangle& triangle = measured[first + i];
       const double radius = lanes.radius[i], longest = lanes.squared_longest[i];
@@ -80,7 +74,7 @@ RefineLoop::NewTriangle RefineLoop::measured(std::uint32_t triangle) {
   lanes.mean_pole[0] = mean_pole_height(triangle);
   measure_in_planes(lanes);
   lanes.height[0] = distance(ball.center, lanes.dual.origin.at(0));
-  measure_balls(lanes, badness_limits(options_));
+  measure_balls(lanes, criteria_);
   return {ball, true, lanes.badness[0], lanes.radius[0], lanes.squared_longest[0]};
 }
 
@@ -88,7 +82,7 @@ RefineLoop::NewTriangle RefineLoop::measured(std::uint32_t triangle) {
 void RefineLoop::learn(std::uint32_t triangle, const NewTriangle& measured) {
   using Triangle = RefinementMesh::Triangle;
   Triangle& t = mesh_.triangles[triangle];
-  const bool is_bad = measured.badness > 1, is_large = measured.radius > options_.r_min;
+  const bool is_bad = measured.badness > 1, is_large = exceeds_r_min(measured.radius, criteria_);
   t.ball = measured.ball;
   t.set(Triangle::kNoHit, !measured.has_hit);
   t.set(Triangle::kTooSmall, is_bad && !is_large);

@@ -1,0 +1,67 @@
+// When a restricted triangle sigma is too coarse: the criteria of ApproximateGeom and RefineGeom (Dey and Levine,
+// sections 3.1 and 3.2), and one of ours.
+//
+//   RefineGeom (3.2)           ApproximateGeom (3.1)
+//   1. h / r > epsilon1        1. h / r > epsilon       how far sigma is from the surface
+//   2. r / h_mean > epsilon2                            its size against that of the surface's features
+//   3. r / l > rho             2. r / l > rho           its aspect ratio
+//   4. r > r_min               3. r > r_min             not too small to be refined
+//      h > max_distance           h > max_distance      ours: the absolute distance to the surface
+//
+// x_sigma is inserted when sigma is larger than r_min and one of the others holds.
+#pragma once
+
+#include <limits>
+
+#include "surface/base/parameters.h"
+
+namespace deliso {
+
+// The thresholds. Lengths in mesh-space units.
+struct Criteria {
+  double epsilon = 0.2;  // largest h / r; epsilon1 of stage 2
+  double rho = 2;        // largest r / l
+  double r_min = 0;      // no refinement of triangles at or below this circumradius
+  double max_distance = std::numeric_limits<double>::infinity();  // largest h
+  double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / h_mean; needs pole heights
+  Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / h_mean
+};
+
+// What the criteria measure of sigma.
+struct TriangleMeasures {
+  double h = 0;       // from its circumcenter to x_sigma
+  double r = 0;       // circumradius
+  double l = 0;       // shortest edge
+  double h_mean = 0;  // mean pole height of its vertices
+};
+
+// How far sigma is beyond each threshold: above 1 where the criterion holds. The numbers are those of section 3.2.
+inline double badness1(const TriangleMeasures& sigma, const Criteria& limit) {
+  return sigma.h / (sigma.r * limit.epsilon);  // 1. h / r > epsilon1
+}
+inline double badness2(const TriangleMeasures& sigma, const Criteria& limit) {
+  const double size = limit.criterion2 == Criterion2::kCircumradius ? sigma.r : sigma.l;
+  return size / (sigma.h_mean * limit.epsilon2);  // 2. r / h_mean > epsilon2
+}
+inline double badness3(const TriangleMeasures& sigma, const Criteria& limit) {
+  return sigma.r / (sigma.l * limit.rho);  // 3. r / l > rho
+}
+inline bool exceeds_r_min(double r, const Criteria& limit) {
+  return r > limit.r_min;  // 4. r > r_min
+}
+inline double distance_badness(const TriangleMeasures& sigma, const Criteria& limit) {
+  return sigma.h / limit.max_distance;  // ours: h > max_distance
+}
+
+// Without a branch; what is not a number as `b` does not count.
+inline double larger(double a, double b) { return a < b ? b : a; }
+
+// The largest ratio to a threshold: above 1 when sigma is too coarse, unless it is too small to be refined.
+inline double approximate_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {
+  return larger(larger(badness1(sigma, limit), badness3(sigma, limit)), distance_badness(sigma, limit));
+}
+inline double refine_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {
+  return larger(approximate_geometry_badness(sigma, limit), badness2(sigma, limit));
+}
+
+}  // namespace deliso
