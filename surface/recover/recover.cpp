@@ -1,6 +1,6 @@
+// The loop of stage 1: how the four lines of Figure 5 become one queue is said in recover_loop.h.
 #include "surface/recover/recover.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -64,7 +64,7 @@ void RecoverLoop::queue_edge(DualEdgeId e) {
   if (!restricted_.is_alive(e)) return;
   const DualEdge& edge = restricted_.dual_edge(e);
   if (edge.hits.size() > 1) {
-    const double farthest = std::max(std::abs(edge.hits.front().t), std::abs(edge.hits.back().t));
+    const double farthest = std::abs(farthest_hit(edge));
     queue_.push({ViolationKind::kMultiIntersect, e.value, edge.generation}, farthest, edge.radius, edge.dual.origin);
   }
   const double badness = geometric_badness(edge);
@@ -142,10 +142,10 @@ void RecoverLoop::inherit_pole_height() {
 
 void recover(RestrictedDelaunay& restricted, const RecoverOptions& options, Controls& controls, RecoverStats& stats,
              std::vector<double>* pole_heights) {
-  RecoverLoop recovery(restricted, options, stats, pole_heights);
-  recovery.queue_everything();
-  if (pole_heights == nullptr) recovery.run_in_slabs(controls);
-  recovery.run(controls);
+  RecoverLoop loop(restricted, options, stats, pole_heights);
+  loop.queue_everything();
+  if (pole_heights == nullptr) loop.run_in_slabs(controls);
+  loop.run(controls);
 }
 
 void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
@@ -156,10 +156,10 @@ void take_counters(const RestrictedDelaunay& restricted, RecoverStats& stats) {
 
 std::int64_t recover_with(RestrictedDelaunay& restricted, std::span<const Vec3> points, const RecoverOptions& options,
                           Controls& controls, RecoverStats& stats) {
-  RecoverLoop recovery(restricted, options, stats);
-  const std::int64_t inserted = recovery.insert_points(points, controls);
-  recovery.run_in_slabs(controls);
-  recovery.run(controls);
+  RecoverLoop loop(restricted, options, stats);
+  const std::int64_t inserted = loop.insert_points(points, controls);
+  loop.run_in_slabs(controls);
+  loop.run(controls);
   return inserted;
 }
 

@@ -1,4 +1,16 @@
-// The loop of stage 1 over a triangulation or a part of it: a queue of violations, and the point that mends each.
+// Recover of the paper (Dey and Levine, Figure 5) as one loop over a queue of violations, in a triangulation or a part
+// of it. The paper runs four procedures in turn, each until its condition holds everywhere:
+//
+//   Del S = MultiIntersect(Del S)                        a dual edge meets the surface in one point at most
+//   Del S = ExtractManifold(Del S)                       an umbrella is a disk
+//   Del S = ApproximateGeom(Del S, epsilon, rho, r_min)  a triangle meets the criteria
+//   Del S = ExtractManifold(Del S)
+//
+// A point that one of them inserts can break the condition of another, also of an earlier one. So all violations wait
+// in one queue. The loop takes those of MultiIntersect first, then those of ExtractManifold, and those of
+// ApproximateGeom only while there are no others; every insertion queues what it has changed. This is the paper's order
+// with a return to an earlier line wherever its condition is broken again, and it ends where all conditions hold, but
+// for the points that the size bound forbids.
 #pragma once
 
 #include <array>
@@ -57,11 +69,13 @@ class RecoverLoop {
   bool insert(const Violation& violation, const RefinementPoint& candidate);
   void inherit_pole_height();
 
-  // The points that mend a violation (refinement_points.cpp).
-  [[nodiscard]] RefinementPoint point_at(const DualEdge& edge, double t) const;
+  // Figure 5: the point that each procedure inserts for a violation, if it still is one (refinement_points.cpp).
   [[nodiscard]] std::optional<RefinementPoint> multi_intersect(DualEdgeId e) const;
   std::optional<RefinementPoint> extract_manifold(VertexId q);
   [[nodiscard]] std::optional<RefinementPoint> approximate_geometry(DualEdgeId e) const;
+  [[nodiscard]] RefinementPoint point_at(const DualEdge& edge, double t) const;
+  [[nodiscard]] static double farthest_hit(const DualEdge& edge);
+  bool is_disk(VertexId q);
   [[nodiscard]] std::optional<RefinementPoint> farthest_of_umbrella(VertexId q) const;
   std::optional<RefinementPoint> farthest_in_voronoi_cell(VertexId q);
   [[nodiscard]] std::optional<Vec3> onto_surface(const Vec3& p) const;

@@ -1,4 +1,5 @@
-// The points that stage 1 inserts: what mends a violation.
+// The points that stage 1 inserts: what MultiIntersect, ExtractManifold and ApproximateGeom (Dey and Levine, Figure 5
+// and section 3.1) ask for, one violation at a time. The loop over them is in recover.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,30 +17,46 @@ constexpr double kOnSurface = 1e-7;
 
 }  // namespace
 
+// Figure 5, line 2, MultiIntersect: when V_sigma meets the surface in several points, the one farthest from sigma is
+// inserted.
+std::optional<RefinementPoint> RecoverLoop::multi_intersect(DualEdgeId e) const {
+  const DualEdge& v_sigma = restricted_.dual_edge(e);
+  if (v_sigma.hits.size() <= 1) return std::nullopt;
+  return point_at(v_sigma, farthest_hit(v_sigma));
+}
+
+// Lines 3 and 5, ExtractManifold: when D_q is no topological disk, the x_sigma, sigma in D_q, farthest from q is
+// inserted. When D_q is empty (the paper leaves that out), a point in the Voronoi cell of q is.
+std::optional<RefinementPoint> RecoverLoop::extract_manifold(VertexId q) {
+  if (is_disk(q)) return std::nullopt;
+  if (const auto farthest = farthest_of_umbrella(q)) return farthest;
+  return farthest_in_voronoi_cell(q);
+}
+
+// Line 4, ApproximateGeom: when r > r_min and h / r > epsilon or r / l > rho, x_sigma is inserted.
+std::optional<RefinementPoint> RecoverLoop::approximate_geometry(DualEdgeId e) const {
+  const DualEdge& v_sigma = restricted_.dual_edge(e);
+  if (geometric_badness(v_sigma) <= 1) return std::nullopt;
+  return point_at(v_sigma, surface_hit(v_sigma));
+}
+
 // A point on a dual edge lies in the circumball of the tetrahedron at that end which is on its side of the facet.
 RefinementPoint RecoverLoop::point_at(const DualEdge& edge, double t) const {
   const FacetId f = t > 0 ? delaunay_.mirror(edge.facet) : edge.facet;
   return {edge.dual.at(t), f.tet()};
 }
 
-// MultiIntersect: a dual edge with several hits gives the one farthest from its facet.
-std::optional<RefinementPoint> RecoverLoop::multi_intersect(DualEdgeId e) const {
-  const DualEdge& edge = restricted_.dual_edge(e);
-  if (edge.hits.size() < 2) return std::nullopt;
-  const double first = edge.hits.front().t;
-  const double last = edge.hits.back().t;
-  return point_at(edge, std::abs(first) > std::abs(last) ? first : last);
+double RecoverLoop::farthest_hit(const DualEdge& edge) {
+  const double first = edge.hits.front().t, last = edge.hits.back().t;
+  return std::abs(first) > std::abs(last) ? first : last;
 }
 
-// ExtractManifold: an umbrella that is no disk gives its x_sigma farthest from the vertex. On the box a half disk will
-// do.
-std::optional<RefinementPoint> RecoverLoop::extract_manifold(VertexId q) {
+// The Disk() test of section 5: on the box a half disk will do. When it fails, umbrella_ holds D_q.
+bool RecoverLoop::is_disk(VertexId q) {
   const auto will_do = [&](UmbrellaShape shape) {
     return shape == UmbrellaShape::kDisk || (shape == UmbrellaShape::kHalfDisk && restricted_.is_on_box(q));
   };
-  if (will_do(restricted_.quick_umbrella_shape(q)) || will_do(umbrella_.inspect(q))) return std::nullopt;
-  if (auto candidate = farthest_of_umbrella(q)) return candidate;
-  return farthest_in_voronoi_cell(q);
+  return will_do(restricted_.quick_umbrella_shape(q)) || will_do(umbrella_.inspect(q));
 }
 
 std::optional<RefinementPoint> RecoverLoop::farthest_of_umbrella(VertexId q) const {
@@ -106,13 +123,6 @@ std::optional<RefinementPoint> RecoverLoop::farthest_in_voronoi_cell(VertexId q)
     if (start != star.end()) farthest->start = *start;
   }
   return farthest;
-}
-
-// ApproximateGeom: a triangle too coarse gives its x_sigma.
-std::optional<RefinementPoint> RecoverLoop::approximate_geometry(DualEdgeId e) const {
-  const DualEdge& edge = restricted_.dual_edge(e);
-  if (geometric_badness(edge) <= 1) return std::nullopt;
-  return point_at(edge, surface_hit(edge));
 }
 
 // How far a restricted triangle is beyond the criteria (surface/base/criteria.h): above 1 x_sigma is to be inserted.

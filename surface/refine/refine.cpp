@@ -71,8 +71,8 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
   std::vector<Vec3> suspects;
   for (std::int64_t restarts = 0;; ++restarts) {
     RefineStats counted;
-    RefineLoop refinement(part, task.isosurface, task.options, counted);
-    refinement.run(controls, threads.count());
+    RefineLoop loop(part, task.isosurface, task.options, counted);
+    loop.run(controls, threads.count());
     if (round == Round::kRest) release_free_memory();  // the peak may lie in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
@@ -89,7 +89,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
       stats = counted;
     }
     if (is_best && fewest <= before) return;
-    RefinementChange change = refinement.take_back();
+    RefinementChange change = loop.take_back();
     if (is_best) least = std::move(change);
     if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
