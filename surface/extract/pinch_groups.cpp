@@ -1,36 +1,32 @@
 #include "surface/extract/pinch_groups.h"
 
-#include <numeric>
 #include <unordered_map>
+
+#include "delaunay/base/disjoint_sets.h"
 
 namespace deliso {
 
 std::vector<std::size_t> groups_that_matter(std::span<const PinchGroup> groups,
                                             const std::function<void(std::size_t, const VertexVisit&)>& visit_around,
                                             const std::function<bool(std::uint32_t)>& is_wanted) {
-  std::unordered_map<std::uint32_t, std::size_t> group_of;  // of each copy
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+  std::unordered_map<std::uint32_t, std::uint32_t> group_of;  // of each copy
+  for (std::uint32_t i = 0; i < groups.size(); ++i) {
     for (const Copy& copy : groups[i]) group_of[copy.vertex] = i;
   }
   // Sets of groups that hang together.
-  std::vector<std::size_t> parent(groups.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+  DisjointSets sets(groups.size());
+  for (std::uint32_t i = 0; i < groups.size(); ++i) {
     visit_around(i, [&](std::uint32_t v) {
-      if (const auto other = group_of.find(v); other != group_of.end()) parent[find(other->second)] = find(i);
+      if (const auto other = group_of.find(v); other != group_of.end()) sets.unite(i, other->second);
     });
   }
   std::vector<bool> matters(groups.size(), false);
   for (const auto& [v, i] : group_of) {
-    if (is_wanted(v)) matters[find(i)] = true;
+    if (is_wanted(v)) matters[sets.find(i)] = true;
   }
   std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (matters[find(i)]) chosen.push_back(i);
+  for (std::uint32_t i = 0; i < groups.size(); ++i) {
+    if (matters[sets.find(i)]) chosen.push_back(i);
   }
   return chosen;
 }

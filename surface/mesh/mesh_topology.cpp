@@ -9,40 +9,13 @@
 #include <tuple>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/huge_pages.h"
 #include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 
 namespace {
-
-// Disjoint sets whose representative is always the smallest member, so that results do not depend on the order of
-// joins (Tarjan 1975; path halving).
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { reset(count); }
-  void reset(std::size_t count) {
-    parent_.resize(count);
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  // Whether a glance tells; most members stand right below their representative.
-  [[nodiscard]] bool are_known_as_one(std::uint32_t i, std::uint32_t j) const { return parent_[i] == parent_[j]; }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // A triangle at one of its vertices: the other two.
 struct Corner {
@@ -114,7 +87,7 @@ class StarCensus {
   const MeshTopology& components_;
   std::span<const Corner> at_;  // the vertex looked at
   std::vector<Spoke> spokes_;
-  DisjointSets fans_{0};  // of at_
+  DisjointSets fans_;  // of at_
   MeshTopology counts_;
   std::vector<std::int64_t> edges_;  // of each component
 };
@@ -159,7 +132,7 @@ void StarCensus::look_closely_at(std::uint32_t v) {
     auto last = first;
     for (; last != spokes_.cend() && last->other == first->other && (!is_loop || last->leaves == first->leaves);
          ++last) {
-      fans_.join(first->corner, last->corner);
+      fans_.unite(first->corner, last->corner);
     }
     // The ends of loops that reach v have been counted with those that leave it.
     if (first->other > v || (is_loop && first->leaves)) count_edge(v, first, last - first);
@@ -194,8 +167,8 @@ void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
   DisjointSets sets(mesh.points.size());
   std::vector<std::uint8_t> referenced(mesh.points.size(), 0);
   for (const auto& [a, b, c] : mesh.triangles) {
-    if (!sets.are_known_as_one(a, b)) sets.join(a, b);
-    if (!sets.are_known_as_one(b, c)) sets.join(b, c);
+    if (!sets.share_parent(a, b)) sets.unite(a, b);
+    if (!sets.share_parent(b, c)) sets.unite(b, c);
     referenced[a] = referenced[b] = referenced[c] = 1;
   }
   topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
@@ -223,7 +196,7 @@ void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
   DisjointSets loops(vertex_count);
   std::vector<bool> on_boundary(vertex_count, false);
   for (const MeshEdge& edge : topology.boundary_edges) {
-    loops.join(edge.low, edge.high);
+    loops.unite(edge.low, edge.high);
     on_boundary[edge.low] = on_boundary[edge.high] = true;
   }
   for (std::uint32_t v = 0; v < vertex_count; ++v) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/parallel.h"
 #include "volume/topology/cell_crossings.h"
 #include "volume/topology/cell_sweep.h"
@@ -15,33 +15,6 @@ namespace deliso {
 
 namespace {
 
-// Disjoint sets of crossings; the representative of a set is its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  // True when x and y were in different sets.
-  bool unite(std::uint32_t x, std::uint32_t y) {
-    x = find(x);
-    y = find(y);
-    add(x, y);
-    return x != y;
-  }
-  // Unites the set of a representative with that of x; returns the representative of both.
-  std::uint32_t add(std::uint32_t representative, std::uint32_t x) {
-    x = find(x);
-    const std::uint32_t low = std::min(representative, x);
-    parent_[std::max(representative, x)] = low;
-    return low;
-  }
-
- private:
-  LargeArray<std::uint32_t> parent_;
-};
-
 // The Euler characteristic of a component is pieces - arcs + crossings, each piece with its own. A piece has as many
 // arcs as crossings on its cell's boundary, and an arc belongs to two cells, or to one when it lies on the box. So
 // twice the Euler characteristic is the sum of (2 piece - crossings of the piece) over the pieces, plus 2 for every
@@ -49,11 +22,11 @@ class DisjointSets {
 class TopologyBuilder {
  public:
   TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index, int threads)
-      : grid_(grid), isovalue_(isovalue), threads_(threads), sets_(0) {
+      : grid_(grid), isovalue_(isovalue), threads_(threads) {
     const std::size_t count = index.crossing_count();
     // Beside each other: most of it is waiting for fresh pages.
     run_tasks(2, threads, [&](std::size_t task) {
-      if (task == 0) sets_ = DisjointSets(count);
+      if (task == 0) sets_.reset(count);
       if (task == 1) twice_euler_of_crossing_.assign(count, 2);
     });
     result_.index = std::move(index);
@@ -91,7 +64,7 @@ class TopologyBuilder {
   const ScalarGrid& grid_;
   double isovalue_;
   int threads_;
-  DisjointSets sets_;
+  DisjointSets sets_;                                 // of crossings
   LargeArray<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
   std::vector<std::int64_t> twice_euler_;             // of the components
   IsosurfaceTopology result_;
@@ -135,7 +108,7 @@ void TopologyBuilder::join_simple_cell(const CellCrossings& crossings, std::uint
   std::uint32_t representative = sets_.find(crossings.number(std::countr_zero(edges)));
   std::int32_t twice_euler = 1;
   for (edges &= edges - 1; edges != 0; edges &= edges - 1) {
-    representative = sets_.add(representative, crossings.number(std::countr_zero(edges)));
+    representative = sets_.unite_representative(representative, crossings.number(std::countr_zero(edges)));
     --twice_euler;
   }
   twice_euler_of_crossing_[representative] += twice_euler;
@@ -244,7 +217,7 @@ void TopologyBuilder::for_each_face_on_box(const Visit& visit) const {
 // The arcs on the box. Every crossing there ends two of them, so loops are the sets of crossings that they join: as
 // many as crossings on the box, minus the arcs that joined two sets.
 void TopologyBuilder::count_on_box() {
-  DisjointSets sets(0);
+  DisjointSets sets;
   std::vector<bool> seen;
   const auto add_arc = [&](std::uint32_t from, std::uint32_t to) {
     const std::uint32_t component = result_.crossings[from].component;
@@ -258,7 +231,7 @@ void TopologyBuilder::count_on_box() {
   for_each_face_on_box([&](const CellIndex& corner, int axis) {
     if (seen.empty()) {
       seen.resize(result_.crossings.size());
-      sets = DisjointSets(result_.crossings.size());
+      sets.reset(result_.crossings.size());
     }
     const FaceArcs arcs = face_arcs(grid_, isovalue_, result_.index, corner, axis);
     for (std::size_t i = 0; i < static_cast<std::size_t>(arcs.count); ++i) {

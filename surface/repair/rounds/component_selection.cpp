@@ -1,9 +1,9 @@
 #include "surface/repair/rounds/component_selection.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/parallel.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_decimation.h"
@@ -19,12 +19,7 @@ constexpr std::int64_t kWorthCutting = 2;
 // The wanted pieces and all that hang together with them by copies of one vertex.
 std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector<bool>& wanted) {
   const std::vector<VertexId>& vertex_of = mesh.built.vertex_of;
-  std::vector<std::uint32_t> parent(wanted.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(wanted.size());
   std::vector<std::uint32_t> piece_at;  // the first one at each vertex of the triangulation
   for (std::size_t v = 0; v < vertex_of.size(); ++v) {
     const std::uint32_t piece = mesh.match.piece_of[v];
@@ -32,13 +27,13 @@ std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector
     if (vertex_of[v].index() >= piece_at.size()) piece_at.resize(vertex_of[v].index() + 1, kNoPiece);
     std::uint32_t& first = piece_at[vertex_of[v].index()];
     if (first == kNoPiece) first = piece;
-    parent[find(piece)] = find(first);
+    sets.unite(piece, first);
   }
   std::vector<bool> is_touched(wanted.size(), false);
   for (std::uint32_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i]) is_touched[find(i)] = true;
+    if (wanted[i]) is_touched[sets.find(i)] = true;
   }
-  for (std::uint32_t i = 0; i < wanted.size(); ++i) is_touched[i] = is_touched[find(i)];
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) is_touched[i] = is_touched[sets.find(i)];
   return is_touched;
 }
 

@@ -1,9 +1,9 @@
+#include "delaunay/base/disjoint_sets.h"
 #include "surface/repair/signs/euler_change.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -160,7 +160,7 @@ class LocalMesh {
   std::vector<TetId> stars_;
   TetSet in_star_;
   std::vector<FacetId> facets_;  // of the mesh around one vertex, seen from above
-  std::vector<std::size_t> umbrella_;
+  DisjointSets umbrellas_;  // of these
 };
 
 // A vertex with the tetrahedra around it, one of which is known.
@@ -195,23 +195,15 @@ void LocalMesh::find_facets_around(const Star& star) {
 
 // Classes of the facets around v that are joined across edges at v.
 std::int64_t LocalMesh::count_umbrellas(VertexId v) {
-  umbrella_.resize(facets_.size());
-  std::iota(umbrella_.begin(), umbrella_.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (umbrella_[i] != i) i = umbrella_[i];
-    return i;
-  };
+  umbrellas_.reset(facets_.size());
   auto umbrellas = static_cast<std::int64_t>(facets_.size());
-  for (std::size_t i = 0; i < facets_.size(); ++i) {
+  for (std::uint32_t i = 0; i < facets_.size(); ++i) {
     for (const VertexId third : delaunay_.facet_vertices(facets_[i])) {
       if (third == v) continue;
       const FacetId partner = paired_across(restricted_, facets_[i], third).partner;
       const auto at = std::find(facets_.begin(), facets_.end(), partner);
       if (at == facets_.end()) continue;
-      const std::size_t a = root(i), b = root(static_cast<std::size_t>(at - facets_.begin()));
-      if (a == b) continue;
-      umbrella_[a] = b;
-      --umbrellas;
+      if (umbrellas_.unite(i, static_cast<std::uint32_t>(at - facets_.begin()))) --umbrellas;
     }
   }
   return umbrellas;
