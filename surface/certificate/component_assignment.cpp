@@ -8,52 +8,11 @@
 #include "delaunay/base/parallel.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/component_match.h"
+#include "surface/certificate/mesh_pieces.h"
 
 namespace deliso {
 
 namespace {
-
-// How many vertices of a piece lie on a component.
-struct Share {
-  std::uint32_t piece = 0, component = 0;
-  std::int64_t vertices = 0;
-};
-
-// All that are not zero, by piece and component.
-std::vector<Share> shares_of(const AssignedPieces& pieces) {
-  std::vector<Share> shares;
-  for (std::size_t v = 0; v < pieces.piece_of.size(); ++v) {
-    const std::uint32_t piece = pieces.piece_of[v], component = pieces.component_of[v];
-    if (piece >= pieces.topology.size() || component >= pieces.components.size()) continue;
-    if (shares.empty() || shares.back().piece != piece || shares.back().component != component) {
-      shares.push_back({piece, component, 0});
-    }
-    ++shares.back().vertices;
-  }
-  const auto place = [](const Share& share) { return std::pair(share.piece, share.component); };
-  std::sort(shares.begin(), shares.end(), [&](const Share& a, const Share& b) { return place(a) < place(b); });
-  std::size_t count = 0;
-  for (const Share& share : shares) {
-    if (count > 0 && place(shares[count - 1]) == place(share)) {
-      shares[count - 1].vertices += share.vertices;
-    } else {
-      shares[count++] = share;
-    }
-  }
-  shares.resize(count);
-  return shares;
-}
-
-// For each number below `count` the largest of the shares that have it, the first of equals.
-template <class NumberOf>
-std::vector<Share> largest(const std::vector<Share>& shares, std::size_t count, const NumberOf& number_of) {
-  std::vector<Share> most(count);
-  for (const Share& share : shares) {
-    Share& so_far = most[number_of(share)];
-    if (share.vertices > so_far.vertices) so_far = share;
-  }
-  return most;
-}
 
 void sort_and_drop_repeated(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -63,11 +22,11 @@ void sort_and_drop_repeated(std::vector<std::uint32_t>& numbers) {
 }  // namespace
 
 AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
-  const std::vector<Share> shares = shares_of(pieces);
-  const std::vector<Share> main_of_piece =
-      largest(shares, pieces.topology.size(), [](const Share& share) { return share.piece; });
-  const std::vector<Share> own =
-      largest(main_of_piece, pieces.components.size(), [](const Share& share) { return share.component; });
+  const std::vector<ComponentShare> shares =
+      component_shares(pieces.piece_of, pieces.component_of, pieces.topology.size());
+  const std::vector<ComponentShare> main_of_piece = largest_shares_of_pieces(shares, pieces.topology.size());
+  const std::vector<ComponentShare> own = largest_shares(main_of_piece, pieces.components.size(),
+                                                         [](const ComponentShare& share) { return share.component; });
 
   AssignmentFaults faults;
   for (std::uint32_t c = 0; c < own.size(); ++c) {
@@ -78,10 +37,10 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
     }
   }
   for (std::uint32_t piece = 0; piece < main_of_piece.size(); ++piece) {
-    const Share& main = main_of_piece[piece];
+    const ComponentShare& main = main_of_piece[piece];
     if (main.vertices > 0 && own[main.component].piece != piece) faults.repeated.push_back(main.component);
   }
-  for (const Share& share : shares) {
+  for (const ComponentShare& share : shares) {
     const std::uint32_t counts_for = main_of_piece[share.piece].component;
     if (share.component == counts_for || share.vertices < own[share.component].vertices) continue;
     faults.overrunning.push_back(counts_for);
@@ -110,11 +69,10 @@ void add_assignment_faults(const AssignmentFaults& faults, Certificate& certific
 
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> components(points.size());
   for_each_block(points.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      components[i] = component_of(grid, isovalue, topology, points[i]).value_or(kNone);
+      components[i] = component_of(grid, isovalue, topology, points[i]).value_or(kNoComponent);
     }
   });
   return components;

@@ -19,7 +19,7 @@ namespace deliso {
 // A mesh in pieces, and where these lie.
 struct AssignedPieces {
   std::span<const std::uint32_t> piece_of;      // of each vertex; beyond the number of pieces for one without triangles
-  std::span<const std::uint32_t> component_of;  // of each vertex; beyond the number of components for one off them all
+  std::span<const std::uint32_t> component_of;  // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
   std::span<const ComponentTopology> topology;  // of each piece
   std::span<const ComponentTopology> components;  // the exact ones
 };
@@ -41,7 +41,7 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 // A certificate whose counts are right is right no more where places are not: a sentence for each kind of fault.
 void add_assignment_faults(const AssignmentFaults& faults, Certificate& certificate);
 
-// The exact component of each point, given in index space; a number beyond all for one that lies on none.
+// The exact component of each point, given in index space; kNoComponent for one that lies on none.
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 

@@ -45,35 +45,14 @@ void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
   }
 }
 
-// The component that most vertices of each piece lie on, the first of equals: nearly all lie on that of its first
-// vertex, so the votes of the others are counted.
 void find_components(const std::vector<std::uint32_t>& component_of, ComponentMatch& match) {
-  std::vector<bool> has_first(match.pieces.size(), false);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> others;  // (piece, component) of each vertex off the first one's
-  for (std::size_t v = 0; v < component_of.size(); ++v) {
-    const std::uint32_t i = match.piece_of[v];
-    if (i == kNoPiece) continue;
-    if (!has_first[i]) match.pieces[i].component = component_of[v];
-    has_first[i] = true;
-    if (component_of[v] != match.pieces[i].component) others.emplace_back(i, component_of[v]);
+  const std::vector<ComponentShare> shares = component_shares(match.piece_of, component_of, match.pieces.size());
+  const std::vector<ComponentShare> largest = largest_shares_of_pieces(shares, match.pieces.size());
+  for (std::size_t i = 0; i < match.pieces.size(); ++i) {
+    match.pieces[i].component = largest[i].vertices > 0 ? largest[i].component : kNoComponent;
   }
-  std::sort(others.begin(), others.end());
-  std::vector<std::int64_t> most(match.pieces.size());
-  for (std::size_t i = 0; i < most.size(); ++i) most[i] = match.pieces[i].vertices;
-  for (const auto& [i, component] : others) {
-    match.pieces[i].mixed = true;
-    --most[i];
-  }
-  for (auto first = others.begin(); first != others.end();) {
-    const auto [i, component] = *first;
-    const auto last = std::upper_bound(first, others.end(), *first);
-    const std::int64_t votes = last - first;
-    MeshPiece& piece = match.pieces[i];
-    if (votes > most[i] || (votes == most[i] && component < piece.component)) {
-      most[i] = votes;
-      piece.component = component;
-    }
-    first = last;
+  for (const ComponentShare& share : shares) {
+    if (share.component != match.pieces[share.piece].component) match.pieces[share.piece].mixed = true;
   }
 }
 
@@ -83,11 +62,16 @@ void find_agreements(const std::vector<ComponentTopology>& components, const std
   match.agreement.assign(components.size(), Agreement::kNone);
   std::vector<bool> is_mixed(components.size(), false);
   for (std::size_t v = 0; v < component_of.size(); ++v) {
-    if (match.piece_of[v] != kNoPiece && match.pieces[match.piece_of[v]].mixed) is_mixed[component_of[v]] = true;
+    if (component_of[v] == kNoComponent || match.piece_of[v] == kNoPiece) continue;
+    if (match.pieces[match.piece_of[v]].mixed) is_mixed[component_of[v]] = true;
   }
   std::vector<std::int64_t> pieces_on(components.size(), 0);
   for (std::uint32_t i = 0; i < match.pieces.size(); ++i) {
     const MeshPiece& piece = match.pieces[i];
+    if (piece.component == kNoComponent) {
+      ++match.error;
+      continue;
+    }
     std::uint32_t& main = match.main_piece[piece.component];
     if (main == kNoPiece || piece.vertices > match.pieces[main].vertices) main = i;
     ++pieces_on[piece.component];

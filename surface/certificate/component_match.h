@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kNoPiece = 0xFFFFFFFFu;
 struct MeshPiece {
   ComponentTopology topology;
   std::int64_t vertices = 0;
-  std::uint32_t component = 0;  // the exact component that most of its vertices lie on
+  std::uint32_t component = 0;  // the exact component that most of its vertices lie on, or kNoComponent
   bool mixed = false;           // it has vertices of other components, too
 };
 
@@ -34,15 +34,21 @@ struct ComponentMatch {
   std::vector<std::uint32_t> piece_of;    // of each mesh vertex; kNoPiece for one without triangles
   std::vector<std::uint32_t> main_piece;  // of each exact component; kNoPiece when it has none
   std::vector<Agreement> agreement;       // of each exact component
-  // Components that do not agree exactly + strays + what their main pieces lack or have too much in Euler
-  // characteristic: the smaller the better, 0 when the mesh is right.
+  // Components that do not agree exactly + strays + pieces on no component + what their main pieces lack or have too
+  // much in Euler characteristic: the smaller the better, 0 when the mesh is right.
   std::int64_t error = 0;
+
+  // Whether a piece is the main piece of the component that it lies on.
+  [[nodiscard]] bool is_main(std::uint32_t piece) const {
+    const std::uint32_t component = pieces[piece].component;
+    return component < main_piece.size() && main_piece[component] == piece;
+  }
 };
 
 // The pieces and their topology alone: which components they lie on is left open.
 ComponentMatch find_pieces(const SurfaceMesh& mesh);
 
-// `component_of`: the exact component of each mesh vertex.
+// `component_of`: the exact component of each mesh vertex; kNoComponent for one that lies on none and does not count.
 ComponentMatch match_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& component_of,
                                 const std::vector<ComponentTopology>& components);
 

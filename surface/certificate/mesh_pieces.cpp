@@ -1,7 +1,7 @@
 #include "surface/certificate/mesh_pieces.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 namespace deliso {
 
@@ -60,14 +60,40 @@ std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<cons
   return components;
 }
 
-std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> components) {
-  std::map<std::uint32_t, std::size_t> votes;
-  for (const std::uint32_t component : components) {
-    if (component != kNoComponent) ++votes[component];
+std::vector<ComponentShare> component_shares(std::span<const std::uint32_t> piece_of,
+                                             std::span<const std::uint32_t> component_of, std::size_t pieces) {
+  // Nearly all vertices of a piece lie on the component of its first one. Only the others are sorted.
+  std::vector<ComponentShare> shares(pieces);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> others;  // (piece, component)
+  for (std::size_t v = 0; v < piece_of.size(); ++v) {
+    const std::uint32_t piece = piece_of[v], component = component_of[v];
+    if (piece >= pieces || component == kNoComponent) continue;
+    ComponentShare& first = shares[piece];
+    if (first.vertices == 0) first = {piece, component, 0};
+    if (component == first.component) {
+      ++first.vertices;
+    } else {
+      others.emplace_back(piece, component);
+    }
   }
-  if (votes.empty()) return std::nullopt;
-  return std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
+  std::erase_if(shares, [](const ComponentShare& share) { return share.vertices == 0; });
+  std::sort(others.begin(), others.end());
+  for (auto first = others.begin(); first != others.end();) {
+    const auto last = std::upper_bound(first, others.end(), *first);
+    shares.push_back({first->first, first->second, last - first});
+    first = last;
+  }
+  std::sort(shares.begin(), shares.end(), [](const ComponentShare& a, const ComponentShare& b) {
+    return std::pair(a.piece, a.component) < std::pair(b.piece, b.component);
+  });
+  return shares;
+}
+
+std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> component_of) {
+  const std::vector<std::uint32_t> piece_of(component_of.size(), 0);
+  const ComponentShare largest = largest_shares_of_pieces(component_shares(piece_of, component_of, 1), 1).front();
+  if (largest.vertices == 0) return std::nullopt;
+  return largest.component;
 }
 
 }  // namespace deliso

@@ -1,6 +1,7 @@
 // The connected pieces of a mesh, and the exact components that their vertices lie on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,7 +23,34 @@ inline constexpr std::uint32_t kNoComponent = 0xFFFFFFFFu;
 // The exact component on which each of some vertices lies.
 std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<const std::uint32_t> vertices,
                                          const ExactSurface& surface);
-// That of most vertices, the first of equals; nothing when none has one.
-std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> components);
+
+// How many vertices of a piece lie on a component.
+struct ComponentShare {
+  std::uint32_t piece = 0;
+  std::uint32_t component = 0;
+  std::int64_t vertices = 0;
+};
+// All shares that are not zero, by piece and component. Of each vertex: `piece_of`, beyond `pieces` for one without
+// triangles, and `component_of`, kNoComponent for one that counts for none.
+std::vector<ComponentShare> component_shares(std::span<const std::uint32_t> piece_of,
+                                             std::span<const std::uint32_t> component_of, std::size_t pieces);
+// For each number below `count` the largest of the shares that have it, the first of equals; one of no vertices where
+// none has it. The largest share of a piece tells the component that the piece counts for.
+template <class NumberOf>
+std::vector<ComponentShare> largest_shares(std::span<const ComponentShare> shares, std::size_t count,
+                                           const NumberOf& number_of) {
+  std::vector<ComponentShare> largest(count);
+  for (const ComponentShare& share : shares) {
+    ComponentShare& so_far = largest[number_of(share)];
+    if (share.vertices > so_far.vertices) so_far = share;
+  }
+  return largest;
+}
+inline std::vector<ComponentShare> largest_shares_of_pieces(std::span<const ComponentShare> shares,
+                                                            std::size_t pieces) {
+  return largest_shares(shares, pieces, [](const ComponentShare& share) { return share.piece; });
+}
+// The component that a single piece counts for; nothing when none of its vertices lies on one.
+std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> component_of);
 
 }  // namespace deliso

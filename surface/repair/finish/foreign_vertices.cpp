@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <vector>
 
+#include "surface/certificate/component_match.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/vertex_decimation.h"
 #include "surface/search/covering_triangles.h"
@@ -20,29 +20,23 @@ struct Found {
   std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_on;
 };
 
-Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
+Found find_foreign_vertices(const SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
   Found found;
-  std::vector<std::uint32_t> own_of(mesh.triangles.size(), kNoComponent);  // the component of each triangle's piece
-  std::vector<bool> is_seen(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> triangles = flood(mesh, seed, is_seen);
-    const std::vector<std::uint32_t> vertices = vertices_of(mesh, triangles);
-    std::vector<std::uint32_t> components;
-    components.reserve(vertices.size());
-    for (const std::uint32_t v : vertices) components.push_back(component_of[v]);
-    const std::optional<std::uint32_t> own = most_frequent(components);
-    for (const std::uint32_t t : triangles) own_of[t] = own.value_or(kNoComponent);
-    for (const std::uint32_t v : vertices) {
-      if (component_of[v] == own || component_of[v] == kNoComponent) continue;
-      found.vertices.push_back(v);
-      found.triangles_on[component_of[v]];
-    }
+  const ComponentMatch match = find_pieces(mesh);
+  const std::size_t pieces = match.pieces.size();
+  const std::vector<ComponentShare> largest =
+      largest_shares_of_pieces(component_shares(match.piece_of, component_of, pieces), pieces);
+  for (std::uint32_t v = 0; v < component_of.size(); ++v) {
+    if (match.piece_of[v] == kNoPiece || component_of[v] == kNoComponent) continue;
+    if (component_of[v] == largest[match.piece_of[v]].component) continue;
+    found.vertices.push_back(v);
+    found.triangles_on[component_of[v]];
   }
   if (found.vertices.empty()) return found;
-  for (std::uint32_t t = 0; t < own_of.size(); ++t) {
-    const auto at = found.triangles_on.find(own_of[t]);
-    if (at != found.triangles_on.end()) at->second.push_back(t);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const ComponentShare& own = largest[match.piece_of[mesh.triangles[t][0]]];
+    const auto at = found.triangles_on.find(own.component);
+    if (own.vertices > 0 && at != found.triangles_on.end()) at->second.push_back(t);
   }
   return found;
 }
@@ -50,7 +44,7 @@ Found find_intruders(const SurfaceMesh& mesh, std::span<const std::uint32_t> com
 }  // namespace
 
 ForeignVertices remove_foreign_vertices(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
-  const Found found = find_intruders(mesh, component_of);
+  const Found found = find_foreign_vertices(mesh, component_of);
   ForeignVertices counted{0, static_cast<std::int64_t>(found.vertices.size())};
   std::vector<std::uint32_t> intruders = found.vertices;
   std::erase_if(intruders, [&](std::uint32_t v) {

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "surface/certificate/mesh_pieces.h"
+
 namespace deliso {
 namespace {
 
@@ -21,7 +23,8 @@ AssignmentFaults faults(const Numbers& piece_of, const Numbers& component_of,
 TEST(ComponentAssignment, OnePieceOnEachComponentIsRight) {
   EXPECT_TRUE(faults({0, 0, 1, 1}, {1, 1, 0, 0}, {kSphere, kDisk}, {kDisk, kSphere}).is_empty());
   // A few vertices of another component, and one that lies on none or has no triangle, do not count.
-  EXPECT_TRUE(faults({0, 0, 0, 0, 1, 1, 9}, {0, 0, 1, 9, 1, 1, 1}, {kDisk, kDisk}, {kDisk, kDisk}).is_empty());
+  EXPECT_TRUE(
+      faults({0, 0, 0, 0, 1, 1, 9}, {0, 0, 1, kNoComponent, 1, 1, 1}, {kDisk, kDisk}, {kDisk, kDisk}).is_empty());
 }
 
 // Two components in one piece and one of them once more: the counts are right.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/build_triangle_mesh.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
@@ -125,6 +126,29 @@ TEST(ComponentMatch, AVertexOfAnotherComponentMakesBothMixed) {
   const ComponentMatch match = match_components(sampled.mesh, sampled.component, scene->topology.components);
   EXPECT_EQ(match.agreement, (std::vector<Agreement>{Agreement::kMixed, Agreement::kMixed}));
   EXPECT_EQ(std::count_if(match.pieces.begin(), match.pieces.end(), [](const auto& p) { return p.mixed; }), 1);
+}
+
+TEST(ComponentMatch, VerticesOnNoComponentDoNotCount) {
+  const auto scene = field_scene("bubbles", 26);
+  Sampled sampled = dense_mesh(*scene);
+  const ComponentMatch whole = match_components(sampled.mesh, sampled.component, scene->topology.components);
+  // Some vertices of a piece of the last component, then all of them.
+  const auto last = static_cast<std::uint32_t>(scene->topology.components.size() - 1);
+  const std::uint32_t piece = whole.main_piece[last];
+  int left_on = 3;
+  for (const bool takes_all : {false, true}) {
+    for (std::size_t v = 0; v < sampled.component.size(); ++v) {
+      if (whole.piece_of[v] == piece && (takes_all || left_on-- > 0)) sampled.component[v] = kNoComponent;
+    }
+    const ComponentMatch match = match_components(sampled.mesh, sampled.component, scene->topology.components);
+    EXPECT_EQ(match.pieces[piece].component, takes_all ? kNoComponent : last);
+    EXPECT_FALSE(match.pieces[piece].mixed);
+    EXPECT_EQ(match.is_main(piece), !takes_all);
+    for (std::uint32_t c = 0; c <= last; ++c) {
+      EXPECT_EQ(match.agreement[c], takes_all && c == last ? Agreement::kNone : Agreement::kExact) << c;
+    }
+    EXPECT_EQ(match.error > 0, takes_all);
+  }
 }
 
 }  // namespace
