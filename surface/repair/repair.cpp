@@ -166,14 +166,12 @@ void Repair::return_to(Ending ending) {
   stats_.rounds = rounds;
 }
 
-// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out. Where it
-// is the crossing of triangles that is wrong, the next round is to sample around them.
+// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out.
 bool Repair::ends_without_foreign_vertices() {
   if (!rounds_.is_done_but_for_mixing()) return false;
   timed(inner_poles_, [this] { rounds_.give_poles(); });
   const bool is_whole = timed(inner_build_, [this] { return assemble(); });
   if (is_whole && take_foreign_vertices_out()) return true;
-  if (is_whole) rounds_.take_along(rounds_.crossings_at(crossing_triangles().crossing, result_.mesh));
   result_ = {};
   is_apart_ = false;
   stats_.foreign_vertices_removed = 0;

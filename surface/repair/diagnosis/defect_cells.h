@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
@@ -14,7 +13,7 @@
 
 namespace deliso {
 
-// What trouble is looked for in. References must outlive the search.
+// What defects are looked for in. References must outlive the search.
 struct DefectContext {
   const ExactSurface& surface;
   const SignedDelaunay& restricted;
@@ -22,19 +21,18 @@ struct DefectContext {
   const CellLevels& cells;
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
-  const std::vector<IndexRanges>& places;                 // of each exact component
-  bool is_near_places = true;              // of components with places, trouble counts near these alone: sweeps err
-  std::span<const std::uint8_t> evidence;  // in the raised cells, by slot (sign_constraints.h); may be empty
-  LocatedCriticalPoints& critical;         // of the volume, in the triangulation
+  const std::vector<std::vector<IndexBox>>& boxes;        // of each exact component: where it and its main piece part
+  bool is_near_boxes = true;                              // of components with boxes, defects count near these alone
+  LocatedCriticalPoints& critical;                        // of the volume, in the triangulation
 };
 
-// The voxel cells near the trouble of the components that are not done; may repeat cells. Signs of trouble: vertices
-// that had to be split; triangles between two components; pieces beside the main piece of their component; tetrahedra
-// that reach from one side of the isovalue to the other; vertices of the triangulation that no triangle uses; saddles
-// and critical samples in tetrahedra of the other sign. Of a component whose piece has the right topology only what
-// tells of its missing part, or of the vertices it shares with others, counts. For a component without any sign its
-// saddles are taken, and when there are none all its crossings. Of a component with known places only cells near them
-// are taken, if wanted, and all active ones very near the likely ones.
+// The voxel cells near the defects of the components that are not done; may repeat cells. Defects are vertices that had
+// to be split; triangles between two components; pieces beside the main piece of their component; vertices of the
+// triangulation that no triangle uses; and saddles and critical samples in tetrahedra of the other sign. Of a component
+// whose piece has the right topology only what tells of its missing part, or of the vertices it shares with others,
+// counts. For a component without any defect its saddles are taken, and when there are none all its crossings. Of a
+// component with boxes only defects near them count, if wanted, and all active cells very near them are taken where the
+// boxes are few.
 std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

@@ -47,8 +47,11 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
   return jumps;
 }
 
-}  // namespace
+SampleLayers highest(const SampleLayers& a, const SampleLayers& b) {
+  return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
+}
 
+// The first sample layer along each axis that a point in mesh space does not lie above.
 SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
   SampleLayers layers{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -57,17 +60,45 @@ SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::in
   return layers;
 }
 
+// Where a part of a mesh changes in V - E + F as three planes come to some layers: calls visit(part, layers, change).
+// Each simplex counts from the highest layers of its vertices on.
+template <class Visit>
+void for_each_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex, const Vec3& step,
+                     const std::array<std::int32_t, 3>& dims, const Visit& visit) {
+  // A vertex counts when a triangle has it; its layers are found then.
+  constexpr std::int32_t kUnseen = -1;
+  std::vector<SampleLayers> layers(mesh.points.size(), {kUnseen, 0, 0});
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const std::uint32_t part = part_of_vertex[v[0]];
+    if (part == kNoPart) continue;
+    for (const std::uint32_t q : v) {
+      if (layers[q][0] != kUnseen) continue;
+      layers[q] = layers_at(mesh.points[q], step, dims);
+      visit(part, layers[q], 1);
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      const TriangleSide across = mesh.neighbours[t][i];  // an edge counts from the larger of its two sides
+      if (across != kNoSide && across > 4 * t + i) continue;
+      visit(part, highest(layers[v[(i + 1) % 3]], layers[v[(i + 2) % 3]]), -1);
+    }
+    visit(part, highest(highest(layers[v[0]], layers[v[1]]), layers[v[2]]), 1);
+  }
+}
+
+}  // namespace
+
 std::vector<EulerCurves> euler_curves(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
                                       std::size_t parts, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
   EulerCurves none;
   for (std::size_t axis = 0; axis < 3; ++axis) none[axis].assign(static_cast<std::size_t>(dims[axis]), 0);
   std::vector<EulerCurves> changes(parts, none);
-  for_each_mesh_change(mesh, part_of_vertex, step, dims,
-                       [&](std::uint32_t part, const SampleLayers& at, std::int32_t change) {
-                         for (std::size_t axis = 0; axis < 3; ++axis) {
-                           changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
-                         }
-                       });
+  for_each_change(mesh, part_of_vertex, step, dims,
+                  [&](std::uint32_t part, const SampleLayers& at, std::int32_t change) {
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                      changes[part][axis][static_cast<std::size_t>(at[axis])] += change;
+                    }
+                  });
   for (EulerCurves& change : changes) {
     for (std::vector<std::int64_t>& along : change) std::partial_sum(along.begin(), along.end(), along.begin());
   }

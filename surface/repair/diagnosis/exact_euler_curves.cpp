@@ -47,14 +47,11 @@ class ExactChanges {
         crossings_(surface.topology.index),
         changes_(changes) {}
 
-  template <class Cells>
-  void visit(const Cells& wanted) {
-    const Dims& dims = grid_.dims();
-    for_each_crossing(topology_, dims, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
-      const CellIndex cell{std::min(at[0], dims[0] - 2), std::min(at[1], dims[1] - 2), std::min(at[2], dims[2] - 2)};
-      if (wanted.contain(cell)) changes_.add(crossing.component, at, 2);
+  void visit() {
+    for_each_crossing(topology_, grid_.dims(), [&](const EdgeCrossing& crossing, const SampleLayers& at) {
+      changes_.add(crossing.component, at, 2);
     });
-    wanted.for_each_active_cell(topology_.index, [&](const CellIndex& cell, std::uint8_t pattern) {
+    topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
       crossings_.move_to(cell);
       is_simple(pattern) ? visit_simple(cell, pattern) : visit_any(cell, pattern);
     });
@@ -108,37 +105,7 @@ class ExactChanges {
   Changes& changes_;
 };
 
-// As CellLayers, with all cells in them.
-struct AllCells {
-  [[nodiscard]] static bool contain(const CellIndex& /*cell*/) { return true; }
-  template <class Visit>
-  static void for_each_active_cell(const CrossingIndex& index, const Visit& visit) {
-    index.for_each_active_cell(visit);
-  }
-};
-
-// Hands on one by one what is visited.
-struct HandedOn {
-  const VisitChange& visit;
-
-  void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) const { visit(component, at, twice); }
-  void add_disk(std::uint32_t component, const CellIndex& cell, const std::array<unsigned, 3>& has_arc_below) const {
-    const SampleLayers top = {cell[0] + 1, cell[1] + 1, cell[2] + 1};
-    visit(component, top, 2);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      SampleLayers at = top;
-      at[axis] = cell[axis];
-      if (has_arc_below[axis] != 0) visit(component, at, -2);
-    }
-  }
-};
-
 }  // namespace
-
-void for_each_exact_change(const ExactSurface& surface, const CellLayers& wanted, const VisitChange& visit) {
-  const HandedOn changes{visit};
-  ExactChanges(surface, changes).visit(wanted);
-}
 
 // Adds up what is visited by layers.
 class ExactEulerCurves::Changes {
@@ -171,7 +138,7 @@ class ExactEulerCurves::Changes {
 ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.grid().dims()) {
   find_layers(surface.topology);
   Changes changes(*this);
-  ExactChanges(surface, changes).visit(CellLayers(dims_, [](std::size_t, std::int32_t) { return true; }));
+  ExactChanges(surface, changes).visit();
 }
 
 // Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.

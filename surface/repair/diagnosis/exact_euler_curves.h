@@ -5,20 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
 #include "surface/repair/diagnosis/euler_curve.h"
-#include "surface/repair/diagnosis/index_ranges.h"
 
 namespace deliso {
-
-// Calls visit(component, layers, twice): twice what changes in the Euler characteristic of what an exact component has
-// below three planes when all of them have come to these layers. Of the surface itself, cell by cell. Calls may be left
-// out where the layers are those of no wanted cell.
-using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
-void for_each_exact_change(const ExactSurface& surface, const CellLayers& wanted, const VisitChange& visit);
 
 // The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
 // such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.

@@ -50,22 +50,13 @@ std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, con
   std::vector<CellName> found;
   for (const std::uint32_t crossing : crossings) {
     const Vec3 p = crossing_position(grid, topology.crossings[crossing]);
-    CellIndex first{}, last{};
+    CellIndex low{}, high{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto place = static_cast<std::int32_t>(std::floor(p[axis]));
-      first[axis] = std::max(place - kLayers, 0);
-      last[axis] = std::min(place + kLayers, grid.dims()[axis] - 2);
+      const auto layer = static_cast<std::int32_t>(std::floor(p[axis]));
+      low[axis] = layer - kLayers;
+      high[axis] = layer + kLayers;
     }
-    for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
-        for (std::int32_t i = first[0]; i <= last[0]; ++i) {
-          const CellIndex cell{i, j, k};
-          bool is_active = false;
-          topology.index.for_each_crossing_of_cell(cell, [&](std::uint32_t) { is_active = true; });
-          if (is_active) found.push_back(cells.name(cell));
-        }
-      }
-    }
+    cells.append_active_cells(topology.index, low, high, found);
   }
   return found;
 }

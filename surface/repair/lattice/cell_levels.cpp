@@ -43,6 +43,17 @@ void CellLevels::append_cells_of(const Vec3& p, std::vector<CellName>& cells) co
   }
 }
 
+void CellLevels::append_active_cells(const CrossingIndex& index, const CellIndex& low, const CellIndex& high,
+                                     std::vector<CellName>& cells) const {
+  for (std::int32_t k = std::max(low[2], 0); k <= std::min(high[2], index.cell_layers() - 1); ++k) {
+    for (std::int32_t j = std::max(low[1], 0); j <= std::min(high[1], index.cell_rows() - 1); ++j) {
+      index.for_each_active_cell_in_row(j, k, [&](const CellIndex& cell, std::uint8_t) {
+        if (low[0] <= cell[0] && cell[0] <= high[0]) cells.push_back(name(cell));
+      });
+    }
+  }
+}
+
 void CellLevels::raise(std::vector<CellName> cells) {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -71,18 +82,17 @@ void CellLevels::grade() {
   }
 }
 
-std::vector<CellName> CellLevels::extend(Zones& zones) const {
-  std::vector<CellName> changed;
+std::vector<CellName> CellLevels::extend(Zone& zone) const {
+  std::vector<CellName> added;
+  const auto add = [&](CellName name) {
+    if (zone.cells.insert(name).second) added.push_back(name);
+  };
   for (const auto& [at, level] : level_) {
-    const auto [zone, is_new] = zones.try_emplace(at, Zone::kRaised);
-    if (!is_new && zone->second == Zone::kRaised) continue;
-    zone->second = Zone::kRaised;
-    changed.push_back(at);
-    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) {
-      if (zones.try_emplace(name(neighbour), Zone::kRing).second) changed.push_back(name(neighbour));
-    });
+    if (!zone.raised.insert(at).second) continue;
+    add(at);
+    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) { add(name(neighbour)); });
   }
-  return changed;
+  return added;
 }
 
 template <class Visit>

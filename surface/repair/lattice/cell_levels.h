@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <map>
-#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -28,6 +28,10 @@ class CellLevels {
   // All cells that hold a point, sides included (within 1e-6 of the cell's size).
   void append_cells_of(const Vec3& p, std::vector<CellName>& cells) const;
 
+  // All active cells of the box from one cell to another, as far as it lies in the volume.
+  void append_active_cells(const CrossingIndex& index, const CellIndex& low, const CellIndex& high,
+                           std::vector<CellName>& cells) const;
+
   // Raises each of the cells one level, up to the lattice's highest; from level 3 on the neighbours of a cell are
   // brought within one level of it. `cells` may repeat names.
   void raise(std::vector<CellName> cells);
@@ -35,11 +39,12 @@ class CellLevels {
   // Level of each raised cell, by name.
   [[nodiscard]] const std::map<CellName, int>& levels() const { return level_; }
 
-  enum class Zone : std::uint8_t { kRing, kRaised };
-  using Zones = std::unordered_map<CellName, Zone>;
-  // Brings `zones`, the raised cells and the ring of cells around them at some time before, up to date. Returns the
-  // cells that have changed; may repeat cells.
-  std::vector<CellName> extend(Zones& zones) const;
+  // The raised cells, and with the ring of cells around them, at some time.
+  struct Zone {
+    std::unordered_set<CellName> raised, cells;
+  };
+  // Brings a zone up to date. Returns the cells that have come to it.
+  std::vector<CellName> extend(Zone& zone) const;
 
  private:
   void grade();

@@ -5,6 +5,7 @@
 
 #include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/parallel.h"
+#include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
@@ -126,13 +127,6 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 
 }  // namespace
 
-bool ComponentSelection::would_be_done(const MatchedMesh& mesh) const {
-  for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (!done_[c] && mesh.match.agreement[c] < Agreement::kWithStrays) return false;
-  }
-  return true;
-}
-
 void ComponentSelection::reopen(std::uint32_t component) {
   done_[component] = false;
   best_[component] = Agreement::kPartial;
@@ -203,7 +197,9 @@ void ComponentSelection::give_poles(RepairRound& round) {
     std::vector<bool> wanted(round.restricted().delaunay().vertex_count(), false);
     for (std::size_t v = 0; v < built.vertex_of.size(); ++v) {
       const std::uint32_t piece = kept.mesh->match.piece_of[v];
-      if (piece != kNoPiece && may_give(*kept.mesh, kept.mesh->match.pieces[piece].component)) {
+      if (piece == kNoPiece) continue;
+      const std::uint32_t component = kept.mesh->match.pieces[piece].component;
+      if (component != kNoComponent && may_give(*kept.mesh, component)) {
         wanted[built.vertex_of[v].index()] = true;
       }
     }

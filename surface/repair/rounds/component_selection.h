@@ -33,8 +33,6 @@ class ComponentSelection {
   [[nodiscard]] bool is_done_but_for_mixing() const {
     return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
   }
-  // Whether nothing would be left to do with this mesh.
-  [[nodiscard]] bool would_be_done(const MatchedMesh& mesh) const;
   // A component is to be mended further; no mesh kept so far may give it. Precondition: the meshes have pole heights.
   void reopen(std::uint32_t component);
   // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be

@@ -12,21 +12,20 @@
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/finish/missed_crossings.h"
 #include "surface/repair/rounds/sign_search.h"
-#include "surface/repair/signs/sign_rules.h"
 #include "surface/restricted/poles.h"
 
 namespace deliso {
 
 namespace {
 
-// What sweeps find counts unless it is more than kMostPlaces; in the first round, when other signs tell more, unless it
-// is more than kFewPlaces.
-constexpr std::size_t kFewPlaces = 30;
-constexpr std::size_t kMostPlaces = 512;
+// What Euler curves find counts unless it is more than kMostBoxes; in the first round, when other defects tell more,
+// unless it is more than kFewBoxes.
+constexpr std::size_t kFewBoxes = 30;
+constexpr std::size_t kMostBoxes = 512;
 
-// Sweeps may err, and then nothing would ever be mended if no trouble counted but near what they find. In one round all
-// of it counts; in several the samples would grow too many. From then on curvature tells what sweeps do not.
-constexpr std::int32_t kRoundOfAllTrouble = 3;
+// Euler curves may err, and then nothing would ever be mended if no defect counted but near what they find. In one
+// round all defects count; in several the samples would grow too many.
+constexpr std::int32_t kRoundOfAllDefects = 3;
 
 }  // namespace
 
@@ -53,39 +52,30 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
-    std::vector<CellName> cells =
-        defect_cells({surface_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(), kept_.done(),
-                      places_of_difference(round == 1 ? kFewPlaces : kMostPlaces, round >= kRoundOfAllTrouble),
-                      round != kRoundOfAllTrouble, round_->evidence(), round_->located()});
-    cells.insert(cells.end(), along_.begin(), along_.end());
-    along_.clear();
-    if (!mend_once(std::move(cells), controls)) break;
+    const std::vector<std::vector<IndexBox>>& boxes =
+        differences_.find(mesh_, kept_.done(), round == 1 ? kFewBoxes : kMostBoxes);
+    mend_once(defect_cells({surface_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(),
+                            kept_.done(), boxes, round != kRoundOfAllDefects, round_->located()}),
+              controls);
   }
   return false;
 }
 
-// With these cells raised. False when signs alone did.
-bool RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
+// With these cells raised.
+void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   raised_.raise(std::move(cells));
-  if (stats_.rounds == 0 && try_rule(SignRule::kCircumcenter)) return false;  // may do without new samples
   resample();
   release_free_memory();
-  try_rules(controls);
+  take_signs();
   release_free_memory();
   try_signs(controls);
   ++stats_.rounds;
-  return true;
 }
 
 void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
   reopen(crossings);
   mend_once(cells_around(crossings, surface_, raised_), controls);
   ++rounds_around_;
-}
-
-void RepairRounds::take_along(std::span<const std::uint32_t> crossings) {
-  reopen(crossings);
-  along_ = cells_around(crossings, surface_, raised_);
 }
 
 // Their components.
@@ -131,8 +121,7 @@ void RepairRounds::resample() {
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || surface_.threads == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
-  const bool keeps_signs = stats_.rounds > 0;  // nobody has tried to mend those of stage 1
-  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), keeps_signs, exchanged)) {
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
@@ -149,55 +138,28 @@ void RepairRounds::resample() {
   samples_.take_vertices(vertex_of);
 }
 
-// Takes signs by a rule and keeps the mesh if it helps; true when no component is left.
-bool RepairRounds::try_rule(SignRule rule) {
-  return take(round_->attempts(std::span(&rule, 1), [](const MatchedMesh&) { return true; }).front());
+// Takes signs by the rule; keeps the mesh if it helps.
+void RepairRounds::take_signs() {
+  round_->take_signs();
+  std::optional<MatchedMesh> mesh = round_->assemble();
+  if (!mesh) return;
+  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
+  kept_.keep(mesh_, round_->restricted().signs());
 }
 
-bool RepairRounds::take(RepairRound::Attempt& attempt) {
-  if (!attempt.mesh) return false;
-  mesh_ = std::make_shared<MatchedMesh>(*std::move(attempt.mesh));
-  kept_.keep(mesh_, attempt.signs);
-  return kept_.is_done();
-}
-
-// One rule after another until every component is done; the mesh with the smallest error stays.
-void RepairRounds::try_rules(Controls& controls) {
-  std::shared_ptr<MatchedMesh> best;
-  TetSigns signs;
-  const std::span<const SignRule> rules = round_->rules();
-  const std::size_t at_once = surface_.threads > 1 ? rules.size() : 1;
-  bool is_over = false;
-  for (std::size_t first = 0; first < rules.size() && !is_over; first += at_once) {
-    for (RepairRound::Attempt& attempt :
-         round_->attempts(rules.subspan(first, at_once), [&](const auto& m) { return kept_.would_be_done(m); })) {
-      if (take(attempt)) return round_->set_signs(attempt.signs);
-      is_over = controls.poll();
-      if (!best || mesh_->match.error < best->match.error) {
-        best = mesh_;
-        signs = std::move(attempt.signs);
-      }
-      mesh_ = best;  // no other is needed any more
-      if (is_over) break;
-    }
-  }
-  round_->set_signs(signs);
-}
-
-// Single signs near the places where a component is wrong.
+// Single signs near the boxes in which a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
-  const std::vector<IndexRanges> places = places_of_difference(kMostPlaces, stats_.rounds + 1 >= kRoundOfAllTrouble);
-  std::optional<SignSearch> trials;
-  for (std::uint32_t c = 0; c < places.size(); ++c) {
-    if (kept_.done()[c] || places[c].all.empty()) continue;
-    if (!trials) trials.emplace(*round_, surface_.topology, raised_, round_->rules(), places);
+  const std::vector<std::vector<IndexBox>> boxes = differences_.find(mesh_, kept_.done(), kMostBoxes);
+  SignSearch search(*round_, surface_.topology, raised_, boxes);
+  for (std::uint32_t c = 0; c < boxes.size(); ++c) {
+    if (kept_.done()[c] || boxes[c].empty()) continue;
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       kept_.keep(mesh_, round_->restricted().signs());
       return static_cast<bool>(kept_.done()[c]);
     };
-    trials->mend(c, mesh_, improved, controls);
+    search.mend(c, mesh_, improved, controls);
   }
 }
 

@@ -34,8 +34,6 @@ class RepairRounds {
   // Reopens the components of some crossings that the mesh leaves out, with a round that samples the surface around
   // these. Then mend() may go on.
   void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
-  // The same, but beside what else is in trouble when the next round of mend() begins.
-  void take_along(std::span<const std::uint32_t> crossings);
   // The grid-edge crossings (places in topology.crossings) of the cells in which triangles of a mesh meet, ascending;
   // of the components that corners of these lie on.
   [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
@@ -64,21 +62,15 @@ class RepairRounds {
   SurfaceMesh as_it_is();
 
  private:
-  bool mend_once(std::vector<CellName> cells, Controls& controls);
+  void mend_once(std::vector<CellName> cells, Controls& controls);
   void reopen(std::span<const std::uint32_t> crossings);
   void resample();
-  bool try_rule(SignRule rule);
-  bool take(RepairRound::Attempt& attempt);
-  void try_rules(Controls& controls);
+  void take_signs();
   void try_signs(Controls& controls);
-  const std::vector<IndexRanges>& places_of_difference(std::size_t most, bool takes_curvature) {
-    return differences_.find(mesh_, kept_.done(), {most, takes_curvature});
-  }
 
   const ExactSurface& surface_;
   RepairStats& stats_;
   std::int64_t rounds_around_ = 0;  // of them by mend_around()
-  std::vector<CellName> along_;     // cells that the next round raises, too
   SampleLattice lattice_;
   CellLevels raised_;
   std::optional<RepairRound> round_;

@@ -1,5 +1,5 @@
-#include "delaunay/base/disjoint_sets.h"
 #include "surface/repair/signs/euler_change.h"
+#include "delaunay/base/disjoint_sets.h"
 
 #include <algorithm>
 #include <array>
@@ -102,25 +102,13 @@ class SimpleTet {
   const Tetrahedralization& delaunay_;
 };
 
-// Whether the mesh stays what it is, but for its place, when the tetrahedra are turned over one after the other.
-bool are_simple(SignedDelaunay& restricted, std::span<const TetId> tets) {
-  const SimpleTet is_simple(restricted);
-  std::size_t turned = 0;
-  while (turned < tets.size() && is_simple(tets[turned])) restricted.overturn_sign(tets[turned++]);
-  for (const TetId t : tets.first(turned)) restricted.overturn_sign(t);
-  return turned == tets.size();
-}
-
-// V - E + F of the simplices of the mesh whose vertices all belong to some tetrahedra. Signs of these change nothing
+// V - E + F of the simplices of the mesh whose vertices all belong to a tetrahedron. Its sign changes nothing
 // else: an umbrella, which is a vertex of the mesh, lies in the star of its vertex, an edge's facets around the edge.
 class LocalMesh {
  public:
-  LocalMesh(const SignedDelaunay& restricted, std::span<const TetId> tets)
-      : restricted_(restricted), delaunay_(restricted.delaunay()) {
-    for (const TetId t : tets) {
-      for (const VertexId v : delaunay_.vertices(t)) {
-        if (!restricted_.is_virtual(v) && !holds(v)) add(v, t);
-      }
+  LocalMesh(const SignedDelaunay& restricted, TetId t) : restricted_(restricted), delaunay_(restricted.delaunay()) {
+    for (const VertexId v : delaunay_.vertices(t)) {
+      if (!restricted_.is_virtual(v)) add(v, t);
     }
   }
 
@@ -160,7 +148,7 @@ class LocalMesh {
   std::vector<TetId> stars_;
   TetSet in_star_;
   std::vector<FacetId> facets_;  // of the mesh around one vertex, seen from above
-  DisjointSets umbrellas_;  // of these
+  DisjointSets umbrellas_;       // of these
 };
 
 // A vertex with the tetrahedra around it, one of which is known.
@@ -225,13 +213,13 @@ std::int64_t LocalMesh::doubled_facet(FacetId f, VertexId at) const {
 
 }  // namespace
 
-std::int64_t euler_change(SignedDelaunay& restricted, std::span<const TetId> tets) {
-  if (are_simple(restricted, tets)) return 0;  // nearly always
-  LocalMesh local(restricted, tets);
+std::int64_t euler_change(SignedDelaunay& restricted, TetId t) {
+  if (SimpleTet(restricted)(t)) return 0;  // nearly always
+  LocalMesh local(restricted, t);
   const std::int64_t before = local.doubled_characteristic();
-  for (const TetId t : tets) restricted.overturn_sign(t);
+  restricted.overturn_sign(t);
   const std::int64_t after = local.doubled_characteristic();
-  for (const TetId t : tets) restricted.overturn_sign(t);
+  restricted.overturn_sign(t);
   return (after - before) / 2;
 }
 

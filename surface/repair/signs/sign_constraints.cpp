@@ -7,8 +7,6 @@
 
 #include "delaunay/predicates.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/repair/signs/sample_locator.h"
-#include "surface/repair/signs/segment_clip.h"
 #include "volume/topology/cell_sweep.h"
 #include "volume/topology/critical_points.h"
 
@@ -22,13 +20,16 @@ constexpr double kShortest = 1.0 / 64;
 // Cells that one thread takes at a time.
 constexpr std::size_t kCellsAtOnce = 64;
 
+Vec3 corner_place(unsigned corner) {
+  return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
+}
+
 class Collector {
  public:
   Collector(const SignedDelaunay& restricted, const ScalarGrid& grid, std::vector<std::uint8_t>& sides)
       : restricted_(restricted),
         delaunay_(restricted.delaunay()),
         grid_(grid),
-        locator_(restricted, grid),
         sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
@@ -36,22 +37,13 @@ class Collector {
   std::vector<TetId> collect(const CellIndex& cell);
 
  private:
-  // A point of a segment and the tetrahedron that holds it.
-  struct Stop {
-    double s = 0;
-    Vec3 point;
-    SegmentClip passage;
-  };
-
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
-  void follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side);
-  [[nodiscard]] SegmentClip passage_of(TetId t, const Segment& segment) const {
-    return delaunay_.is_ghost(t) ? SegmentClip{t} : clip_segment(delaunay_, t, segment);
-  }
   TetId note(const Vec3& p, std::uint8_t side);
-  TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side);
+  TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
+    return note(place(cell, corner_place(corner)), side);
+  }
   void note_located(const Vec3& p, std::uint8_t side);
   // Several collectors may note at once; what is noted does not depend on the order.
   void note_at(TetId t, std::uint8_t side) {
@@ -68,7 +60,6 @@ class Collector {
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
-  SampleLocator locator_;
   std::vector<std::uint8_t>& sides_;  // shared
   TetId hint_;
   std::vector<CriticalPoint> critical_;
@@ -76,10 +67,6 @@ class Collector {
   Vec3 center_;
   std::vector<TetId> trace_;
 };
-
-Vec3 corner_place(unsigned corner) {
-  return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
-}
 
 std::vector<TetId> Collector::collect(const CellIndex& cell) {
   trace_.clear();
@@ -127,39 +114,18 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
   }
 }
 
+// Halves the segment until both ends lie in one tetrahedron.
 void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
-  if (at_a == at_b) return;
-  const Segment segment{a, b};
-  follow(segment, {0, a, passage_of(at_a, segment)}, {1, b, passage_of(at_b, segment)}, side);
-}
-
-// Halves the segment until both ends lie in one tetrahedron. Where the middle is surely in one of the two, that one has
-// taken note; only elsewhere is its tetrahedron looked for.
-void Collector::follow(const Segment& segment, const Stop& from, const Stop& to, std::uint8_t side) {
-  const double squared_length = squared_distance(from.point, to.point);
-  if (from.passage.tet == to.passage.tet || squared_length < kShortest * kShortest) return;
-  Stop middle{0.5 * (from.s + to.s), 0.5 * (from.point + to.point), {}};
-  if (from.passage.surely_holds(middle.s) || to.passage.surely_holds(middle.s)) {
-    middle.passage = from.passage.surely_holds(middle.s) ? from.passage : to.passage;
-    hint_ = middle.passage.tet;
-  } else {
-    middle.passage.tet = note(middle.point, side);
-    const bool is_last = squared_length < 4 * kShortest * kShortest;
-    if (!is_last) middle.passage = passage_of(hint_, segment);
-  }
-  follow(segment, from, middle, side);
-  follow(segment, middle, to, side);
+  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest) return;
+  const Vec3 middle = 0.5 * (a + b);
+  const TetId at_middle = note(middle, side);
+  follow(a, at_a, middle, at_middle, side);
+  follow(middle, at_middle, b, at_b, side);
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
   hint_ = restricted_.locate(p, center_, hint_);
   note_located(p, side);
-  return hint_;
-}
-
-TetId Collector::note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-  hint_ = locator_.locate(cell, corner, hint_);
-  note_located(place(cell, corner_place(corner)), side);
   return hint_;
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "delaunay/base/rng.h"
-#include "surface/repair/signs/sample_locator.h"
 #include "surface/repair/signs/spurious_pockets.h"
 #include "tests/support/surface_fields.h"
 
@@ -170,33 +169,6 @@ TEST(SpuriousPockets, AreTheSameForAnyNumberOfThreads) {
       SpuriousPockets several(restricted, scene->grid, threads);
       several.update();
       EXPECT_EQ(several.pockets(), one.pockets()) << "seed " << seed << ", " << threads << " threads";
-    }
-  }
-}
-
-TEST(SampleLocator, FindsWhatAWalkFromTheSameHintFinds) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto scene = noise_scene({8, 7, 6}, seed);
-    const SignedDelaunay restricted = dense(*scene);
-    SampleLocator locator(restricted, scene->grid);
-    Rng rng(seed);
-    TetId hint = restricted.delaunay().incident_tet(VertexId(std::size_t{0}));
-    for (int i = 0; i < 4000; ++i) {
-      std::array<std::int32_t, 3> cell{};
-      const auto corner = static_cast<unsigned>(rng.below(8));
-      Vec3 p;
-      Vec3 center;
-      for (unsigned axis = 0; axis < 3; ++axis) {
-        cell[axis] = static_cast<std::int32_t>(rng.below(static_cast<std::uint64_t>(scene->grid.dims()[axis] - 1)));
-        p[axis] = cell[axis] + static_cast<int>(corner >> axis & 1u);
-        center[axis] = cell[axis] + 0.5;
-      }
-      const Vec3& step = scene->isosurface->step();
-      const TetId expected = restricted.locate(scaled(p, step), scaled(center, step), hint);
-      const TetId found = locator.locate(cell, corner, hint);
-      const bool are_ghosts = restricted.delaunay().is_ghost(expected) && restricted.delaunay().is_ghost(found);
-      ASSERT_TRUE(found == expected || are_ghosts) << "seed " << seed;
-      hint = found;
     }
   }
 }

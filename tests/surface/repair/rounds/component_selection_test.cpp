@@ -55,7 +55,7 @@ struct Attempts {
         const bool is_live = round.restricted().delaunay().is_live(TetId(t));
         if (is_live && i > 0 && rng.below(100) < 3) tets.emplace_back(t);
       }
-      round.overturn(tets);
+      for (const TetId t : tets) round.overturn(t);
       std::optional<MatchedMesh> mesh = round.assemble();
       if (!mesh) continue;
       meshes.push_back(*std::move(mesh));

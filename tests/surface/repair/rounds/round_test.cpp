@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "surface/certificate/mesh_pieces.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/sample_lattice.h"
 #include "surface/repair/signs/sign_constraints.h"
@@ -18,9 +19,6 @@ namespace {
 using testing::noise_scene;
 using testing::Scene;
 using testing::TetName;
-
-constexpr std::array<SignRule, 4> kRules = {SignRule::kCentroidWithRing, SignRule::kCentroid,
-                                            SignRule::kCentroidWhereOpposed, SignRule::kCircumcenter};
 
 std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vector<Vec3>& points) {
   return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
@@ -88,14 +86,14 @@ std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& mat
   return pieces;
 }
 
-// Takes signs by every rule in both and compares all that comes of it.
+// Takes plain signs and those by the rule in both and compares all that comes of it.
 void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
   ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
   ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
   const std::vector<bool> all(points_of(fresh).size(), true);
-  for (const SignRule rule : kRules) {
-    continued.take_signs(rule);
-    fresh.take_signs(rule);
+  for (const bool is_plain : {false, true}) {
+    is_plain ? continued.take_plain_signs() : continued.take_signs();
+    is_plain ? fresh.take_plain_signs() : fresh.take_signs();
     ASSERT_EQ(evidence_by_name(continued), evidence_by_name(fresh)) << where;
     ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
     // Circumcenters are rounded otherwise when the vertices of a tetrahedron stand in another order.
@@ -151,7 +149,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
     }
 
     ExchangedPoints exchanged;
-    ASSERT_TRUE(continued.exchange(leaving, coming, true, exchanged)) << where;
+    ASSERT_TRUE(continued.exchange(leaving, coming, exchanged)) << where;
     std::vector<Vec3> left;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool leaves = std::find(leaving.begin(), leaving.end(), VertexId(i)) != leaving.end();
@@ -188,91 +186,6 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
-// Beside each other on several threads or one after the other by hand; and missing parts that were covered before.
-TEST(RepairRound, AttemptsAreTheSameForAnyNumberOfThreads) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto scene = noise_scene({11, 10, 9}, seed);
-    Rng rng(seed);
-    CellLevels raised(*scene->isosurface);
-    raise_some(*scene, raised, rng);
-    const auto never = [](const MatchedMesh&) { return false; };
-    for (const int threads : {1, 2, 3}) {
-      RepairRound beside(scene->surface(threads), raised, triangulation(*scene, all_crossings(*scene)));
-      RepairRound fresh(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
-      const std::vector<RepairRound::Attempt> attempts = beside.attempts(kRules, never);
-      ASSERT_EQ(attempts.size(), kRules.size());
-      for (std::size_t i = 0; i < attempts.size(); ++i) {
-        fresh.take_signs(kRules[i]);
-        EXPECT_EQ(attempts[i].signs, fresh.restricted().signs()) << "seed " << seed;
-        const auto expected = fresh.assemble();
-        ASSERT_EQ(attempts[i].mesh.has_value(), expected.has_value()) << "seed " << seed;
-        if (!expected) continue;
-        EXPECT_EQ(attempts[i].mesh->built.mesh.points, expected->built.mesh.points) << "seed " << seed;
-        EXPECT_EQ(attempts[i].mesh->built.mesh.triangles, expected->built.mesh.triangles) << "seed " << seed;
-        EXPECT_EQ(attempts[i].mesh->match.agreement, expected->match.agreement) << "seed " << seed;
-        EXPECT_EQ(attempts[i].mesh->match.error, expected->match.error) << "seed " << seed;
-      }
-    }
-  }
-}
-
-// What a round has turned over stays so in the next one, where its tetrahedra do.
-TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
-  std::size_t stayed = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const auto scene = noise_scene({11, 10, 9}, seed);
-    Rng rng(seed);
-    CellLevels raised(*scene->isosurface);
-    raise_some(*scene, raised, rng);
-    RepairRound round(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
-    round.take_signs(SignRule::kCentroid);
-    EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
-    const Tetrahedralization& delaunay = round.restricted().delaunay();
-    std::vector<TetId> some;
-    for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-      const TetId t(i);
-      const bool is_decided = round.evidence()[i] == kAbove || round.evidence()[i] == kBelow;
-      if (delaunay.is_live(t) && !delaunay.is_ghost(t) && !is_decided && rng.below(20) == 0) some.push_back(t);
-    }
-    round.overturn(some);
-    const TetSigns before = round.restricted().signs();
-
-    ExchangedPoints exchanged;
-    const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
-    ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
-    ASSERT_EQ(round.rules().front(), SignRule::kAsBefore);
-    round.take_signs(SignRule::kAsBefore);
-    const TetSigns after = round.restricted().signs();
-    std::vector<bool> is_renewed(after.size(), false);
-    for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
-    std::size_t others = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      if (is_renewed[i] || !delaunay.is_live(TetId(i))) continue;
-      (before[i] == after[i] ? stayed : others) += 1;
-    }
-    // Pockets that lost their foundation.
-    EXPECT_LE(others, 4u) << "seed " << seed;
-    round.take_signs(SignRule::kCentroid);
-    EXPECT_NE(round.restricted().signs(), after);
-  }
-  EXPECT_GT(stayed, 1000u);
-}
-
-TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
-  const auto scene = noise_scene({9, 9, 9}, 1);
-  const CellLevels raised(*scene->isosurface);
-  RepairRound round(scene->surface(), raised, triangulation(*scene, all_crossings(*scene)));
-  round.take_signs(SignRule::kCircumcenter);
-  ExchangedPoints exchanged;
-  const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
-  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
-  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
-  ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
-  EXPECT_EQ(round.rules().front(), SignRule::kAsBefore);
-  ASSERT_TRUE(round.exchange(leaving, {}, false, exchanged));
-  EXPECT_EQ(round.rules().front(), SignRule::kCentroidWithRing);
-}
-
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
@@ -280,7 +193,7 @@ TEST(RepairRound, WithGuardsHasToBeginAnew) {
   RepairRound round(scene->surface(), raised, triangulation(*scene, points));
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};
-  EXPECT_FALSE(round.exchange({}, coming, true, exchanged));
+  EXPECT_FALSE(round.exchange({}, coming, exchanged));
 }
 
 }  // namespace

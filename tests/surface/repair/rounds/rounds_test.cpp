@@ -65,27 +65,6 @@ std::vector<std::uint32_t> some_crossings(const testing::Scene& scene) {
   return {};
 }
 
-TEST(RepairRounds, WhatIsTakenAlongIsSampledInTheNextRound) {
-  int finer = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    SCOPED_TRACE(seed);
-    MendedScene mended(seed);
-    if (!mended.rounds->may_go_on(kMostRounds)) continue;
-    ASSERT_TRUE(mended.rounds->is_done());
-    const std::vector<std::uint32_t> crossings = some_crossings(*mended.scene);
-    const std::int64_t vertices = mended.vertices_near(crossings), rounds = mended.stats.rounds;
-
-    mended.rounds->take_along(crossings);
-    EXPECT_FALSE(mended.rounds->is_done());
-    EXPECT_EQ(mended.stats.rounds, rounds) << "nothing happens before the next round";
-    mended.mend();
-    EXPECT_TRUE(mended.rounds->is_done());
-    EXPECT_GT(mended.stats.rounds, rounds);
-    finer += mended.vertices_near(crossings) > vertices ? 1 : 0;
-  }
-  EXPECT_GE(finer, 2);
-}
-
 TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   int finer = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -103,8 +82,7 @@ TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   EXPECT_GE(finer, 2);
 }
 
-// Several threads try later rules beside the one that is taken. The signs are those of the latter all the same: pole
-// heights tell, and what the next round makes of them.
+// Pole heights tell of signs, and so does what the next round makes of them.
 TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);

@@ -1,7 +1,6 @@
-#include "surface/repair/signs/sign_rules.h"
+#include "surface/repair/signs/sign_rule.h"
 
 #include <algorithm>
-#include <array>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -14,8 +13,6 @@ namespace {
 
 // Tetrahedra with an edge longer than this (mesh-space units) keep the sign of their circumcenter everywhere.
 constexpr double kLongEdge = 2;
-// Gradients at vertices are taken a little towards the centroid: vertices lie on cell sides, where the gradient jumps.
-constexpr double kInwards = 1e-5;
 
 struct Shape {
   Vec3 centroid;  // of a small one
@@ -58,43 +55,30 @@ class CellSet {
   std::vector<bool> sieve_;
 };
 
-bool has_opposed_gradients(const SignedDelaunay& restricted, TetId t, const Vec3& centroid) {
-  std::array<Vec3, 4> gradient;
-  const unsigned corners = restricted.delaunay().is_ghost(t) ? 3 : 4;
-  for (unsigned a = 0; a < corners; ++a) {
-    const Vec3& p = restricted.delaunay().point(restricted.delaunay().vertices(t)[a]);
-    gradient[a] = restricted.isosurface().gradient(p + kInwards * (centroid - p));
-    for (unsigned b = 0; b < a; ++b) {
-      if (dot(gradient[a], gradient[b]) < 0) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
-SignRules::SignRules(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads)
+SignRule::SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads)
     : restricted_(restricted), raised_(raised), threads_(threads), evidence_(restricted, grid) {
   update();
 }
 
-void SignRules::renew(const ExchangedPoints& exchanged) {
+void SignRule::renew(const ExchangedPoints& exchanged) {
   evidence_.renew(exchanged);
   renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
 }
 
-void SignRules::update() {
-  are_candidates_stale_ = true;
+void SignRule::update() {
   evidence_.update(raised_, threads_);
-  overruled_.clear();
+  by_evidence_.clear();
   const std::vector<std::uint8_t>& sides = evidence_.sides();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i] != kAbove && sides[i] != kBelow) continue;
-    if (shape_of(restricted_, TetId(i)).is_small) overruled_.emplace_back(TetId(i), sides[i] == kAbove);
+    if (shape_of(restricted_, TetId(i)).is_small) by_evidence_.emplace_back(TetId(i), sides[i] == kAbove);
   }
+  update_by_centroid();
 }
 
-void SignRules::update_homes() {
+void SignRule::update_homes() {
   const auto find_home = [&](TetId t) {
     const Shape shape = restricted_.delaunay().is_live(t) ? shape_of(restricted_, t) : Shape{};
     homes_[t.index()] = shape.is_small ? raised_.name(raised_.cell_of(shape.centroid)) : kNoCell;
@@ -110,42 +94,28 @@ void SignRules::update_homes() {
   });
 }
 
-// Only tetrahedra that are new or whose cell is in another zone than before have anything new to say.
-void SignRules::update_candidates() {
-  if (!are_candidates_stale_) return;
-  are_candidates_stale_ = false;
-  const CellSet changed(raised_.extend(zones_));
+// Only tetrahedra that are new or whose cell has come into the zone have anything new to say.
+void SignRule::update_by_centroid() {
+  const CellSet added(raised_.extend(zone_));
   update_homes();
   std::vector<bool> is_renewed(homes_.size(), false);
   for (const TetId t : renewed_) is_renewed[t.index()] = true;
   renewed_.clear();
-  const auto is_stale = [&](TetId t) { return is_renewed[t.index()] || changed.contains(homes_[t.index()]); };
-  std::erase_if(candidates_, [&](const Candidate& candidate) { return is_stale(candidate.tet); });
-  const auto append_if_candidate = [&](std::size_t i, std::vector<Candidate>& candidates) {
+  std::erase_if(by_centroid_, [&](const auto& sign) { return is_renewed[sign.first.index()]; });
+  const auto append_if_new = [&](std::size_t i, Signs& signs) {
     const TetId t(i);
-    if (homes_[i] == kNoCell || !is_stale(t)) return;
-    const auto at = zones_.find(homes_[i]);
-    if (at == zones_.end()) return;
-    const Vec3 centroid = shape_of(restricted_, t).centroid;
-    const bool in_ring = at->second == CellLevels::Zone::kRing;
-    candidates.push_back({t, in_ring, restricted_.isosurface().is_above(centroid),
-                          !in_ring && has_opposed_gradients(restricted_, t, centroid)});
+    if (homes_[i] == kNoCell) return;
+    if (!added.contains(homes_[i]) && !(is_renewed[i] && zone_.cells.contains(homes_[i]))) return;
+    signs.emplace_back(t, restricted_.isosurface().is_above(shape_of(restricted_, t).centroid));
   };
-  const std::vector<Candidate> found = collect_in_blocks<Candidate>(homes_.size(), threads_, append_if_candidate);
-  candidates_.insert(candidates_.end(), found.begin(), found.end());
+  const Signs found = collect_in_blocks<Signs::value_type>(homes_.size(), threads_, append_if_new);
+  by_centroid_.insert(by_centroid_.end(), found.begin(), found.end());
 }
 
-void SignRules::take_signs(SignRule rule, const TetSigns& start) {
-  restricted_.set_signs(start);
-  if (rule != SignRule::kCircumcenter && rule != SignRule::kAsBefore) {
-    update_candidates();
-    for (const Candidate& candidate : candidates_) {
-      if (candidate.in_ring && rule != SignRule::kCentroidWithRing) continue;
-      if (!candidate.is_opposed && rule == SignRule::kCentroidWhereOpposed) continue;
-      restricted_.set_sign(candidate.tet, candidate.is_above);
-    }
-  }
-  for (const auto& [tet, is_above] : overruled_) restricted_.set_sign(tet, is_above);
+void SignRule::take_signs(const TetSigns& at_circumcenters) {
+  restricted_.set_signs(at_circumcenters);
+  for (const auto& [tet, is_above] : by_centroid_) restricted_.set_sign(tet, is_above);
+  for (const auto& [tet, is_above] : by_evidence_) restricted_.set_sign(tet, is_above);
 }
 
 }  // namespace deliso
