@@ -40,7 +40,7 @@ RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& raised,
 
 // Of the vertices from this one on.
 void RepairRound::find_components(std::size_t first_vertex) {
-  component_of_vertex_.resize(restricted_->delaunay().vertex_count(), 0);
+  component_of_vertex_.resize(restricted_->delaunay().vertex_count(), kNoComponent);
   const Isosurface& isosurface = restricted_->isosurface();
   const Vec3& step = isosurface.step();
   covered_by_.resize(component_of_vertex_.size(), kNoFacet);
@@ -50,7 +50,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
       const Vec3& p = restricted_->delaunay().point(VertexId(i));
       const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
       component_of_vertex_[i] =
-          component_of(surface_.grid(), isosurface.isovalue(), surface_.topology, index_point).value_or(0);
+          component_of(surface_.grid(), isosurface.isovalue(), surface_.topology, index_point).value_or(kNoComponent);
     }
   };
   for_each_block(component_of_vertex_.size() - first_vertex, surface_.threads, find, kVerticesAtOnce);

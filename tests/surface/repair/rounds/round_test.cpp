@@ -186,6 +186,27 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
+// A vertex away from the surface, in a cell that it does not cross, counts for no component.
+TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
+  const auto scene = testing::field_scene("sphere", 24);
+  std::vector<Vec3> points = all_crossings(*scene);
+  points.emplace_back(11.5, 11.6, 11.7);
+  points.emplace_back(1.4, 1.5, 1.6);
+  const CellLevels raised(*scene->isosurface);
+  RepairRound round(scene->surface(), raised, triangulation(*scene, points));
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < round.component_of_vertex().size(); ++i) {
+    const Vec3& p = round.restricted().delaunay().point(VertexId(i));
+    const bool is_off = distance(p, points.back()) < 0.1 || distance(p, points[points.size() - 2]) < 0.1;
+    EXPECT_EQ(round.component_of_vertex()[i], is_off ? kNoComponent : 0u) << i;
+    off += is_off ? 1 : 0;
+  }
+  EXPECT_EQ(off, 2u);
+  // Nor is it a part that the mesh misses.
+  round.take_plain_signs();
+  EXPECT_TRUE(round.assemble().has_value());
+}
+
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
