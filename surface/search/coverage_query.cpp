@@ -7,16 +7,14 @@
 #include <utility>
 
 #include "delaunay/constructions.h"
-#include "surface/mesh/triangle_distance.h"
+#include "surface/search/nearness.h"
 
 namespace deliso {
 
 namespace {
 
-constexpr double kNear = 0.8;  // mesh-space units
-constexpr double kClose = 0.5;
-// How far off the surface a triangle of stage 1 is taken to be at most, in circumradii.
-constexpr double kRadiusFraction = 0.3;
+using nearness::kClose;
+constexpr double kNear = nearness::kCrossing;
 // Points in a row that fit into a box with this diagonal, as those of a brick do (surface/recover/coverage.cpp), share
 // the triangles that are near to any of them.
 constexpr double kGroupDiagonal = 14;
@@ -35,12 +33,6 @@ double extent(const SurfaceMesh& mesh, std::uint32_t t) {
   const double radius = circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
   const double edge = std::sqrt(squared_longest_edge(mesh, t));
   return radius < edge ? radius : edge;
-}
-
-// What is near something in the box lies in it.
-Box3 widened(const Box3& box) {
-  constexpr Vec3 kAround{kNear, kNear, kNear};
-  return {box.low - kAround, box.high + kAround};
 }
 
 // Calls visit(first, end, box) for points in a row that lie within a box with such a diagonal, as many as do.
@@ -65,14 +57,13 @@ CoverageQuery::CoverageQuery(const SurfaceMesh& mesh, int threads)
           mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); }, threads) {}
 
 double CoverageQuery::squared_distance_to(const Vec3& p, std::uint32_t triangle) const {
-  const auto& v = mesh_.triangles[triangle];
-  return squared_distance_to_triangle(p, mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+  return nearness::squared_distance(p, mesh_, mesh_.triangles[triangle]);
 }
 
 CoverageQuery::Cover CoverageQuery::cover_by(const Nearest& nearest) const {
   if (nearest.squared < kClose * kClose) return Cover::kClose;
   if (nearest.squared < kNear * kNear) return Cover::kFar;
-  const double reach = kRadiusFraction * extent(mesh_, nearest.triangle);
+  const double reach = nearness::kOfCircumradius * extent(mesh_, nearest.triangle);
   return nearest.squared <= reach * reach ? Cover::kFar : Cover::kNone;
 }
 
@@ -131,10 +122,10 @@ void CoverageQuery::look_at_group(std::span<const Vec3> group, const Box3& box, 
 void CoverageQuery::find_near(const Box3& box, Work& work) const {
   const Vec3 middle = 0.5 * box.low + 0.5 * box.high;
   work.near.clear();
-  tree_.for_each_meeting(widened(box), [&](std::uint32_t t) {
+  tree_.for_each_meeting(nearness::widened(box, kNear), [&](std::uint32_t t) {
     const auto& v = mesh_.triangles[t];
     const Vec3 &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
-    work.near.push_back({t, widened(box_of(mesh_, t)), TrianglePlanes(a, b, c, middle)});
+    work.near.push_back({t, nearness::widened(box_of(mesh_, t), kNear), TrianglePlanes(a, b, c, middle)});
   });
 }
 

@@ -18,12 +18,12 @@ class CoverageQuery {
   // Keeps a reference to the mesh.
   explicit CoverageQuery(const SurfaceMesh& mesh, int threads = 1);
 
-  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (of a
-  // sliver, 0.3 longest edges): a coarse triangle may well be that far off the surface that it approximates. `guess` is
-  // a triangle that may be near, and becomes one that is nearer, if any: a good guess for a point nearby. The answer
-  // does not depend on it.
+  // Whether p lies within nearness::kCrossing (nearness.h) of some triangle, or within nearness::kOfCircumradius of the
+  // nearest one (of a sliver, as much of its longest edge): a coarse triangle may well be that far off the surface that
+  // it approximates. `guess` is a triangle that may be near, and becomes one that is nearer, if any: a good guess for a
+  // point nearby. The answer does not depend on it.
   [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const { return look(p, guess) != Cover::kNone; }
-  // The same, and whether it is within 0.5 units.
+  // The same, and whether it is within nearness::kClose.
   enum class Cover : std::uint8_t { kNone, kFar, kClose };
   [[nodiscard]] Cover look(const Vec3& p, std::uint32_t& guess) const;
   // covers[i] = look(points[i]): much faster than one by one where points that follow each other lie near each other.

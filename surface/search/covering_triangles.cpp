@@ -2,33 +2,26 @@
 
 #include "delaunay/base/box3.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
+#include "surface/search/nearness.h"
 #include "surface/search/occupied_blocks.h"
 
 namespace deliso {
 
 namespace {
 
-// How far a sample may be left out by the mesh. Stage 1 leaves out crossings that are nearer to a sample than
-// stage1.size_bound_voxels (0.3), so the crossings around it lie less than a voxel off the mesh, too.
-constexpr double kSampleReach = 0.65;
 constexpr double kBlock = 4;  // side of the blocks near samples
 
 // All that a triangle covers lies in it.
 Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
-  constexpr Vec3 kReach{kSampleReach, kSampleReach, kSampleReach};
-  const Box3 box = box_of(mesh, t);
-  return {box.low - kReach, box.high + kReach};
+  return nearness::widened(box_of(mesh, t), nearness::kSample);
 }
 
 }  // namespace
 
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle) {
-  if (!box_around(mesh, triangle).contains(p)) return false;
-  const auto& v = mesh.triangles[triangle];
-  return squared_distance_to_triangle(p, mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <=
-         kSampleReach * kSampleReach;
+  return box_around(mesh, triangle).contains(p) &&
+         nearness::is_near(p, mesh, mesh.triangles[triangle], nearness::kSample);
 }
 
 std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
@@ -42,7 +35,7 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
   const auto append_if_near = [&](std::size_t i, std::vector<std::uint32_t>& near) {
     const auto t = static_cast<std::uint32_t>(i);
     // A corner far from all points tells of a small triangle: sides and reach together stay within a block.
-    const double small = blocks.reach() - 2 * kSampleReach;
+    const double small = blocks.reach() - 2 * nearness::kSample;
     if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && squared_longest_edge(mesh, t) <= small * small) return;
     if (takes(t)) near.push_back(t);
   };

@@ -10,7 +10,7 @@
 
 namespace deliso {
 
-// Whether a sample lies within 0.65 mesh-space units of a triangle.
+// Whether a sample lies within nearness::kSample (nearness.h) of a triangle.
 bool is_covered_by(const Vec3& p, const SurfaceMesh& mesh, std::uint32_t triangle);
 // For each of a few points, on several threads: the first triangle t that covers it so and for which takes(t) holds;
 // kNoTriangle when there is none.

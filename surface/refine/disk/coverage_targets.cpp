@@ -10,6 +10,7 @@
 #include "delaunay/base/box3.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/triangle_distance.h"
+#include "surface/search/nearness.h"
 #include "surface/search/occupied_blocks.h"
 #include "surface/search/point_grid.h"
 
@@ -17,7 +18,6 @@ namespace deliso {
 
 namespace {
 
-constexpr double kNear = 0.8;       // mesh-space units
 constexpr double kBlock = 2;        // side of the blocks near coverage targets
 constexpr double kLikelyBlock = 3;  // and of those in which a likely triangle is looked for: hardly any holds none
 constexpr double kFarthest = 6;     // where the nearest triangle is looked for
@@ -26,15 +26,12 @@ constexpr double kTimesHeight = 2;
 constexpr double kSmallRadius = kLong / 2;  // of a ball: no edge is longer than it is wide
 constexpr double kRounding = 1.01;
 
-Box3 widened(const Box3& box, double reach) {
-  const Vec3 around{reach, reach, reach};
-  return {box.low - around, box.high + around};
-}
+using nearness::widened;
 
 class CoverageTargetSearch {
  public:
   CoverageTargetSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
-      : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, kNear)), threads_(threads) {}
+      : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, nearness::kCrossing)), threads_(threads) {}
 
   [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> coverage_targets) const;
   // Of coverage targets that are far from all triangles.

@@ -26,10 +26,11 @@ struct MissedTarget {
 // its triangle, too, or have no radius.
 using BallOf = std::function<SurfaceDelaunayBall(std::uint32_t triangle)>;
 
-// The coverage targets that a mesh has no triangle near, farthest first. Near is within `least` or 0.8 mesh-space
-// units, whichever is more; and a triangle with an edge longer than 4 units is near as far as twice its own height h,
-// but no farther than its edge is long, for where the surface is smooth it may be that far off. A coverage target
-// without any triangle within 6 units is not told of. The same for any number of threads.
+// The coverage targets that a mesh has no triangle near, farthest first. Near is within `least` or
+// nearness::kCrossing (surface/search/nearness.h), whichever is more; and a triangle with an edge longer than 4 units
+// is near as far as twice its own height h, but no farther than its edge is long, for where the surface is smooth it
+// may be that far off. A coverage target without any triangle within 6 units is not told of. The same for any number of
+// threads.
 std::vector<MissedTarget> missed_targets(std::span<const Vec3> coverage_targets, const RefinementMesh& mesh,
                                          const BallOf& ball_of, double least, int threads);
 

@@ -9,20 +9,16 @@
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/mesh/minimum_area_triangulation.h"
-#include "surface/mesh/triangle_distance.h"
 #include "surface/mesh/vertex_decimation.h"
 #include "surface/search/box_tree.h"
+#include "surface/search/nearness.h"
 
 namespace deliso {
 
 namespace {
 
-// A dent has an edge longer than this (mesh-space units),
+// An inverted umbrella that matters has an edge longer than this (mesh-space units).
 constexpr double kLeastEdge = 1;
-// and the surface is farther than this from the middle of some triangle at it.
-constexpr double kLeastDistance = 0.5;
-// The vertex goes when the rest of the mesh is no farther from it than this (mesh-space units).
-constexpr double kFarthestCover = 0.2;
 
 // So many vertices are a thread's at a time.
 constexpr std::size_t kVerticesAtOnce = 2048;
@@ -173,7 +169,7 @@ void InvertedUmbrellas::find_surroundings() {
 Box3 InvertedUmbrellas::box_around(std::uint32_t v, const VertexFan& fan) const {
   Box3 box;
   for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
-  const Vec3 around{kFarthestCover, kFarthestCover, kFarthestCover};
+  const Vec3 around{nearness::kRemoved, nearness::kRemoved, nearness::kRemoved};
   box.extend(mesh_.points[v] - around);
   box.extend(mesh_.points[v] + around);
   return box;
@@ -233,7 +229,7 @@ double InvertedUmbrellas::far_area(const Triangles& triangles) {
   for (const auto& t : triangles) {
     const Vec3 n = normal(t), middle = (mesh_.points[t[0]] + mesh_.points[t[1]] + mesh_.points[t[2]]) / 3;
     if (!(norm(n) > 0)) continue;
-    if (!isosurface_.nearest_falling_hit({middle, n / norm(n)}, kLeastDistance, search_)) area += 0.5 * norm(n);
+    if (!isosurface_.nearest_falling_hit({middle, n / norm(n)}, nearness::kFacing, search_)) area += 0.5 * norm(n);
   }
   return area;
 }
@@ -241,8 +237,7 @@ double InvertedUmbrellas::far_area(const Triangles& triangles) {
 // Whether the mesh without the vertex is still there where the vertex was: the surface is.
 bool InvertedUmbrellas::is_covered(const Apex& apex, const Triangles& filling) const {
   const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
-    return squared_distance_to_triangle(mesh_.points[apex.vertex], mesh_.points[t[0]], mesh_.points[t[1]],
-                                        mesh_.points[t[2]]) <= kFarthestCover * kFarthestCover;
+    return nearness::is_near(mesh_.points[apex.vertex], mesh_, t, nearness::kRemoved);
   };
   return std::any_of(filling.begin(), filling.end(), is_near) || any_around(apex, is_near);
 }
