@@ -25,6 +25,7 @@ bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
     return mesh_.triangles[m.triangle].state | RefinementMesh::Triangle::kFlags;
   };
   std::vector<std::uint32_t> generations;  // of the nearest triangles
+  generations.reserve(missed.size());
   for (const MissedTarget& m : missed) generations.push_back(generation(m));
   const std::int64_t before = stats_.coverage_targets;
   for (std::size_t i = 0; i < missed.size(); ++i) {

@@ -155,6 +155,7 @@ std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<cons
 
 std::vector<Slab> most_work_first(std::vector<Slab> slabs, const RefinementMesh& mesh, std::span<const float> work) {
   std::vector<std::pair<double, Slab>> by_work;  // in the order of places
+  by_work.reserve(slabs.size());
   for (const Slab& slab : slabs) by_work.emplace_back(0, slab);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.triangles[t].is_coarse()) continue;

@@ -56,10 +56,11 @@ void SampleLattice::append_lines(const CellIndex& cell, int parts, std::vector<L
         point[axis] = cell[axis] + edge_parameter(end[0], end[1], isovalue_);
         point[u] = cell[u] + fu;
         point[v] = cell[v] + fv;
+        const std::uint64_t step = kFinest / static_cast<std::uint64_t>(parts);
         std::array<std::uint64_t, 3> eighths{};
         eighths[axis] = static_cast<std::uint64_t>(cell[axis]) * kFinest;
-        eighths[u] = static_cast<std::uint64_t>(cell[u] * kFinest + iu * (kFinest / parts));
-        eighths[v] = static_cast<std::uint64_t>(cell[v] * kFinest + iv * (kFinest / parts));
+        eighths[u] = static_cast<std::uint64_t>(cell[u]) * kFinest + static_cast<std::uint64_t>(iu) * step;
+        eighths[v] = static_cast<std::uint64_t>(cell[v]) * kFinest + static_cast<std::uint64_t>(iv) * step;
         samples.push_back({line_key(axis, eighths), point});
       }
     }
