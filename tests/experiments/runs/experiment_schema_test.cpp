@@ -195,6 +195,8 @@ TEST(ExperimentSchema, EveryFileUnderConfigsValidates) {
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(DELISO_SOURCE_DIR) / "configs")) {
     if (!entry.is_regular_file()) continue;
     SCOPED_TRACE(entry.path());
+    // Beside them stand pages, and the sentences from which one of them is made.
+    if (entry.path().extension() == ".md" || entry.path().filename() == "answers.txt") continue;
     EXPECT_EQ(entry.path().extension(), ".json");
     const Json document = read_json(entry.path());
     if (entry.path().parent_path().filename() == "reference") continue;
