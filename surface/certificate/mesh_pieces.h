@@ -12,7 +12,7 @@
 
 namespace deliso {
 
-// Marks all triangles that hang together with one across their sides; returns them. Precondition: none is marked.
+// Marks and returns all triangles connected with `seed` across sides. Precondition: none of them is marked.
 std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked);
 
 // Each vertex of some triangles once, ascending.
@@ -50,7 +50,7 @@ inline std::vector<ComponentShare> largest_shares_of_pieces(std::span<const Comp
                                                             std::size_t pieces) {
   return largest_shares(shares, pieces, [](const ComponentShare& share) { return share.piece; });
 }
-// The component that a single piece counts for; nothing when none of its vertices lies on one.
+// The component of most vertices, the first of equals; nothing when no vertex has one.
 std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> component_of);
 
 }  // namespace deliso

@@ -12,7 +12,7 @@ PinchNeighbourhoods::PinchNeighbourhoods(const SurfaceMesh& mesh, std::span<cons
   find_those_near_homes();
 }
 
-// The triangles at all vertices that stand beside a copy.
+// Finds the triangles at all vertices that share a triangle with a copy.
 void PinchNeighbourhoods::find_fans() {
   std::vector<bool> is_copy(mesh_.points.size(), false);
   for (const PinchGroup& group : groups_) {
