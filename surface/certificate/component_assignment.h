@@ -1,7 +1,7 @@
 // Whether every exact component has a piece of the mesh of its own at its own position.
 //
-// Counts alone cannot tell: they are right for a mesh that has one component twice and another component joined to a
-// third.
+// Counts alone cannot tell: they are right, too, for a mesh in which one piece covers two components and one of these
+// components is meshed a second time.
 #pragma once
 
 #include <cstdint>

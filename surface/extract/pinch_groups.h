@@ -18,8 +18,8 @@ inline constexpr double kPinchSeparation = 9e-4;
 // first. With has_position_off_surface the last of these may lie off the surface, because no better one was found.
 struct Copy {
   std::uint32_t vertex = 0;
-  std::vector<Vec3> other_homes;
-  bool has_false_home = false;
+  std::vector<Vec3> other_positions;
+  bool has_position_off_surface = false;
 };
 using PinchGroup = std::vector<Copy>;
 

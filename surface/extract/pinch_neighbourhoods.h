@@ -34,13 +34,14 @@ class PinchNeighbourhoods {
 
  private:
   void find_fans();
-  void find_those_near_homes();
+  void find_those_near_other_positions();
 
   const SurfaceMesh& mesh_;
   std::span<const PinchGroup> groups_;
   std::span<const VertexId> origin_of_;
-  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;        // by origin
-  std::unordered_map<std::size_t, std::vector<std::uint32_t>> near_homes_;  // by group, for those with other positions
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin
+  // By group, for those with other positions.
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> near_other_positions_;
 };
 
 }  // namespace deliso

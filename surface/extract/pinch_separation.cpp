@@ -38,7 +38,7 @@ class Separation {
         moved_at_(groups.empty() ? 0 : mesh.points.size(), 0) {
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       chosen_.push_back(i);
-      for (const Copy& copy : groups_[i]) home_[copy.vertex] = mesh_.points[copy.vertex];
+      for (const Copy& copy : groups_[i]) own_position_[copy.vertex] = mesh_.points[copy.vertex];
     }
   }
 
@@ -73,7 +73,7 @@ class Separation {
   void move(const Copy& copy, int fewest, bool is_stubborn);
   [[nodiscard]] int conflicts(std::uint32_t copy, int most = std::numeric_limits<int>::max());
   [[nodiscard]] int unavoidable_conflicts(std::uint32_t copy) const;
-  [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
+  [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& position) const;
 
   [[nodiscard]] bool has_area_at(std::uint32_t t) const {
     const auto& v = mesh_.triangles[t];
@@ -84,9 +84,9 @@ class Separation {
   std::span<const PinchGroup> groups_;
   PinchNeighbourhoods around_;
   const Box3& box_;
-  std::vector<Surrounding> surroundings_;         // triangles around the group at hand
-  std::unordered_map<std::uint32_t, Vec3> home_;  // the own position of each copy
-  std::vector<std::size_t> chosen_;               // groups to separate, ascending
+  std::vector<Surrounding> surroundings_;                 // triangles around the group at hand
+  std::unordered_map<std::uint32_t, Vec3> own_position_;  // the own position of each copy
+  std::vector<std::size_t> chosen_;                       // groups to separate, ascending
 
   std::vector<std::vector<std::uint32_t>> triangles_;  // around each group, once they have been asked for
   std::uint32_t turn_ = 0;                             // counts the groups visited in all sweeps
@@ -156,12 +156,12 @@ void Separation::look_again_at(std::uint32_t copy) {
   }
 }
 
-double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
+double Separation::shortest_edge(std::uint32_t copy, const Vec3& position) const {
   double shortest = box_.diagonal();
   for (const std::uint32_t t : around_.fan(copy)) {
     if (!around_.is_at(t, copy)) continue;
     for (const std::uint32_t v : mesh_.triangles[t]) {
-      const double length = distance(home, mesh_.points[v]);
+      const double length = distance(position, mesh_.points[v]);
       if (v != copy && length > 2 * kDistances.front()) shortest = std::min(shortest, length);
     }
   }
@@ -173,15 +173,15 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   const std::uint32_t v = copy.vertex;
   Vec3 best = mesh_.points[v];
   const int least = unavoidable_conflicts(v);
-  std::vector<Vec3> homes = copy.other_homes;
-  homes.insert(homes.begin(), home_[v]);
-  for (const Vec3& home : homes) {
-    const double farthest = kEdgeFraction * shortest_edge(v, home);
-    mesh_.points[v] = home;
+  std::vector<Vec3> positions = copy.other_positions;
+  positions.insert(positions.begin(), own_position_[v]);
+  for (const Vec3& position : positions) {
+    const double farthest = kEdgeFraction * shortest_edge(v, position);
+    mesh_.points[v] = position;
     for (const Vec3& towards : pinch_directions(mesh_, around_, box_, v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest <= least) break;
-        mesh_.points[v] = home + std::min(length, farthest) * towards;
+        mesh_.points[v] = position + std::min(length, farthest) * towards;
         const int left = conflicts(v, fewest);
         if (left >= fewest) continue;
         fewest = left;

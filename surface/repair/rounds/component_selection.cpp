@@ -71,8 +71,8 @@ class TrueHomes {
   explicit TrueHomes(const BuiltMesh& built) {
     for (const PinchGroup& group : built.groups) {
       for (const Copy& copy : group) {
-        if (!copy.has_false_home) continue;
-        std::vector<Vec3> homes = copy.other_homes;
+        if (!copy.has_position_off_surface) continue;
+        std::vector<Vec3> homes = copy.other_positions;
         homes.insert(homes.begin(), built.mesh.points[copy.vertex]);
         homes.pop_back();
         homes_.emplace_back(copy.vertex, std::move(homes));

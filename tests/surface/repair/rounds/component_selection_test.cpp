@@ -74,8 +74,8 @@ std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Ve
                                     const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
   for (const PinchGroup& group : built.groups) {
-    for (const auto& [v, others, has_false_home] : group) {
-      if (!has_false_home || !is_wanted(v)) continue;
+    for (const auto& [v, others, has_position_off_surface] : group) {
+      if (!has_position_off_surface || !is_wanted(v)) continue;
       double nearest = others.empty() ? 1 : distance(built.mesh.points[v], before[v]);
       for (std::size_t i = 0; i + 1 < others.size(); ++i) {
         nearest = std::min(nearest, distance(built.mesh.points[v], others[i]));
