@@ -97,10 +97,10 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
-      distrust_all(part.mesh);
+      clear_all_clearances(part.mesh);
     } else {
       add_places(found, suspects);
-      distrust(part.mesh, suspects);
+      clear_clearances_near(part.mesh, suspects);
     }
   }
   least.redo(part.mesh);

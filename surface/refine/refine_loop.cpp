@@ -129,7 +129,7 @@ bool RefineLoop::treat(std::uint32_t triangle) {
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
     if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    guard_->distrust(triangle);
+    guard_->mark_if_far_off(triangle);
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
@@ -245,7 +245,7 @@ void RefineLoop::replace_disk(const Candidate& candidate) {
     if (triangle.is_coarse() && is_wanted(t)) queue(t, star_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!star_[i].has_hit) guard_->distrust(slots_[i]);
+    if (!star_[i].has_hit) guard_->mark_if_far_off(slots_[i]);
   }
 }
 

@@ -111,7 +111,7 @@ void set_clearances(RefinementMesh& mesh) {
   bound_clearances(mesh, doubled_vertices(mesh));
 }
 
-void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+void clear_clearances_near(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   if (suspects.empty()) return;
   // Mostly all of them are close together.
   Box3 around;
@@ -131,7 +131,7 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   bound_clearances(mesh, std::move(reached));
 }
 
-void distrust_all(RefinementMesh& mesh) {
+void clear_all_clearances(RefinementMesh& mesh) {
   for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = 0;
 }
 

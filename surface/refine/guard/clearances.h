@@ -12,8 +12,8 @@ namespace deliso {
 // Sets the clearance of every vertex.
 void set_clearances(RefinementMesh& mesh);
 // Sets clearances to 0 near points where triangles came to meet, so that the guard tests all stars there.
-void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
+void clear_clearances_near(RefinementMesh& mesh, std::span<const Vec3> suspects);
 // Sets all clearances to 0: then every star is tested against all triangles around it, so no triangles come to cross.
-void distrust_all(RefinementMesh& mesh);
+void clear_all_clearances(RefinementMesh& mesh);
 
 }  // namespace deliso

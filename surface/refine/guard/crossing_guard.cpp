@@ -60,7 +60,7 @@ void CrossingGuard::learn(std::uint32_t triangle) {
 }
 
 void CrossingGuard::learn(std::uint32_t triangle, double squared_longest) {
-  if (deliso::is_tight(squared_longest, trusted_clearance(mesh_.triangles[triangle].corners)))
+  if (deliso::is_tight(squared_longest, effective_clearance(mesh_.triangles[triangle].corners)))
     tight_.add(triangle, mesh_.box_of(triangle));
 }
 
@@ -69,7 +69,7 @@ void CrossingGuard::forget(std::uint32_t triangle) {
   tight_.remove(triangle, mesh_.box_of(triangle));
 }
 
-void CrossingGuard::distrust(std::uint32_t triangle) {
+void CrossingGuard::mark_if_far_off(std::uint32_t triangle) {
   const RefinementMesh::Triangle& t = mesh_.triangles[triangle];
   const Vec3 size = mesh_.box_of(triangle).size();
   if (t.has_hit() && t.ball.squared_radius < kFarBall * kFarBall * squared_norm(size)) return;
@@ -90,7 +90,7 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {
   const auto& corners = mesh_.triangles[triangle].corners;
-  return deliso::is_tight(squared_longest_edge(mesh_.corner_points(corners)), trusted_clearance(corners));
+  return deliso::is_tight(squared_longest_edge(mesh_.corner_points(corners)), effective_clearance(corners));
 }
 
 CrossingGuard::PlacedTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
@@ -118,7 +118,7 @@ float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
   float mean = 0;
   float least = new_clearance_;
   for (const RimEdge& edge : rim) {
-    least = std::min(least, trusted_clearance(edge.from));
+    least = std::min(least, effective_clearance(edge.from));
     mean += mesh_.vertices[edge.from].clearance / static_cast<float>(rim.size());
     new_clearance_ = std::min(new_clearance_, bound(edge.from));
   }
@@ -179,7 +179,7 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   Box3 box;
   for (const RimEdge& edge : rim) {
     const float clearance =
-        std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
+        std::min(new_clearance_, std::min(effective_clearance(edge.from), effective_clearance(edge.to)));
     const PlacedTriangle& s = star_.emplace_back(star_triangle(p, edge));
     if (!deliso::is_tight(squared_longest_edge(s.points), clearance)) continue;
     if (!has_area(s.points)) return true;

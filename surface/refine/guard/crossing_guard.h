@@ -39,7 +39,7 @@ class CrossingGuard {
   void learn(std::uint32_t triangle);
   void learn(std::uint32_t triangle, double squared_longest);  // given the triangle's longest edge
   // Call when a triangle is not refined: its corners become suspect if the surface lies far from it.
-  void distrust(std::uint32_t triangle);
+  void mark_if_far_off(std::uint32_t triangle);
 
  private:
   // A triangle, of the mesh or of a star, with its corner points and box.
@@ -56,13 +56,15 @@ class CrossingGuard {
   [[nodiscard]] PlacedTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
   [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const;
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;
-  [[nodiscard]] float trusted_clearance(std::uint32_t vertex) const {
+  // 0 for a suspect vertex.
+  [[nodiscard]] float effective_clearance(std::uint32_t vertex) const {
     const RefinementMesh::Vertex& v = mesh_.vertices[vertex];
     return v.is_suspect ? 0 : v.clearance;
   }
   // The least effective clearance of a triangle's corners.
-  [[nodiscard]] float trusted_clearance(const std::array<std::uint32_t, 3>& corners) const {
-    return std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])});
+  [[nodiscard]] float effective_clearance(const std::array<std::uint32_t, 3>& corners) const {
+    return std::min(
+        {effective_clearance(corners[0]), effective_clearance(corners[1]), effective_clearance(corners[2])});
   }
   [[nodiscard]] static bool meets(const PlacedTriangle& s, const PlacedTriangle& t);
 
