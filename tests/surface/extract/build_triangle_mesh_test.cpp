@@ -19,8 +19,8 @@ BuiltMesh checked_build(const SignedDelaunay& restricted) {
   EXPECT_EQ(built.vertex_of.size(), built.mesh.points.size());
   EXPECT_TRUE(std::is_sorted(built.copies.begin(), built.copies.end()));
 
-  // Copies share their vertex with another one and lie a hair from it; all others lie exactly on theirs, but for
-  // those put on a subdivided edge.
+  // Copies share their vertex with another one and lie at most 2e-4 from it; all others lie exactly on theirs, except
+  // those on a subdivided edge.
   const Tetrahedralization& delaunay = restricted.delaunay();
   std::map<std::uint32_t, int> uses;
   for (const VertexId v : built.vertex_of) ++uses[v.value];
@@ -99,8 +99,8 @@ TEST(BuildTriangleMesh, TrianglesFaceLowerValues) {
   EXPECT_LE(against, built.mesh.triangles.size() / 200);
 }
 
-// Two tetrahedra above, edge to edge, all else below: the surface touches itself along one edge, and each side becomes
-// a closed sphere of its own or both one, but never an edge with four triangles.
+// Two tetrahedra above that share an edge, all others below: the surface touches itself along one edge. It may become
+// two closed spheres or one, but no edge may have four triangles.
 TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
   const auto scene = field_scene("sphere", 12);
   std::size_t pinched = 0;

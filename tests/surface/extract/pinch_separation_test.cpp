@@ -75,7 +75,7 @@ TEST(PinchSeparation, OnABoxFaceCopiesStayOnIt) {
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
 
-// Wanted vertices move as they do when all are wanted, whatever their neighbours in other pieces do.
+// Wanted vertices move exactly as they do when all are wanted, whatever their neighbours in other pieces do.
 TEST(PinchSeparation, WhatIsWantedMovesAsIfAllWere) {
   int stayed = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -1,4 +1,4 @@
-// Stage 2 begins again where triangles came to meet.
+// Stage 2 restarts where triangles came to meet.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,8 +21,8 @@ namespace {
 
 using testing::Scene;
 
-// A hill, a coarse mesh of it, and a small triangle that stands across the hill's surface, where the mesh does not
-// reach yet. The pole heights tell nothing of it, so the guard lets the mesh grow through it.
+// A hill, a coarse mesh of it, and a small triangle that crosses the hill's surface where the mesh does not reach yet.
+// The pole heights do not know of it, so the guard lets the mesh grow through it.
 struct CrossedHill {
   std::unique_ptr<Scene> scene;
   SurfaceMesh mesh;
