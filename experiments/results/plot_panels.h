@@ -10,7 +10,7 @@
 
 namespace deliso {
 
-// A place on a line with the spread of its value.
+// A point of a line, with the spread of its value.
 struct PlotPoint {
   double x = 0;
   double y = 0;

@@ -59,7 +59,7 @@ std::vector<std::uint32_t> all_crossings(const ExactSurface& surface) {
     }
   });
   // A counting sort by brick, which keeps the order within a brick.
-  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // place of each brick's next crossing
+  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // index of each brick's next crossing
   for (const std::uint32_t own : brick_of) ++next[own + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<std::uint32_t> crossings(all.size());

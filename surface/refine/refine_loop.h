@@ -114,7 +114,7 @@ class RefineLoop {
 
    private:
     std::vector<std::uint32_t> places_;
-    std::vector<RefinementMesh::Triangle> triangles_;  // as they were at these places
+    std::vector<RefinementMesh::Triangle> triangles_;  // as they were in these slots
     std::vector<bool> is_kept_;                        // of each triangle of the start
     std::size_t vertex_count_;
   };

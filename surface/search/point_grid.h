@@ -85,7 +85,7 @@ class PointGrid {
   Vec3 low_;
   double per_side_ = 1;
   std::array<std::size_t, 3> dims_{};
-  std::vector<std::uint32_t> first_;   // of each block: its first place in points_
+  std::vector<std::uint32_t> first_;   // of each block: index of its first point in points_
   std::vector<std::uint32_t> points_;  // block by block
 };
 

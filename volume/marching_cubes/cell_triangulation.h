@@ -36,7 +36,7 @@ struct MarchingCubesPatch {
   std::vector<std::uint32_t> vertices;
   std::vector<Vec3> points;
   std::size_t crossing_count = 0;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // of places in `vertices`
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into `vertices`
 };
 
 // Triangulates one cell after the other.

@@ -145,7 +145,7 @@ class CrossingIndex {
 UnwrittenArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                             int threads = 1);
 
-// The crossing's place in index space.
+// The crossing's position in index space.
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);
 
 // --- Implementation -------------------------------------------------------------------------------------------------
