@@ -20,9 +20,10 @@ namespace deliso {
 
 namespace {
 
-// More rounds for what the mesh leaves out or where it crosses, though its topology is right, begin so often at most.
+// How often further rounds are started because crossings are missed, or triangles cross, although the topology is
+// right.
 constexpr int kMostReopenings = 2;
-// Crossing triangles are looked for around so many of their pairs.
+// Further rounds sample around at most this many pairs of crossing triangles.
 constexpr std::size_t kMostPairs = 256;
 
 }  // namespace
@@ -45,8 +46,8 @@ void Repair::compute_poles() {
   if (!is_as_it_was_ && !is_assembled_) rounds_.give_poles();
 }
 
-// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
-// dropped. A run that was stopped takes the first mesh as it is.
+// Assembles the components, each from the latest mesh that agrees with it, so that most come from one triangulation.
+// Stray pieces are dropped. A run that was stopped takes the mesh of stage 1 unchanged.
 SurfaceMesh Repair::build_triangle_mesh() {
   if (is_as_it_was_) return rounds_.as_it_is();
   build();
@@ -60,7 +61,7 @@ void Repair::mend(SurfaceMesh& mesh) {
   mend_crossing();
   mend_left_out();
   rounds_.end();
-  // Mixed pieces may have come to lie on all of another component, or on most of it.
+  // A piece with foreign vertices may lie on the whole of another component, or have most of its vertices there.
   const bool may_be_misplaced = stats_.components_mixed > 0 && !controls_.poll();
   if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_apart_ = false;
   if (!is_apart_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
@@ -69,20 +70,20 @@ void Repair::mend(SurfaceMesh& mesh) {
   mesh = std::move(result_.mesh);
 }
 
-// Rounds until every component is done, or nothing is left but what taking vertices out mends.
+// Makes rounds until every component is done, or only foreign vertices are left and can be removed.
 void Repair::mend_by_rounds() {
   is_assembled_ = rounds_.mend(
       max_rounds_, [this] { return ends_without_foreign_vertices(); }, controls_);
 }
 
-// The mesh of what has been mended. What another round would need stays, if there may be one.
+// Assembles the mesh of the rounds so far. The triangulation is kept if another round may follow.
 void Repair::build() {
   if (is_assembled_) return;
   if (!rounds_.is_done() || !rounds_.may_go_on(max_rounds_) || controls_.poll()) rounds_.end();
   if (!assemble()) polygonize_rest();
 }
 
-// Takes out vertices of other components, and inverted umbrellas.
+// Removes foreign vertices and inverted umbrellas.
 void Repair::mend_vertices() {
   if (!is_assembled_ && stats_.components_mixed > 0 && !controls_.poll()) take_foreign_vertices_out();
   stats_.inverted_umbrellas_removed = 0;
@@ -100,7 +101,7 @@ std::vector<std::uint32_t> Repair::missed(std::span<const Box3> boxes) const {
   return missed_crossings(result_.mesh, boxes, surface_);
 }
 
-// More rounds where the topology is right and yet triangles cross; unless they do not help.
+// Further rounds if the topology is right but triangles cross. If they do not help, the state before them is restored.
 void Repair::mend_crossing() {
   if (is_apart_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
   SelfIntersections found = crossing_triangles();
@@ -118,22 +119,23 @@ void Repair::mend_crossing() {
   }
 }
 
-// More rounds where the topology is right and yet the mesh leaves parts of the surface out; unless they do not help.
+// Further rounds if the topology is right but the mesh misses crossings. If they do not help, the state before them is
+// restored.
 void Repair::mend_left_out() {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = missed(inverted_);
     if (crossings.empty()) return;
     std::optional<Ending> before = mend_around(crossings);
     if (!before) return;
-    // Where inverted umbrellas were and where they are.
+    // Boxes around the inverted umbrellas before and after these rounds.
     std::vector<Box3> boxes = before->inverted;
     boxes.insert(boxes.end(), inverted_.begin(), inverted_.end());
     if (missed(boxes).size() >= crossings.size()) return return_to(*std::move(before));
   }
 }
 
-// Rounds that begin around some crossings. What there was before, if they have led to a mesh that is right, too; else
-// nothing, and all is as it was.
+// Makes rounds that begin with new samples around some crossings. If they lead to a mesh with the right topology,
+// returns the state before them; otherwise restores that state and returns nothing.
 std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings) {
   Ending before = take_ending();
   rounds_.mend_around(crossings, controls_);
@@ -166,7 +168,7 @@ void Repair::return_to(Ending ending) {
   stats_.rounds = rounds;
 }
 
-// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out.
+// Whether foreign vertices are the only remaining defect and can be removed.
 bool Repair::ends_without_foreign_vertices() {
   if (!rounds_.is_done_but_for_mixing()) return false;
   timed(inner_poles_, [this] { rounds_.give_poles(); });
@@ -178,7 +180,8 @@ bool Repair::ends_without_foreign_vertices() {
   return false;
 }
 
-// The components, each from the latest mesh that agrees with it. Whether that is all of them.
+// Assembles the components, each from the latest mesh that agrees with it. Returns whether every component has such a
+// mesh.
 bool Repair::assemble() {
   result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface.box(), surface_.threads, stats_);
   return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
@@ -191,8 +194,8 @@ void Repair::polygonize_rest() {
                [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
 }
 
-// What components taken with vertices of others have of them; unless that is what makes triangles cross. Whether none
-// is left and nothing crosses.
+// Removes foreign vertices, unless the removal itself makes triangles cross. Returns whether no foreign vertex is left
+// and no triangles cross.
 bool Repair::take_foreign_vertices_out() {
   const auto crosses = [&](const SurfaceMesh& mesh) {
     return self_intersections(mesh.points, mesh.triangles, 0, surface_.threads).crossing_pairs > 0;
@@ -203,7 +206,7 @@ bool Repair::take_foreign_vertices_out() {
   is_apart_ = !crosses(without);
   if (removed == 0) return is_apart_;
   if (!is_apart_ && !crosses(result_.mesh)) {
-    is_apart_ = true;  // as it is
+    is_apart_ = true;  // the mesh before the removal
     return false;
   }
   stats_.foreign_vertices_removed = removed;

@@ -14,10 +14,10 @@ namespace deliso {
 
 namespace {
 
-// How many layers from a box defects are looked for, and how many all active cells are taken.
+// Defects count within kNear layers of a box; within kVeryNear layers all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::size_t kFewBoxes = 64;  // around which all active cells are taken, at most
+constexpr std::size_t kFewBoxes = 64;  // with more boxes, not all active cells around them are taken
 
 class DefectFinder {
  public:
@@ -35,7 +35,7 @@ class DefectFinder {
         near_boxes_(context.boxes.size()),
         has_defect_(context.done.size(), false) {
     for (std::size_t c = 0; context.is_near_boxes && c < boxes_.size(); ++c) {
-      // One layer more is asked for where points are not known yet, only their cells.
+      // One layer more, for tests of cells whose points are not known yet.
       if (!boxes_[c].empty()) near_boxes_[c].emplace(boxes_[c], grid_.dims(), kNear + 1);
     }
   }
@@ -59,7 +59,7 @@ class DefectFinder {
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
-  // What a defect tells of: of a component whose piece has the right topology only some defects matter.
+  // What a defect concerns. For a component whose piece has the right topology only some kinds matter.
   enum class Tells { kTopology, kMissingPart, kMixing };
   [[nodiscard]] bool matters(std::uint32_t component, Tells tells) const {
     if (component == kNoComponent || done_[component]) return false;
@@ -105,7 +105,7 @@ void DefectFinder::flag_boxes() {
   }
 }
 
-// Split vertices, triangles between components, and strays.
+// Flags pinches, triangles between components, and stray pieces.
 void DefectFinder::flag_mesh() {
   const SurfaceMesh& surface = mesh_.built.mesh;
   const ComponentMatch& match = mesh_.match;
@@ -133,16 +133,16 @@ void DefectFinder::flag_unused_vertices() {
   }
 }
 
-// Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
-// way.
+// Flags critical points on the wrong side of the mesh. There a tunnel is open that should be closed, or closed that
+// should be open.
 void DefectFinder::flag_critical_points() {
   std::vector<CellIndex> cells;
-  std::vector<std::uint32_t> open;  // the component of each that is not done
+  std::vector<std::uint32_t> open;  // for each cell a component that is not done
   find_open_cells(cells, open);
   critical_.find(cells, threads_);
   const std::vector<LocatedCriticalPoint>& places = critical_.places();
   std::vector<std::uint32_t> wanted;
-  std::vector<std::uint32_t> component_of;  // of each of these
+  std::vector<std::uint32_t> component_of;  // of each wanted point
   for (std::size_t i = 0, at = 0; i < places.size(); ++i) {
     while (at < cells.size() && is_before(cells[at], places[i].cell)) ++at;
     if (at == cells.size()) break;
@@ -158,7 +158,7 @@ void DefectFinder::flag_critical_points() {
   }
 }
 
-// The active cells in which critical points may matter, and a component for each.
+// The active cells whose critical points may matter, and a component for each cell.
 void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const {
   CellCrossings crossings(topology_.index);
   topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
@@ -175,7 +175,7 @@ void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<st
   });
 }
 
-// A component with a crossing on the edges of an active cell that is not done.
+// A component that is not done and has a crossing on an edge of the cell.
 std::optional<std::uint32_t> DefectFinder::open_component_in(const CellIndex& cell) const {
   std::optional<std::uint32_t> open;
   topology_.index.for_each_crossing_of_cell(cell, [&](std::uint32_t crossing) {

@@ -6,9 +6,9 @@ namespace deliso {
 
 namespace {
 
-// So many components are swept in one go.
+// The number of components handled in one pass.
 constexpr std::size_t kAtOnce = 256;
-// Jumps nearer than this (as Euler curves err by some layers) belong together.
+// Jumps nearer to each other than this form one range: Euler curves err by a few layers.
 constexpr std::int32_t kCloseLayers = 4;
 
 std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {

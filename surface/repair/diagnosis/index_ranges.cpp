@@ -12,7 +12,7 @@ std::int32_t distance_from(const LayerRange& range, std::int32_t layer) {
   return std::max({range.first - layer, layer - range.last, 0});
 }
 
-// Along the axis along which it is farthest.
+// Along the axis along which it is largest.
 std::int32_t distance_from(const IndexBox& place, const CellIndex& cell) {
   std::int32_t farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) farthest = std::max(farthest, distance_from(place[axis], cell[axis]));

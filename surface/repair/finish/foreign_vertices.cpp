@@ -13,8 +13,8 @@ namespace deliso {
 
 namespace {
 
-// The vertices of pieces that do not lie on the component of most; and the triangles of the pieces on each component
-// that has some.
+// The vertices that lie on another component than most vertices of their piece; and, for each component with such
+// vertices, the triangles of the pieces that lie on it.
 struct Found {
   std::vector<std::uint32_t> vertices;
   std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_on;

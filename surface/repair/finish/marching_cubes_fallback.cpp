@@ -12,10 +12,10 @@ namespace deliso {
 
 namespace {
 
-// Of so many pairs the pieces are looked at together.
+// The largest number of pairs whose pieces are examined in one pass.
 constexpr std::size_t kMostPairs = 4096;
 
-// Drops the pieces of the pairs whose components are not polygonized yet; these are marked and returned.
+// Drops the pieces of the pairs whose components are not polygonized yet; marks these components, and returns them.
 std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurface& surface,
                               std::vector<bool>& is_polygonized) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
@@ -34,7 +34,7 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
   return dropped;
 }
 
-// Drops the pieces that count for one of these components, or for none at all.
+// Drops the pieces assigned to one of these components, or to none at all.
 void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurface& surface) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
@@ -71,7 +71,8 @@ void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& fact
     const ExactPolygonization& cubes = facts.polygonized();
     const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts.surface(), is_polygonized);
     if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
-      // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
+      // No further piece can be blamed. Inverted umbrellas may have been removed from pieces of marching cubes, so even
+      // these may cross: take all components from marching cubes anew.
       is_polygonized.assign(is_polygonized.size(), true);
       mesh = cubes.mesh;
       return;

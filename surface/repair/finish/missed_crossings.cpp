@@ -30,7 +30,7 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
     inside.push_back(i);
     points.push_back(p);
   }
-  // Most have a triangle close by; the others are worth a tree of all triangles.
+  // Most crossings have a triangle close by. Only for the others a tree of all triangles is worth its cost.
   const auto any = [](std::uint32_t) { return true; };
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, surface.threads);
   if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};

@@ -9,7 +9,7 @@ namespace deliso {
 
 namespace {
 
-// From this level on neighbouring cells may differ by one level only.
+// From this level on the levels of neighbouring cells differ by at most one.
 constexpr int kGradedLevel = 3;
 // A point this near to a side of its cell (in index space) lies on that side.
 constexpr double kOnSide = 1e-6;

@@ -6,7 +6,7 @@ namespace deliso {
 
 namespace {
 
-// Samples are exchanged in place when they are fewer than this share of all.
+// Samples are exchanged in the present triangulation when they are fewer than all divided by this.
 constexpr std::size_t kExchangeShare = 4;
 
 std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
@@ -60,7 +60,7 @@ bool RepairSamples::changes_few(const Resampling& resampling) const {
   return resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
 }
 
-// A lattice sample that equals a vertex is not kept: should the vertex go, it is found again.
+// A lattice sample that equals a vertex is not stored: if that vertex is removed, the lattice sample comes again.
 void RepairSamples::exchange(const Resampling& resampling, std::span<const VertexId> vertex_of) {
   remove(resampling.leaving);
   for (std::size_t i = 0; i < resampling.coming.size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
 constexpr std::size_t kVerticesAtOnce = 2048;
 
-// Of a component whose main piece has the right topology, and yet not all of it.
+// Marks a component whose main piece has the right topology but misses a part of it.
 void make_partial(ComponentMatch& match, std::uint32_t component) {
   if (match.agreement[component] <= Agreement::kPartial) return;
   match.agreement[component] = Agreement::kPartial;
@@ -38,7 +38,7 @@ RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& raised,
   find_components(0);
 }
 
-// Of the vertices from this one on.
+// Finds the exact components of the vertices from this one on.
 void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), kNoComponent);
   const Isosurface& isosurface = restricted_->isosurface();
@@ -104,7 +104,7 @@ void RepairRound::overturn(TetId t) {
   settle_signs();
 }
 
-// None when they would be the same as the last time in this round.
+// Pairs the facets for the present signs. Nothing if the triangles would be the same as the last time in this round.
 std::optional<PairedTriangles> RepairRound::take_triangles() {
   const TetSigns signs = restricted_->signs();
   if (!pairing_) {
@@ -129,8 +129,9 @@ std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
   return mesh;
 }
 
-// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
-// tell: each must have one of their triangles near. `facets`: of the triangles, ascending, but for the last ones.
+// Finds components whose main piece has the right topology but misses a part, for example a branch that was cut off.
+// Every sample that is no vertex of a main piece must have a triangle of a main piece near it. `facets` holds the
+// facets of the mesh's triangles, ascending; the last triangles have none.
 void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets) {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
@@ -142,7 +143,7 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
     if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
   }
-  // Most are covered by the triangle that covered them in an earlier mesh.
+  // Most samples are covered by the triangle that covered them in an earlier mesh.
   const auto is_still_covered = [&](std::size_t vertex, std::uint32_t facet) {
     const auto at = std::lower_bound(facets.begin(), facets.end(), FacetId(facet));
     if (facet == kNoFacet || at == facets.end() || *at != FacetId(facet)) return false;

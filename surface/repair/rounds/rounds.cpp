@@ -18,13 +18,13 @@ namespace deliso {
 
 namespace {
 
-// What Euler curves find counts unless it is more than kMostBoxes; in the first round, when other defects tell more,
-// unless it is more than kFewBoxes.
+// The boxes found by Euler curves are ignored if there are more than kMostBoxes of them; in the first round, where
+// other defects are more reliable, if there are more than kFewBoxes.
 constexpr std::size_t kFewBoxes = 30;
 constexpr std::size_t kMostBoxes = 512;
 
-// Euler curves may err, and then nothing would ever be mended if no defect counted but near what they find. In one
-// round all defects count; in several the samples would grow too many.
+// Normally only defects near the boxes found by Euler curves count. These boxes may be wrong, and then repair would
+// never succeed. So in this round all defects count. In more than one such round there would be too many samples.
 constexpr std::int32_t kRoundOfAllDefects = 3;
 
 }  // namespace
@@ -61,7 +61,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
   return false;
 }
 
-// With these cells raised.
+// Makes a round in which these cells are refined.
 void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   raised_.raise(std::move(cells));
   resample();
@@ -78,7 +78,7 @@ void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Control
   ++rounds_around_;
 }
 
-// Their components.
+// Marks the components of some crossings as not done.
 void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
   std::set<std::uint32_t> components;
   for (const std::uint32_t crossing : crossings) components.insert(surface_.topology.crossings[crossing].component);
@@ -104,7 +104,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
   return found;
 }
 
-// Its copies moved apart, with the poles of the samples as they are.
+// The latest mesh with its pinches separated, and the pole heights for the present samples.
 SurfaceMesh RepairRounds::as_it_is() {
   BuiltMesh built = mesh_->built;
   separate_pinches(built.mesh, built.groups, built.vertex_of, surface_.isosurface.box());
@@ -114,8 +114,8 @@ SurfaceMesh RepairRounds::as_it_is() {
   return std::move(built.mesh);
 }
 
-// Exchanges samples: in the triangulation as it is when few change, else in one made anew, before the present one goes
-// where there are threads for both.
+// Exchanges samples. If few change, they are exchanged in the present triangulation; otherwise a new one is built. With
+// several threads the new one is built while the pole heights of the present one are computed.
 void RepairRounds::resample() {
   const Resampling resampling = samples_.resampling(raised_, lattice_, surface_.isosurface);
   const bool is_continued = samples_.changes_few(resampling);
@@ -138,7 +138,7 @@ void RepairRounds::resample() {
   samples_.take_vertices(vertex_of);
 }
 
-// Takes signs by the rule; keeps the mesh if it helps.
+// Sets the signs by the rule, and keeps the mesh if it improves some component.
 void RepairRounds::take_signs() {
   round_->take_signs();
   std::optional<MatchedMesh> mesh = round_->assemble();
@@ -147,7 +147,7 @@ void RepairRounds::take_signs() {
   kept_.keep(mesh_, round_->restricted().signs());
 }
 
-// Single signs near the boxes in which a component is wrong.
+// Tries to flip single signs near the boxes in which a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
   const std::vector<std::vector<IndexBox>> boxes = differences_.find(mesh_, kept_.done(), kMostBoxes);

@@ -10,7 +10,7 @@ namespace deliso {
 
 namespace {
 
-// Places that one thread looks for at a time.
+// The number of points that a thread locates at a time.
 constexpr std::size_t kPlacesAtOnce = 4096;
 
 void append_places(const Isosurface& isosurface, const CellIndex& cell, std::vector<LocatedCriticalPoint>& places) {
@@ -36,7 +36,7 @@ void append_places(const Isosurface& isosurface, const CellIndex& cell, std::vec
 }  // namespace
 
 void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) {
-  // A cell whose places are known is left alone; one that was found to have none is asked again.
+  // Cells whose points are known are skipped; cells without points are searched again.
   std::vector<CellIndex> asked;
   auto known = places_.begin();
   for (const CellIndex& cell : cells) {
@@ -49,7 +49,7 @@ void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) 
       [&](std::size_t i, std::vector<LocatedCriticalPoint>& places) { append_places(isosurface, asked[i], places); }));
 }
 
-// Those of cells that had none.
+// Merges the points of cells that had none before.
 void LocatedCriticalPoints::add(const std::vector<LocatedCriticalPoint>& found) {
   std::vector<LocatedCriticalPoint> places;
   std::vector<TetId> tets;

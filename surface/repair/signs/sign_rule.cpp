@@ -11,15 +11,17 @@ namespace deliso {
 
 namespace {
 
-// Tetrahedra with an edge longer than this (mesh-space units) keep the sign of their circumcenter everywhere.
+// A tetrahedron is small if no edge is longer than this (mesh-space units). The others keep the sign of their
+// circumcenter everywhere.
 constexpr double kLongEdge = 2;
 
 struct Shape {
-  Vec3 centroid;  // of a small one
+  Vec3 centroid;  // set if it is small
   bool is_small = false;
 };
 
-// Of a ghost behind a facet on the box: that of the facet, for there the surface's boundary curve is decided.
+// The shape of a tetrahedron. A ghost behind a facet on the box has the shape of this facet: its sign decides the
+// boundary curve of the surface.
 Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   const auto& v = delaunay.vertices(t);
@@ -38,7 +40,7 @@ Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   return {centroid, true};
 }
 
-// A set of cells behind a sieve that holds back nearly all others.
+// A set of cells with a bit table in front (a Bloom filter), which rejects nearly all cells that are not in the set.
 class CellSet {
  public:
   explicit CellSet(const std::vector<CellName>& cells) : cells_(cells.begin(), cells.end()), sieve_(kHoles, false) {
@@ -94,7 +96,7 @@ void SignRule::update_homes() {
   });
 }
 
-// Only tetrahedra that are new or whose cell has come into the zone have anything new to say.
+// Only the tetrahedra that are new or whose cell has entered the zone need a sign at their centroid.
 void SignRule::update_by_centroid() {
   const CellSet added(raised_.extend(zone_));
   update_homes();

@@ -26,7 +26,7 @@ bool holds(const SignedDelaunay& restricted, TetId t, const Vec3& p) {
   return true;
 }
 
-// Whether a tetrahedron holds a sample on the side of its sign.
+// Whether a tetrahedron contains a sample whose side is the tetrahedron's sign.
 bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId t) {
   const Isosurface& isosurface = restricted.isosurface();
   const Vec3& step = isosurface.step();
@@ -86,8 +86,8 @@ void SpuriousPockets::update() {
   }
 }
 
-// Every share of the slots is looked at apart from the others, also beyond its ends; a pocket belongs to the one that
-// holds its first slot, from which that one floods it.
+// Every share of the slots is searched independently; its floods may leave the share. A pocket is found by the share
+// that holds its lowest slot, when that slot is the seed.
 void SpuriousPockets::look_everywhere() {
   signs_.assign(delaunay_.tet_slots(), 0);
   restricted_.for_each_change(signs_, [](TetId) {});
@@ -104,8 +104,8 @@ void SpuriousPockets::look_everywhere() {
   for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets_));
 }
 
-// Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to
-// be left alone.
+// Floods the face-connected set of tetrahedra of one sign around an unseen seed. Returns false as soon as the set turns
+// out to be too large or to have a ghost.
 bool SpuriousPockets::floods_pocket(TetId seed, Look& look) const {
   if (look.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
   Pocket& flood = look.flood;
