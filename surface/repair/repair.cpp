@@ -38,33 +38,33 @@ Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> r
       rounds_(cache, std::move(restricted), stats) {}
 
 void Repair::mend_topology() {
-  is_as_it_was_ = controls_.stopped();
-  if (!is_as_it_was_) mend_by_rounds();
+  is_unrepaired_ = controls_.stopped();
+  if (!is_unrepaired_) mend_by_rounds();
 }
 
 void Repair::compute_poles() {
-  if (!is_as_it_was_ && !is_assembled_) rounds_.give_poles();
+  if (!is_unrepaired_ && !is_assembled_) rounds_.give_poles();
 }
 
 // Assembles the components, each from the latest mesh that agrees with it, so that most come from one triangulation.
 // Stray pieces are dropped. A run that was stopped takes the mesh of stage 1 unchanged.
 SurfaceMesh Repair::build_triangle_mesh() {
-  if (is_as_it_was_) return rounds_.as_it_is();
+  if (is_unrepaired_) return rounds_.unrepaired_mesh();
   build();
   return std::exchange(result_.mesh, {});
 }
 
 void Repair::mend(SurfaceMesh& mesh) {
-  if (is_as_it_was_) return;
+  if (is_unrepaired_) return;
   result_.mesh = std::move(mesh);
   mend_vertices();
   mend_crossing();
-  mend_left_out();
+  mend_missed_crossings();
   rounds_.end();
   // A piece with foreign vertices may lie on the whole of another component, or have most of its vertices there.
   const bool may_be_misplaced = stats_.components_mixed > 0 && !controls_.poll();
-  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_apart_ = false;
-  if (!is_apart_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
+  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_crossing_free_ = false;
+  if (!is_crossing_free_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(result_.mesh.points.size());
   mesh = std::move(result_.mesh);
@@ -103,41 +103,41 @@ std::vector<std::uint32_t> Repair::missed(std::span<const Box3> boxes) const {
 
 // Further rounds if the topology is right but triangles cross. If they do not help, the state before them is restored.
 void Repair::mend_crossing() {
-  if (is_apart_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
+  if (is_crossing_free_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
   SelfIntersections found = crossing_triangles();
-  is_apart_ = found.crossing_pairs == 0;
+  is_crossing_free_ = found.crossing_pairs == 0;
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing, result_.mesh);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings);
+    std::optional<State> before = mend_around(crossings);
     if (!before) return;
-    if (is_apart_) return;
+    if (is_crossing_free_) return;
     SelfIntersections left = crossing_triangles();
-    if (left.crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
+    if (left.crossing_pairs >= found.crossing_pairs) return restore(*std::move(before));
     found = std::move(left);
-    is_apart_ = found.crossing_pairs == 0;
+    is_crossing_free_ = found.crossing_pairs == 0;
   }
 }
 
 // Further rounds if the topology is right but the mesh misses crossings. If they do not help, the state before them is
 // restored.
-void Repair::mend_left_out() {
+void Repair::mend_missed_crossings() {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = missed(inverted_);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings);
+    std::optional<State> before = mend_around(crossings);
     if (!before) return;
     // Boxes around the inverted umbrellas before and after these rounds.
     std::vector<Box3> boxes = before->inverted;
     boxes.insert(boxes.end(), inverted_.begin(), inverted_.end());
-    if (missed(boxes).size() >= crossings.size()) return return_to(*std::move(before));
+    if (missed(boxes).size() >= crossings.size()) return restore(*std::move(before));
   }
 }
 
 // Makes rounds that begin with new samples around some crossings. If they lead to a mesh with the right topology,
 // returns the state before them; otherwise restores that state and returns nothing.
-std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings) {
-  Ending before = take_ending();
+std::optional<Repair::State> Repair::mend_around(std::span<const std::uint32_t> crossings) {
+  State before = take_state();
   rounds_.mend_around(crossings, controls_);
   mend_by_rounds();
   const bool is_done = is_assembled_ || rounds_.is_done();
@@ -147,24 +147,24 @@ std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t>
     mend_vertices();
   }
   if (is_done && !controls_.poll() && is_polygonized_ == before.is_polygonized) return before;
-  return_to(std::move(before));
+  restore(std::move(before));
   return std::nullopt;
 }
 
-Repair::Ending Repair::take_ending() {
-  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(inverted_, {}),
-                std::exchange(is_apart_, false), stats_};
+Repair::State Repair::take_state() {
+  State state{std::exchange(result_, {}), is_polygonized_, std::exchange(inverted_, {}),
+              std::exchange(is_crossing_free_, false), stats_};
   stats_.foreign_vertices_removed = stats_.inverted_umbrellas_removed = 0;
-  return ending;
+  return state;
 }
 
-void Repair::return_to(Ending ending) {
+void Repair::restore(State state) {
   const std::int64_t rounds = stats_.rounds;
-  result_ = std::move(ending.result);
-  is_polygonized_ = std::move(ending.is_polygonized);
-  inverted_ = std::move(ending.inverted);
-  is_apart_ = ending.is_apart;
-  stats_ = ending.stats;
+  result_ = std::move(state.result);
+  is_polygonized_ = std::move(state.is_polygonized);
+  inverted_ = std::move(state.inverted);
+  is_crossing_free_ = state.is_crossing_free;
+  stats_ = state.stats;
   stats_.rounds = rounds;
 }
 
@@ -175,7 +175,7 @@ bool Repair::ends_without_foreign_vertices() {
   const bool is_whole = timed(inner_build_, [this] { return assemble(); });
   if (is_whole && take_foreign_vertices_out()) return true;
   result_ = {};
-  is_apart_ = false;
+  is_crossing_free_ = false;
   stats_.foreign_vertices_removed = 0;
   return false;
 }
@@ -203,15 +203,15 @@ bool Repair::take_foreign_vertices_out() {
   SurfaceMesh without = result_.mesh;
   const auto [removed, left] = remove_foreign_vertices(without, result_.component);
   if (removed == 0 && left > 0) return false;
-  is_apart_ = !crosses(without);
-  if (removed == 0) return is_apart_;
-  if (!is_apart_ && !crosses(result_.mesh)) {
-    is_apart_ = true;  // the mesh before the removal
+  is_crossing_free_ = !crosses(without);
+  if (removed == 0) return is_crossing_free_;
+  if (!is_crossing_free_ && !crosses(result_.mesh)) {
+    is_crossing_free_ = true;  // the mesh before the removal
     return false;
   }
   stats_.foreign_vertices_removed = removed;
   result_ = {std::move(without), {}};
-  return left == 0 && is_apart_;
+  return left == 0 && is_crossing_free_;
 }
 
 }  // namespace deliso

@@ -55,11 +55,11 @@ class Repair : public RecoveredSurface {
 
  private:
   // The result of the rounds so far.
-  struct Ending {
+  struct State {
     AssembledMesh result;
     std::vector<bool> is_polygonized;  // of each component: taken from marching cubes
     std::vector<Box3> inverted;        // boxes around the inverted umbrellas left in it
-    bool is_apart = false;
+    bool is_crossing_free = false;
     RepairStats stats;
   };
 
@@ -67,12 +67,12 @@ class Repair : public RecoveredSurface {
   void build();
   void mend_vertices();
   void mend_crossing();
-  void mend_left_out();
-  std::optional<Ending> mend_around(std::span<const std::uint32_t> crossings);
+  void mend_missed_crossings();
+  std::optional<State> mend_around(std::span<const std::uint32_t> crossings);
   [[nodiscard]] SelfIntersections crossing_triangles() const;
   [[nodiscard]] std::vector<std::uint32_t> missed(std::span<const Box3> boxes) const;
-  Ending take_ending();
-  void return_to(Ending ending);
+  State take_state();
+  void restore(State state);
   bool ends_without_foreign_vertices();
   bool assemble();
   void polygonize_rest();
@@ -87,10 +87,10 @@ class Repair : public RecoveredSurface {
   AssembledMesh result_;              // the final mesh
   std::vector<bool> is_polygonized_;  // of each component: taken from marching cubes
   std::vector<Box3> inverted_;        // boxes around the inverted umbrellas left in it
-  bool is_apart_ = false;             // its triangles are known not to cross; removing vertices keeps this
+  bool is_crossing_free_ = false;     // its triangles are known not to cross; removing vertices keeps this
   bool is_assembled_ = false;         // the rounds ended with result_ assembled, its foreign vertices removed
   // The run was stopped before the first round: the mesh of stage 1 is output unchanged.
-  bool is_as_it_was_ = false;
+  bool is_unrepaired_ = false;
   StageStats inner_poles_, inner_build_;
 };
 

@@ -111,7 +111,7 @@ class SignedDelaunay {
       visit(t);
     });
   }
-  void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
+  void flip_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
   // A point as the triangulation stores it: coordinates below 2^-100 count as zero.
   static Vec3 snapped(const Vec3& p);

@@ -64,11 +64,11 @@ void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::ui
   for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
     if (match.piece_of[v] != kNoPiece) part_of_vertex[v] = part_of_piece[match.piece_of[v]];
   }
-  const ExactSurface& surface = facts_.surface();
+  const ExactSurface& surface = cache_.surface();
   const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, part_of_vertex, components.size(),
                                                        surface.isosurface.step(), surface.grid().dims());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    boxes_[components[i]] = boxes_at(jumps_between(curves[i], facts_.sweeps().of(components[i])), most_);
+    boxes_[components[i]] = boxes_at(jumps_between(curves[i], cache_.euler_curves().of(components[i])), most_);
   }
 }
 

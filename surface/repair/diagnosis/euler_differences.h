@@ -23,7 +23,7 @@ std::vector<IndexBox> boxes_at(const std::array<std::vector<std::int32_t>, 3>& j
 class EulerDifferences {
  public:
   // Keeps a reference.
-  explicit EulerDifferences(const ExactSurfaceCache& facts) : facts_(facts) {}
+  explicit EulerDifferences(const ExactSurfaceCache& cache) : cache_(cache) {}
 
   // For each component that is not done and whose main piece has another topology: the boxes in which the two differ,
   // or none if there are more than `most`. The last result is stored and returned for equal arguments.
@@ -33,7 +33,7 @@ class EulerDifferences {
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
 
-  const ExactSurfaceCache& facts_;
+  const ExactSurfaceCache& cache_;
   std::vector<std::vector<IndexBox>> boxes_;  // the last result
   std::weak_ptr<MatchedMesh> of_;             // for this mesh
   std::size_t most_ = 0;                      // with this limit

@@ -111,7 +111,7 @@ class ExactChanges {
 // Adds up the changes by layer.
 class ExactEulerCurves::Changes {
  public:
-  explicit Changes(ExactEulerCurves& sweeps) : sweeps_(sweeps) {}
+  explicit Changes(ExactEulerCurves& curves) : euler_curves_(curves) {}
 
   void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
     for (std::size_t axis = 0; axis < 3; ++axis) *from(component, axis, at[axis]) += twice;
@@ -130,11 +130,11 @@ class ExactEulerCurves::Changes {
 
  private:
   [[nodiscard]] std::int32_t* from(std::uint32_t component, std::size_t axis, std::int32_t layer) {
-    const Layers& layers = sweeps_.layers_[component][axis];
-    return &sweeps_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
+    const Layers& layers = euler_curves_.layers_[component][axis];
+    return &euler_curves_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
   }
 
-  ExactEulerCurves& sweeps_;
+  ExactEulerCurves& euler_curves_;
 };
 
 ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.grid().dims()) {

@@ -18,14 +18,14 @@ class ExactSurfaceCache {
   explicit ExactSurfaceCache(const ExactSurface& surface);
 
   [[nodiscard]] const ExactSurface& surface() const { return surface_; }
-  [[nodiscard]] const ExactEulerCurves& sweeps() const { return sweeps_.get(); }
+  [[nodiscard]] const ExactEulerCurves& euler_curves() const { return euler_curves_.get(); }
   // Few surfaces need this, and it is large: so it is never computed in advance.
   [[nodiscard]] const ExactPolygonization& polygonized() const { return polygonized_.get(); }
 
  private:
   ExactSurface surface_;
   // Deferred: the first caller computes it, other callers wait.
-  std::shared_future<ExactEulerCurves> sweeps_;
+  std::shared_future<ExactEulerCurves> euler_curves_;
   std::shared_future<ExactPolygonization> polygonized_;
   std::jthread finder_;
 };

@@ -24,12 +24,12 @@ using IndexBox = std::array<LayerRange, 3>;
 // queries of many cells of a volume with so many samples.
 class DistanceFromRanges {
  public:
-  DistanceFromRanges(std::vector<IndexBox> places, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
+  DistanceFromRanges(std::vector<IndexBox> boxes, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
   // Exact up to `reach`; a larger result only says that the distance is above `reach`.
   [[nodiscard]] std::int32_t operator()(const CellIndex& cell) const;
 
  private:
-  std::vector<IndexBox> places_;
+  std::vector<IndexBox> boxes_;
   std::int32_t reach_;
   // Along each axis, of each layer: the distance along this axis alone.
   std::array<std::vector<std::int32_t>, 3> at_least_;

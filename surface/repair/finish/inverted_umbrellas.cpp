@@ -44,8 +44,8 @@ class InvertedUmbrellas {
   };
   void find_apexes(int threads);
   void find_surroundings();
-  std::vector<Box3> boxes_of_dents();
-  void look_around(Apex& apex, const Box3& box);
+  std::vector<Box3> boxes_of_remaining();
+  void update_surroundings(Apex& apex, const Box3& box);
   bool remove(Apex& apex);
   void append_apexes(const std::vector<std::uint32_t>& link);
   [[nodiscard]] Triangles triangles_of(const VertexFan& fan) const;
@@ -94,13 +94,13 @@ InvertedUmbrellaRemoval InvertedUmbrellas::remove_all(int threads) {
       if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++result.removed;
     }
   }
-  result.left = boxes_of_dents();
+  result.left = boxes_of_remaining();
   if (result.removed > 0) fans_.drop_free_slots();
   return result;
 }
 
 // The boxes around the remaining apexes that have triangles far from the surface.
-std::vector<Box3> InvertedUmbrellas::boxes_of_dents() {
+std::vector<Box3> InvertedUmbrellas::boxes_of_remaining() {
   std::vector<Box3> boxes;
   for (const Apex& apex : apexes_) {
     VertexFan fan;
@@ -178,7 +178,7 @@ Box3 InvertedUmbrellas::box_around(std::uint32_t v, const VertexFan& fan) const 
 
 // Finds the triangles around an apex again if its link has grown beyond its box. Triangles that have been replaced are
 // among the renewed ones, so the boxes of the old mesh suffice.
-void InvertedUmbrellas::look_around(Apex& apex, const Box3& box) {
+void InvertedUmbrellas::update_surroundings(Apex& apex, const Box3& box) {
   if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
   apex.box = box;
   apex.surroundings.clear();
@@ -200,7 +200,7 @@ bool InvertedUmbrellas::remove(Apex& apex) {
   Triangles filling;
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
   if (!(far_area(filling) < far_area(triangles_of(fan)))) return false;
-  look_around(apex, box_around(apex.vertex, fan));
+  update_surroundings(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   fans_.replace(apex.vertex, fan, least);
   append_apexes(fan.link);

@@ -15,11 +15,11 @@ namespace deliso {
 // not cross itself, so with enough of it nothing crosses. If the crossing pieces cannot be determined, all components
 // are taken from marching cubes. `is_polygonized` tells, for each component, whether it comes from marching cubes; it
 // is updated. Precondition: the mesh has pole heights. A run that must stop leaves the mesh as it is.
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized,
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized,
                                 Controls& controls);
 
 // The same for pieces with assignment faults (component_assignment.h): pieces that have as many vertices on another
 // component as its own piece has, that share a component, or whose topology is wrong. True if there were any.
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized);
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized);
 
 }  // namespace deliso

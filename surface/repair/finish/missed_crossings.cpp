@@ -35,12 +35,12 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, surface.threads);
   if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};
   const CoverageQuery cover(mesh, surface.threads);
-  std::vector<std::uint32_t> left_out;
+  std::vector<std::uint32_t> missed;
   std::uint32_t guess = 0;
   for (std::size_t k = 0; k < inside.size(); ++k) {
-    if (covering[k] == kNoTriangle && !cover.covers(points[k], guess)) left_out.push_back(inside[k]);
+    if (covering[k] == kNoTriangle && !cover.covers(points[k], guess)) missed.push_back(inside[k]);
   }
-  return left_out;
+  return missed;
 }
 
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ExactSurface& surface,

@@ -34,14 +34,14 @@ class CellLevels {
 
   // Refines each of the cells by one level, up to the lattice's highest. The neighbours of a cell at level 3 or more
   // are then refined to within one level of it. `cells` may repeat names.
-  void raise(std::vector<CellName> cells);
-  [[nodiscard]] bool is_raised(CellName cell) const { return level_.contains(cell); }
+  void refine(std::vector<CellName> cells);
+  [[nodiscard]] bool is_refined(CellName cell) const { return level_.contains(cell); }
   // The level of each refined cell, by name.
   [[nodiscard]] const std::map<CellName, int>& levels() const { return level_; }
 
   // The refined cells at some time; and these together with the ring of cells around them.
   struct Zone {
-    std::unordered_set<CellName> raised, cells;
+    std::unordered_set<CellName> refined, cells;
   };
   // Brings a zone up to date. Returns the cells that are new in it.
   std::vector<CellName> extend(Zone& zone) const;

@@ -30,7 +30,7 @@ RepairSamples::RepairSamples(const SignedDelaunay& restricted) {
 
 std::vector<Vec3> RepairSamples::points() const { return points_of(samples_); }
 
-Resampling RepairSamples::resampling(const CellLevels& raised, const SampleLattice& lattice,
+Resampling RepairSamples::resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
                                      const Isosurface& isosurface) const {
   Resampling resampling;
   std::vector<std::uint64_t> have;
@@ -38,14 +38,14 @@ Resampling RepairSamples::resampling(const CellLevels& raised, const SampleLatti
     const RepairSample& sample = samples_[i];
     if (sample.key != 0) {
       have.push_back(sample.key);
-    } else if (raised.is_raised(raised.name(raised.cell_of(sample.point))) &&
+    } else if (cell_levels.is_refined(cell_levels.name(cell_levels.cell_of(sample.point))) &&
                !SignedDelaunay::on_box(isosurface.box(), sample.point)) {
       resampling.leaving.push_back(VertexId(i));
     }
   }
   std::sort(have.begin(), have.end());
   std::vector<LatticeSample> found;
-  for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, found);
+  for (const auto& [name, level] : cell_levels.levels()) lattice.append(cell_levels.cell(name), level, found);
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
   std::uint64_t last = 0;
   for (const LatticeSample& sample : found) {

@@ -36,7 +36,7 @@ class RepairSamples {
 
   // The exchange that the refined cells need: free samples in them leave, and lattice samples come. Free samples on the
   // box stay, because they lie on its boundary curves.
-  [[nodiscard]] Resampling resampling(const CellLevels& raised, const SampleLattice& lattice,
+  [[nodiscard]] Resampling resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
                                       const Isosurface& isosurface) const;
   // Whether so few samples change that it is better to exchange them in the present triangulation.
   [[nodiscard]] bool changes_few(const Resampling& resampling) const;

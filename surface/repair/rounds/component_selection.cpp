@@ -65,35 +65,35 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
 }
 
 // The positions on the surface of those copies that also have a position off the surface.
-class TrueHomes {
+class PositionsOnSurface {
  public:
   // Precondition: every copy is still at its own position.
-  explicit TrueHomes(const BuiltMesh& built) {
+  explicit PositionsOnSurface(const BuiltMesh& built) {
     for (const PinchGroup& group : built.groups) {
       for (const Copy& copy : group) {
         if (!copy.has_position_off_surface) continue;
-        std::vector<Vec3> homes = copy.other_positions;
-        homes.insert(homes.begin(), built.mesh.points[copy.vertex]);
-        homes.pop_back();
-        homes_.emplace_back(copy.vertex, std::move(homes));
+        std::vector<Vec3> positions = copy.other_positions;
+        positions.insert(positions.begin(), built.mesh.points[copy.vertex]);
+        positions.pop_back();
+        positions_.emplace_back(copy.vertex, std::move(positions));
       }
     }
   }
   // The copies that ended at least kPinchSeparation away from all their positions on the surface.
-  [[nodiscard]] std::vector<std::uint32_t> left_by(const std::vector<Vec3>& points) const {
+  [[nodiscard]] std::vector<std::uint32_t> copies_away_from_all(const std::vector<Vec3>& points) const {
     std::vector<std::uint32_t> left;
-    for (const auto& [v, homes] : homes_) {
+    for (const auto& [v, positions] : positions_) {
       const Vec3& p = points[v];
-      const auto is_near = [&](const Vec3& home) {
-        return squared_distance(p, home) < kPinchSeparation * kPinchSeparation;
+      const auto is_near = [&](const Vec3& position) {
+        return squared_distance(p, position) < kPinchSeparation * kPinchSeparation;
       };
-      if (std::none_of(homes.begin(), homes.end(), is_near)) left.push_back(v);
+      if (std::none_of(positions.begin(), positions.end(), is_near)) left.push_back(v);
     }
     return left;
   }
 
  private:
-  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
+  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> positions_;
 };
 
 // A mesh from which some pieces are taken, with the component and the piece of each vertex.
@@ -130,7 +130,7 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 void ComponentSelection::reopen(std::uint32_t component) {
   done_[component] = false;
   best_[component] = Agreement::kPartial;
-  drop_outdone();
+  drop_superseded();
 }
 
 // Keeps a mesh if some component agrees with it better than with every earlier mesh.
@@ -144,12 +144,12 @@ void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs)
   }
   if (!helps) return;
   kept_.push_back({std::move(mesh), std::move(signs)});
-  drop_outdone();
+  drop_superseded();
 }
 
 // Every component is taken from the latest mesh that may give it. Drops the meshes that give no component, and reduces
 // the others to the pieces that they give.
-void ComponentSelection::drop_outdone() {
+void ComponentSelection::drop_superseded() {
   std::vector<bool> given(done_.size(), false);
   for (auto kept = kept_.end(); kept != kept_.begin();) {
     --kept;
@@ -233,9 +233,9 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& 
     };
     given[i] = {built.mesh, component, match.piece_of};
     separate_pinches(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
-    std::vector<std::uint32_t> homeless = TrueHomes(built).left_by(given[i].mesh.points);
-    std::erase_if(homeless, [&](std::uint32_t v) { return !is_wanted(v); });
-    given[i].take_out(homeless, wanted[i]);
+    std::vector<std::uint32_t> off_surface = PositionsOnSurface(built).copies_away_from_all(given[i].mesh.points);
+    std::erase_if(off_surface, [&](std::uint32_t v) { return !is_wanted(v); });
+    given[i].take_out(off_surface, wanted[i]);
   });
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (giver[c] == kept_.size()) continue;

@@ -51,7 +51,7 @@ class ComponentSelection {
     std::shared_ptr<MatchedMesh> mesh;
     TetSigns signs;  // the signs it was made with; empty once it has pole heights
   };
-  void drop_outdone();
+  void drop_superseded();
   void cut_down(KeptMesh& kept, const std::vector<bool>& gives) const;
   [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
     return best_[component] > Agreement::kPartial && mesh.match.agreement[component] >= best_[component];

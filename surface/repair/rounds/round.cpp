@@ -26,14 +26,14 @@ void make_partial(ComponentMatch& match, std::uint32_t component) {
 
 }  // namespace
 
-RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& raised,
+RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& cell_levels,
                          std::unique_ptr<SignedDelaunay> restricted)
     : surface_(surface),
-      raised_(raised),
+      cell_levels_(cell_levels),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
       flat_(*restricted_, surface.threads),
-      unfounded_(*restricted_, surface.grid(), surface.threads),
+      pockets_(*restricted_, surface.grid(), surface.threads),
       poles_(*restricted_) {
   find_components(0);
 }
@@ -75,7 +75,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
     rule_->update();
   }
   flat_.renew(exchanged);
-  unfounded_.renew(exchanged);
+  pockets_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
   if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
@@ -85,7 +85,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
 
 void RepairRound::settle_signs() {
   flat_.settle(*restricted_);
-  unfounded_.overturn(*restricted_);
+  pockets_.flip(*restricted_);
 }
 
 void RepairRound::take_plain_signs() {
@@ -94,13 +94,13 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs() {
-  if (!rule_) rule_.emplace(*restricted_, surface_.grid(), raised_, surface_.threads);
+  if (!rule_) rule_.emplace(*restricted_, surface_.grid(), cell_levels_, surface_.threads);
   rule_->take_signs(at_circumcenters_);
   settle_signs();
 }
 
-void RepairRound::overturn(TetId t) {
-  restricted_->overturn_sign(t);
+void RepairRound::flip_sign(TetId t) {
+  restricted_->flip_sign(t);
   settle_signs();
 }
 
@@ -150,20 +150,20 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
     const auto t = static_cast<std::uint32_t>(at - facets.begin());
     return takes(t) && is_covered_by(restricted_->delaunay().point(VertexId(vertex)), mesh.built.mesh, t);
   };
-  std::vector<std::size_t> left_out;
+  std::vector<std::size_t> unused;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
     const std::uint32_t component = component_of_vertex_[i];
     if (component == kNoComponent || match.agreement[component] <= Agreement::kPartial) continue;
     if (is_still_covered(i, covered_by_[i])) continue;
-    left_out.push_back(i);
+    unused.push_back(i);
     points.push_back(restricted_->delaunay().point(VertexId(i)));
   }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, surface_.threads);
-  for (std::size_t i = 0; i < left_out.size(); ++i) {
-    covered_by_[left_out[i]] = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
-    if (covering[i] == kNoTriangle) make_partial(match, component_of_vertex_[left_out[i]]);
+  for (std::size_t i = 0; i < unused.size(); ++i) {
+    covered_by_[unused[i]] = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
+    if (covering[i] == kNoTriangle) make_partial(match, component_of_vertex_[unused[i]]);
   }
 }
 

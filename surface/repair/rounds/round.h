@@ -30,7 +30,7 @@ class RepairRound {
  public:
   // Precondition: the signs of `restricted` are those of the circumcenters. Keeps references to the other arguments.
   // Only the time depends on the number of threads.
-  RepairRound(const ExactSurface& surface, const CellLevels& raised, std::unique_ptr<SignedDelaunay> restricted);
+  RepairRound(const ExactSurface& surface, const CellLevels& cell_levels, std::unique_ptr<SignedDelaunay> restricted);
 
   // Exchanges points and updates all data for them and for the cells refined meanwhile: this begins a new round.
   // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more.
@@ -43,9 +43,9 @@ class RepairRound {
   void take_signs();
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Frees data that can be computed again. Called before meshes are assembled, after which a further round is rare.
-  void rest() { pairing_.reset(); }
+  void drop_pairing() { pairing_.reset(); }
   // Flips a sign, then makes the same two corrections.
-  void overturn(TetId t);
+  void flip_sign(TetId t);
   // By how much a flip of the sign of t alone would change the Euler characteristic (euler_change.h).
   [[nodiscard]] std::int64_t euler_change(TetId t) { return deliso::euler_change(*restricted_, t); }
 
@@ -66,8 +66,8 @@ class RepairRound {
   // The exact component on which each vertex lies, or kNoComponent.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
   // The sign constraints of the tetrahedra, by slot (sign_constraints.h); empty before signs are set by the rule.
-  [[nodiscard]] std::span<const std::uint8_t> evidence() const {
-    return rule_ ? std::span<const std::uint8_t>(rule_->evidence()) : std::span<const std::uint8_t>();
+  [[nodiscard]] std::span<const std::uint8_t> sign_constraints() const {
+    return rule_ ? std::span<const std::uint8_t>(rule_->constraints()) : std::span<const std::uint8_t>();
   }
 
  private:
@@ -77,13 +77,13 @@ class RepairRound {
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets);
 
   ExactSurface surface_;
-  const CellLevels& raised_;
+  const CellLevels& cell_levels_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRule> rule_;  // made when first needed
   SliverSigns flat_;
-  SpuriousPockets unfounded_;
+  SpuriousPockets pockets_;
   std::optional<FacetPairing> pairing_;
   bool has_assembled_ = false;  // whether assemble() was called in this round
   // Of each vertex: the facet of the triangle that covered it when no main piece used it the last time; kNoFacet when

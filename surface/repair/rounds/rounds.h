@@ -27,7 +27,7 @@ class RepairRounds {
  public:
   // `restricted` is the result of stage 1; its mesh is the first mesh kept. Keeps references to the cache and the
   // counters.
-  RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
+  RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
 
   // Makes rounds until every component is done or there have been `max_rounds`. Before each round it asks ends(), and
   // stops if that is true. Returns whether ends() stopped it.
@@ -44,7 +44,7 @@ class RepairRounds {
   void give_poles() {
     if (!round_) return;
     kept_.give_poles(*round_);
-    round_->rest();
+    round_->drop_pairing();
   }
   // The meshes kept so far. Their components can be assembled once the meshes have pole heights.
   [[nodiscard]] const ComponentSelection& selection() const { return kept_; }
@@ -60,7 +60,7 @@ class RepairRounds {
     round_.reset();
   }
   // The mesh of stage 1, right or wrong, for a run that was stopped before the first round.
-  SurfaceMesh as_it_is();
+  SurfaceMesh unrepaired_mesh();
 
  private:
   void mend_once(std::vector<CellName> cells, Controls& controls);
@@ -73,7 +73,7 @@ class RepairRounds {
   RepairStats& stats_;
   std::int64_t rounds_around_ = 0;  // rounds made by mend_around()
   SampleLattice lattice_;
-  CellLevels raised_;
+  CellLevels cell_levels_;
   std::optional<RepairRound> round_;
   RepairSamples samples_;              // the vertices of its triangulation
   std::shared_ptr<MatchedMesh> mesh_;  // the latest mesh

@@ -62,7 +62,7 @@ ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t com
 // Finds them for all components in one pass, because most of the time is spent on the distances of tetrahedra.
 void SignSearch::find_undecided() {
   const SignedDelaunay& restricted = round_.restricted();
-  const std::span<const std::uint8_t> evidence = round_.evidence();
+  const std::span<const std::uint8_t> constraints = round_.sign_constraints();
   std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the boxes of each component
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
     if (!boxes_[c].empty()) distances.emplace_back(c, DistanceFromRanges(boxes_[c], cells_.dims(), kReach));
@@ -74,7 +74,7 @@ void SignSearch::find_undecided() {
   };
   const auto append_if_near = [&](std::size_t i, std::vector<Near>& near) {
     const TetId t(i);
-    const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
+    const bool is_decided = constraints[i] == kAbove || constraints[i] == kBelow;
     if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
     const CellIndex cell = cells_.cell_of(centre_of(restricted, t));
     for (const auto& [component, distance] : distances) {
@@ -82,7 +82,7 @@ void SignSearch::find_undecided() {
       if (layers <= kReach) near.push_back({t, component, layers});
     }
   };
-  std::vector<Near> near = collect_in_blocks<Near>(evidence.size(), round_.threads(), append_if_near);
+  std::vector<Near> near = collect_in_blocks<Near>(constraints.size(), round_.threads(), append_if_near);
   std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.layers < b.layers; });
   undecided_.resize(boxes_.size());
   for (const Near& one : near) undecided_[one.component].push_back(one.tet);
@@ -98,7 +98,7 @@ void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh
     if (lacks.euler_characteristic == 0 || trials == kMostTrials || controls.poll()) return;
     if (!is_worth_trying(t, lacks)) continue;
     ++trials;
-    round_.overturn(t);
+    round_.flip_sign(t);
     const auto is_better = [&](const MatchedMesh& trial) {
       return amount(missing(trial, component)) < amount(lacks) && trial.match.error <= mesh->match.error;
     };

@@ -220,9 +220,9 @@ std::int64_t euler_change(SignedDelaunay& restricted, TetId t) {
   if (SimpleTet(restricted)(t)) return 0;  // nearly always
   LocalMesh local(restricted, t);
   const std::int64_t before = local.doubled_characteristic();
-  restricted.overturn_sign(t);
+  restricted.flip_sign(t);
   const std::int64_t after = local.doubled_characteristic();
-  restricted.overturn_sign(t);
+  restricted.flip_sign(t);
   return (after - before) / 2;
 }
 

@@ -38,7 +38,7 @@ class LocatedCriticalPoints {
   // Finds the points of some cells (x fastest); the same for any number of threads.
   void find(std::span<const CellIndex> cells, int threads);
   // The points of all cells requested so far, cell by cell, x fastest.
-  [[nodiscard]] const std::vector<LocatedCriticalPoint>& places() const { return places_; }
+  [[nodiscard]] const std::vector<LocatedCriticalPoint>& points() const { return points_; }
   // Finds the tetrahedra of these points (ascending indices); the same for any number of threads.
   void locate(std::span<const std::uint32_t> wanted, int threads);
   // The tetrahedron that holds a located point, in the direction of its cell's center.
@@ -49,7 +49,7 @@ class LocatedCriticalPoints {
   [[nodiscard]] TetId located(const LocatedCriticalPoint& place, TetId hint) const;
 
   const SignedDelaunay& restricted_;
-  std::vector<LocatedCriticalPoint> places_;
+  std::vector<LocatedCriticalPoint> points_;
   std::vector<TetId> tets_;  // of each point, as far as it was requested
 };
 

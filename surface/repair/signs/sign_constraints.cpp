@@ -20,7 +20,7 @@ constexpr double kShortest = 1.0 / 64;
 // The number of cells that a thread takes at a time.
 constexpr std::size_t kCellsAtOnce = 64;
 
-Vec3 corner_place(unsigned corner) {
+Vec3 corner_position(unsigned corner) {
   return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
 }
 
@@ -42,7 +42,7 @@ class Collector {
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   TetId note(const Vec3& p, std::uint8_t side);
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-    return note(place(cell, corner_place(corner)), side);
+    return note(position(cell, corner_position(corner)), side);
   }
   void note_located(const Vec3& p, std::uint8_t side);
   // Several collectors may call this at the same time; the result does not depend on the order.
@@ -50,7 +50,7 @@ class Collector {
     const std::atomic_ref<std::uint8_t> noted(sides_[t.index()]);
     if ((noted.load(std::memory_order_relaxed) & side) == 0) noted.fetch_or(side, std::memory_order_relaxed);
   }
-  [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
+  [[nodiscard]] Vec3 position(const CellIndex& cell, const Vec3& uvw) const {
     return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
   }
   [[nodiscard]] std::uint8_t side_of(double value) const {
@@ -70,7 +70,7 @@ class Collector {
 
 std::vector<TetId> Collector::collect(const CellIndex& cell) {
   trace_.clear();
-  center_ = place(cell, {0.5, 0.5, 0.5});
+  center_ = position(cell, {0.5, 0.5, 0.5});
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   collect_edges(cell, corners);
   collect_critical_points(cell, corners);
@@ -87,7 +87,7 @@ void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners)
       if (side != side_of(corners[corner | axis])) continue;
       const TetId at_a = note_corner(cell, corner, side);
       const TetId at_b = note_corner(cell, corner | axis, side);
-      follow(place(cell, corner_place(corner)), at_a, place(cell, corner_place(corner | axis)), at_b, side);
+      follow(position(cell, corner_position(corner)), at_a, position(cell, corner_position(corner | axis)), at_b, side);
     }
   }
 }
@@ -101,7 +101,7 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
     const int known = side_of_saddle(corners, restricted_.isosurface().isovalue(), c);
     if (known == 0) continue;
     const std::uint8_t side = known > 0 ? kAbove : kBelow;
-    const Vec3 p = place(cell, c.uvw);
+    const Vec3 p = position(cell, c.uvw);
     note(p, side);
     if (c.face < 0) continue;
     for (const int corner : face_corners(c.face)) {
@@ -109,7 +109,7 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
       if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
         const TetId at_p = note(p, side);
         const TetId at_corner = note_corner(cell, static_cast<unsigned>(corner), side);
-        follow(p, at_p, place(cell, corner_place(static_cast<unsigned>(corner))), at_corner, side);
+        follow(p, at_p, position(cell, corner_position(static_cast<unsigned>(corner))), at_corner, side);
       }
     }
   }
@@ -171,14 +171,14 @@ void SignConstraints::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-void SignConstraints::update(const CellLevels& raised, int threads) {
+void SignConstraints::update(const CellLevels& cell_levels, int threads) {
   sides_.resize(restricted_.delaunay().tet_slots(), kNoConstraint);
   // Refined cells stay refined.
   std::vector<Trace> traces;
-  traces.reserve(raised.levels().size());
+  traces.reserve(cell_levels.levels().size());
   std::vector<std::size_t> stale;
   auto old = traces_.begin();
-  for (const auto& [name, level] : raised.levels()) {
+  for (const auto& [name, level] : cell_levels.levels()) {
     if (old != traces_.end() && old->cell == name) {
       traces.push_back(std::move(*old++));
     } else {
@@ -195,7 +195,7 @@ void SignConstraints::update(const CellLevels& raised, int threads) {
         Collector collector(restricted_, grid_, sides_);
         for (std::size_t i = first; i < last; ++i) {
           Trace& trace = traces_[stale[i]];
-          trace.tets = collector.collect(raised.cell(trace.cell));
+          trace.tets = collector.collect(cell_levels.cell(trace.cell));
           trace.is_stale = false;
         }
       },

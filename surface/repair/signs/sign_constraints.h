@@ -31,7 +31,7 @@ class SignConstraints {
   // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
   // Updates the constraints for the cells refined by now. The same for any number of threads.
-  void update(const CellLevels& raised, int threads = 1);
+  void update(const CellLevels& cell_levels, int threads = 1);
 
   // The constraint of each slot.
   [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }

@@ -19,7 +19,7 @@ namespace deliso {
 class SignRule {
  public:
   // Keeps references. The result does not depend on the number of threads.
-  SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads);
+  SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& cell_levels, int threads);
 
   // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
@@ -32,23 +32,23 @@ class SignRule {
   void take_signs(const TetSigns& at_circumcenters);
 
   // The sign constraint of each tetrahedron, by slot (sign_constraints.h).
-  [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }
+  [[nodiscard]] const std::vector<std::uint8_t>& constraints() const { return constraints_.sides(); }
 
  private:
   using Signs = std::vector<std::pair<TetId, bool>>;  // tetrahedra, and whether their sign is above
   static constexpr CellName kNoCell = ~CellName{0};
-  void update_homes();
+  void update_centroid_cells();
   void update_by_centroid();
 
   SignedDelaunay& restricted_;
-  const CellLevels& raised_;
+  const CellLevels& cell_levels_;
   int threads_;
-  SignConstraints evidence_;
-  Signs by_evidence_;            // of small tetrahedra whose constraint is one side
-  Signs by_centroid_;            // of small tetrahedra in the zone
-  std::vector<CellName> homes_;  // of each slot: the cell of the centroid of a small tetrahedron, or kNoCell
-  CellLevels::Zone zone_;        // as of the last update
-  std::vector<TetId> renewed_;   // slots renewed since the last update
+  SignConstraints constraints_;
+  Signs by_constraint_;                   // of small tetrahedra whose constraint is one side
+  Signs by_centroid_;                     // of small tetrahedra in the zone
+  std::vector<CellName> centroid_cells_;  // of each slot: the cell of the centroid of a small tetrahedron, or kNoCell
+  CellLevels::Zone zone_;                 // as of the last update
+  std::vector<TetId> renewed_;            // slots renewed since the last update
 };
 
 }  // namespace deliso

@@ -43,7 +43,7 @@ bool is_flat(const Tetrahedralization& delaunay, TetId t) {
 }
 
 // The index of t in an ascending array.
-std::optional<std::uint32_t> place_of(std::span<const TetId> tets, TetId t) {
+std::optional<std::uint32_t> index_of(std::span<const TetId> tets, TetId t) {
   const auto at = std::lower_bound(tets.begin(), tets.end(), t);
   if (at == tets.end() || *at != t) return std::nullopt;
   return static_cast<std::uint32_t>(at - tets.begin());
@@ -63,7 +63,7 @@ class LeastCut {
         const double area = twice_area(delaunay, FacetId(tets[i], face));
         const TetId across = delaunay.neighbour(tets[i], face);
         all += area;
-        if (const auto j = place_of(tets, across); !j) {
+        if (const auto j = index_of(tets, across); !j) {
           join(i, restricted.is_above(across), area);
         } else if (*j > i) {
           add_arcs(kFirst + i, kFirst + *j, area, area);
@@ -166,7 +166,7 @@ void SliverSigns::find_layers() {
     take(seed);
     for (std::size_t at = 0; at < layer.size(); ++at) {
       for (unsigned face = 0; face < 4; ++face) {
-        const auto next = place_of(flat_, restricted_.delaunay().neighbour(layer[at], face));
+        const auto next = index_of(flat_, restricted_.delaunay().neighbour(layer[at], face));
         if (next && !is_in_layer[*next]) take(*next);
       }
     }

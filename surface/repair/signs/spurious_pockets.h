@@ -24,21 +24,21 @@ class SpuriousPockets {
   // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
   // Finds the pockets and flips the signs in them; returns their number. `restricted` is that of the constructor.
-  std::int64_t overturn(SignedDelaunay& restricted);
+  std::int64_t flip(SignedDelaunay& restricted);
   [[nodiscard]] const std::vector<std::vector<TetId>>& pockets() const { return pockets_; }
 
  private:
   using Pocket = std::vector<TetId>;
-  enum class State : std::uint8_t { kUnseen, kPocket, kLeftAlone };
+  enum class State : std::uint8_t { kUnseen, kPocket, kExcluded };
   // The state of a search: what it has visited, and the set that it is flooding.
-  struct Look {
-    explicit Look(std::size_t slots) : state(slots, State::kUnseen) {}
+  struct Search {
+    explicit Search(std::size_t slots) : state(slots, State::kUnseen) {}
     std::vector<State> state;  // by slot
     Pocket flood;
   };
-  void look_everywhere();
-  bool floods_pocket(TetId seed, Look& look) const;
-  [[nodiscard]] bool is_unfounded(const Pocket& pocket) const;
+  void search_all();
+  bool floods_pocket(TetId seed, Search& search) const;
+  [[nodiscard]] bool is_spurious(const Pocket& pocket) const;
 
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;

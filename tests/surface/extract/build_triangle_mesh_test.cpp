@@ -64,7 +64,7 @@ TEST(BuildTriangleMesh, RandomSignsGiveOrientedManifoldsToo) {
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     Rng rng(seed);
     for (std::size_t i = 0; i < restricted.delaunay().tet_slots(); ++i) {
-      if (restricted.delaunay().is_live(TetId(i)) && rng.below(2 + seed % 5) == 0) restricted.overturn_sign(TetId(i));
+      if (restricted.delaunay().is_live(TetId(i)) && rng.below(2 + seed % 5) == 0) restricted.flip_sign(TetId(i));
     }
     checked_build(restricted);
   }
@@ -110,7 +110,7 @@ TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
     std::vector<TetId> finite;
     for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
       if (!delaunay.is_live(TetId(i))) continue;
-      if (restricted.is_above(TetId(i))) restricted.overturn_sign(TetId(i));
+      if (restricted.is_above(TetId(i))) restricted.flip_sign(TetId(i));
       if (!delaunay.is_ghost(TetId(i))) finite.push_back(TetId(i));
     }
     Rng rng(seed);
@@ -121,8 +121,8 @@ TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
     const auto b = testing::name_of(delaunay, two);
     std::vector<std::uint32_t> shared;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(shared));
-    restricted.overturn_sign(one);
-    restricted.overturn_sign(two);
+    restricted.flip_sign(one);
+    restricted.flip_sign(two);
     const BuiltMesh built = checked_build(restricted);
     const auto components = test::mesh_facts(built.mesh.triangles).components;
     EXPECT_TRUE(std::all_of(components.begin(), components.end(), [](const auto& c) {

@@ -22,7 +22,7 @@ TEST(EulerCurve, EqualMeshesNeverPart) {
   }
 }
 
-// A hole in the mesh changes its Euler characteristic by one, for good: the sweeps must find where.
+// A hole in the mesh changes its Euler characteristic by one, for good: the curves must find where.
 TEST(EulerCurve, FindsWhereAHoleIsPunched) {
   const auto scene = field_scene("gyroid", 32);
   const SurfaceMesh exact = exact_polygonization(scene->surface()).mesh;

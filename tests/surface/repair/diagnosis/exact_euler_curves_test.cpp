@@ -25,9 +25,9 @@ void to_index_space(SurfaceMesh& mesh, const Vec3& step) {
 }
 
 void expect_characteristics(const testing::Scene& scene) {
-  const ExactEulerCurves sweeps(scene.surface());
+  const ExactEulerCurves curves(scene.surface());
   for (std::uint32_t c = 0; c < scene.topology.components.size(); ++c) {
-    for (const auto& along : sweeps.of(c)) {
+    for (const auto& along : curves.of(c)) {
       EXPECT_EQ(along.back(), scene.topology.components[c].euler_characteristic) << c;
     }
   }
@@ -38,8 +38,8 @@ void expect_those_of_the_mesh(const testing::Scene& scene) {
   to_index_space(surface.mesh, scene.isosurface->step());
   const std::size_t components = scene.topology.components.size();
   const auto expected = euler_curves(surface.mesh, surface.component, components, {1, 1, 1}, scene.grid.dims());
-  const ExactEulerCurves sweeps(scene.surface());
-  for (std::uint32_t c = 0; c < components; ++c) EXPECT_EQ(sweeps.of(c), expected[c]) << c;
+  const ExactEulerCurves curves(scene.surface());
+  for (std::uint32_t c = 0; c < components; ++c) EXPECT_EQ(curves.of(c), expected[c]) << c;
   expect_characteristics(scene);
 }
 

@@ -55,7 +55,7 @@ struct Attempts {
         const bool is_live = round.restricted().delaunay().is_live(TetId(t));
         if (is_live && i > 0 && rng.below(100) < 3) tets.emplace_back(t);
       }
-      for (const TetId t : tets) round.overturn(t);
+      for (const TetId t : tets) round.flip_sign(t);
       std::optional<MatchedMesh> mesh = round.assemble();
       if (!mesh) continue;
       meshes.push_back(*std::move(mesh));
@@ -70,8 +70,8 @@ struct Attempts {
 };
 
 // The wanted copies that have moved to where the surface is not, as their lists of homes tell.
-std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Vec3>& before,
-                                    const std::function<bool(std::uint32_t)>& is_wanted) {
+std::vector<std::uint32_t> copies_off_surface(const BuiltMesh& built, const std::vector<Vec3>& before,
+                                              const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
   for (const PinchGroup& group : built.groups) {
     for (const auto& [v, others, has_position_off_surface] : group) {
@@ -134,7 +134,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       const std::vector<Vec3> before = mesh.built.mesh.points;
       separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
-      if (const auto off = homeless(mesh.built, before, is_wanted); !off.empty()) {
+      if (const auto off = copies_off_surface(mesh.built, before, is_wanted); !off.empty()) {
         VertexDecimation fans(mesh.built.mesh);
         fans.take_out(off);
         if (std::any_of(off.begin(), off.end(), [&](std::uint32_t v) { return fans.has(v); })) continue;

@@ -24,9 +24,9 @@ struct MendedScene {
     std::vector<Vec3> points = scene->start();
     const std::vector<Vec3> crossings = testing::crossing_points(*scene);
     for (std::size_t i = 0; i < crossings.size(); i += 3) points.push_back(crossings[i]);
-    facts = std::make_unique<ExactSurfaceCache>(scene->surface(threads));
+    cache = std::make_unique<ExactSurfaceCache>(scene->surface(threads));
     rounds = std::make_unique<RepairRounds>(
-        *facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), stats);
+        *cache, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), stats);
     mend();
   }
   void mend() {
@@ -48,7 +48,7 @@ struct MendedScene {
   }
 
   std::unique_ptr<testing::Scene> scene;
-  std::unique_ptr<ExactSurfaceCache> facts;
+  std::unique_ptr<ExactSurfaceCache> cache;
   RepairStats stats;
   Controls controls{{}, nullptr, {}};
   std::unique_ptr<RepairRounds> rounds;
@@ -90,7 +90,7 @@ TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
     for (int round = 0; round < 2; ++round) {
       ASSERT_TRUE(one.rounds->is_done());
       ASSERT_TRUE(three.rounds->is_done());
-      const SurfaceMesh expected = one.rounds->as_it_is(), found = three.rounds->as_it_is();
+      const SurfaceMesh expected = one.rounds->unrepaired_mesh(), found = three.rounds->unrepaired_mesh();
       EXPECT_EQ(found.points, expected.points);
       EXPECT_EQ(found.triangles, expected.triangles);
       EXPECT_EQ(found.pole_heights, expected.pole_heights);

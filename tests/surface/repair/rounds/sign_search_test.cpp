@@ -55,7 +55,7 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
       const TetSigns signs = restricted.signs();
       const std::int64_t change = euler_change(restricted, t);
       EXPECT_EQ(restricted.signs(), signs);
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       const std::int64_t after = characteristic(restricted);
       ASSERT_EQ(change, after - before) << scene->name << " trial " << trial;
       before = after;
@@ -76,9 +76,9 @@ TEST(LocalCharacteristic, OfEveryTetrahedron) {
       const TetId t(i);
       if (!delaunay.is_live(t)) continue;
       const std::int64_t change = euler_change(restricted, t);
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       ASSERT_EQ(change, characteristic(restricted) - before) << scene->name << " tetrahedron " << i;
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       ++(change == 0 ? nothing : something);
     }
   }
@@ -120,7 +120,7 @@ TEST(SignSearch, MendASpoiltPlace) {
       const TetId spoilt(i);
       if (!delaunay.is_live(spoilt) || delaunay.is_ghost(spoilt)) continue;
       if (round.euler_change(spoilt) == 0) continue;
-      round.overturn(spoilt);
+      round.flip_sign(spoilt);
       const std::optional<MatchedMesh> mesh = round.assemble();
       for (std::uint32_t c = 0; mesh && c < scene->topology.components.size(); ++c) {
         const ComponentTopology& want = scene->topology.components[c];

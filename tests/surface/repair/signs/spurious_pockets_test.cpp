@@ -45,7 +45,7 @@ TEST(SpuriousPockets, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = dense(*scene);
     const auto before = testing::signs_by_name(restricted);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 0) << name;
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 0) << name;
     EXPECT_EQ(testing::signs_by_name(restricted), before);
   }
 }
@@ -65,8 +65,8 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
       alone &= restricted.is_above(delaunay.neighbour(t, face)) == restricted.is_above(t);
     }
     if (!alone || holds_any_sample(*scene, testing::corners_of(delaunay, t), 1e-9)) continue;
-    restricted.overturn_sign(t);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 1) << i;
+    restricted.flip_sign(t);
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 1) << i;
     EXPECT_EQ(testing::signs_by_name(restricted), before) << i;
     if (::testing::Test::HasFailure()) return;
     ++turned;
@@ -85,16 +85,16 @@ TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
     const TetId t(i);
     if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
     for (std::size_t j = 0; j < delaunay.tet_slots(); ++j) {
-      if (delaunay.is_live(TetId(j)) && restricted.is_above(TetId(j))) restricted.overturn_sign(TetId(j));
+      if (delaunay.is_live(TetId(j)) && restricted.is_above(TetId(j))) restricted.flip_sign(TetId(j));
     }
-    restricted.overturn_sign(t);
+    restricted.flip_sign(t);
     bool has_sample = false;
     for (std::int32_t n = 0; n < 16 * 16 * 16 && !has_sample; ++n) {
       const std::array<std::int32_t, 3> s{n % 16, n / 16 % 16, n / 256};
       has_sample = scene->grid.at(s[0], s[1], s[2]) > scene->isovalue &&
                    holds(testing::corners_of(delaunay, t), {double(s[0]), double(s[1]), double(s[2])}, -1e-9);
     }
-    const std::int64_t count = SpuriousPockets(restricted, scene->grid).overturn(restricted);
+    const std::int64_t count = SpuriousPockets(restricted, scene->grid).flip(restricted);
     if (has_sample) {
       EXPECT_EQ(count, 0);
       EXPECT_TRUE(restricted.is_above(t));
@@ -109,7 +109,7 @@ TEST(SpuriousPockets, NoiseEndsAfterFewPassesAndKeepsParity) {
     const auto scene = noise_scene({5, 5, 5}, seed);
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     int passes = 0;
-    while (SpuriousPockets(restricted, scene->grid).overturn(restricted) > 0 && passes < 20) ++passes;
+    while (SpuriousPockets(restricted, scene->grid).flip(restricted) > 0 && passes < 20) ++passes;
     EXPECT_LT(passes, 20) << "seed " << seed;
     EXPECT_EQ(testing::odd_edges(restricted), 0u);
   }
