@@ -1,4 +1,4 @@
-// The samples of repair's triangulation: free points of the surface, and lattice samples in raised cells.
+// The samples of repair's triangulation: free points of the surface, and lattice samples in refined cells.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Where the meshes of repair differ from the surface: all components at once must be like one after the other.
+// Where the topology of meshes differs from the surface's: all components at once must give the same as one after the
+// other.
 #include "surface/repair/diagnosis/euler_differences.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
     mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
-  // What one component's main piece and its part of the surface alone give, both as whole meshes.
+  // The boxes from one component's main piece and its part of the surface alone, both as whole meshes.
   [[nodiscard]] std::vector<IndexBox> boxes_of(std::uint32_t c) const {
     const ExactPolygonization& exact = cache_.polygonized();
     const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);

@@ -1,4 +1,4 @@
-// The exact surface swept cell by cell must be like its marching-cubes mesh swept as a whole.
+// The exact Euler curves, computed cell by cell, must equal those of the marching-cubes mesh as a whole.
 #include "surface/repair/diagnosis/exact_euler_curves.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using testing::field_scene;
 using testing::noise_scene;
 
-// In index space; what is rounded off a sample layer comes back to it.
+// In index space; coordinates rounded off a sample layer are moved back onto it.
 void to_index_space(SurfaceMesh& mesh, const Vec3& step) {
   for (Vec3& p : mesh.points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Facts of the surface, and what repair makes of them: found before or when asked for, on any number of threads.
+// Data of the surface and located critical points: computed in advance or on request, on any number of threads.
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
 
-// Cell by cell, from the samples: (cell, how many critical points).
+// Cell by cell, from the samples: (cell, number of critical points).
 std::vector<std::pair<CellIndex, std::size_t>> critical_cells_by_search(const Scene& scene) {
   std::vector<std::pair<CellIndex, std::size_t>> cells;
   const Dims& dims = scene.grid.dims();
@@ -68,7 +68,7 @@ TEST(ExactSurfaceCache, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(ExactSurfaceCache, NobodyHasToAsk) {
+TEST(ExactSurfaceCache, IsDestroyedWithoutRequests) {
   const auto scene = field_scene("gyroid", 32);
   for (int i = 0; i < 20; ++i) ExactSurfaceCache(scene->surface(2));
 }
@@ -90,7 +90,7 @@ TEST(LocatedCriticalPoints, AreFoundInTheCellsAskedFor) {
     points.find(cells, threads);
     EXPECT_EQ(cells_of(points.points()), expected) << threads;
   }
-  // Some cells, others, and then all of them, many asked for again.
+  // Some cells, then others, then all, so that many cells are requested twice.
   LocatedCriticalPoints points(restricted);
   for (const std::size_t step : {7u, 3u}) {
     std::vector<CellIndex> some;

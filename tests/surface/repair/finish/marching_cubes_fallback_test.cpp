@@ -11,8 +11,8 @@
 namespace deliso {
 namespace {
 
-// Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
-TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
+// Shells, meshed by marching cubes; some vertices of one shell are moved onto another.
+TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
   const auto scene = testing::field_scene("shells", 48);
   const ExactSurfaceCache cache(scene->surface(1));
   const std::size_t components = scene->topology.components.size();
@@ -21,7 +21,7 @@ TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
   const std::vector<std::uint32_t>& component = cache.polygonized().component;
   ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
 
-  // Some vertices of component 0 go to where component 1 is.
+  // Some vertices of component 0 are moved onto component 1.
   Vec3 there;
   std::size_t count = 0;
   for (std::size_t v = 0; v < component.size(); ++v) {

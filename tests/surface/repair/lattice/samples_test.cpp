@@ -12,8 +12,8 @@ namespace {
 
 using testing::noise_scene;
 
-// The samples are the vertices, one by one, however they came to be: with lattice samples that equal free ones or stand
-// where one has gone.
+// The samples are the vertices, one by one, whatever the exchanges: also with lattice samples that equal free samples
+// or removed vertices.
 TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
   int exchanges = 0;
   int rebuilds = 0;

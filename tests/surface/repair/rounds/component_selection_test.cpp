@@ -1,4 +1,4 @@
-// What is taken from the kept meshes at last must not depend on what was dropped of them meanwhile.
+// The final selection must not depend on the meshes and pieces that were dropped meanwhile.
 #include "surface/repair/rounds/component_selection.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ std::unique_ptr<Scene> blobs(std::uint64_t seed) {
   return std::make_unique<Scene>("blobs", testing::noise_grid({14, 13, 12}, {1, 1, 1}, rng), 190.5);
 }
 
-// Meshes of one round with random signs turned over, each with its signs.
+// Meshes of one round with randomly flipped signs, each with its signs.
 struct Attempts {
   explicit Attempts(const Scene& scene, std::uint64_t seed)
       : cells(*scene.isosurface),
@@ -69,7 +69,7 @@ struct Attempts {
   std::vector<TetSigns> signs;
 };
 
-// The wanted copies that have moved to where the surface is not, as their lists of homes tell.
+// The wanted copies that ended off the surface, according to their lists of positions.
 std::vector<std::uint32_t> copies_off_surface(const BuiltMesh& built, const std::vector<Vec3>& before,
                                               const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> copies_off_surface(const BuiltMesh& built, const std:
   return found;
 }
 
-// All vertices that have not been moved must lie on the component that is told of them.
+// Every vertex that was not moved must lie on the component given for it.
 void expect_true_components(const AssembledMesh& assembled, const Scene& scene) {
   ASSERT_EQ(assembled.component.size(), assembled.mesh.points.size());
   const std::vector<Vec3> samples = testing::crossing_points(scene);
@@ -109,7 +109,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
     const Box3& box = scene->isosurface->box();
     Attempts attempts(*scene, seed);
     ComponentSelection kept(components);
-    // The same by hand: which mesh gives each component.
+    // The expected result: which mesh gives each component.
     std::vector<Agreement> best(components, Agreement::kNone);
     std::vector<std::optional<std::size_t>> giver(components);
     for (std::size_t i = 0; i < attempts.meshes.size(); ++i) {
@@ -171,7 +171,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   EXPECT_GT(mended, 0u);
 }
 
-// A component that is opened again is given by later meshes alone.
+// A reopened component is taken only from later meshes.
 TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   const auto scene = blobs(1);
   const Box3& box = scene->isosurface->box();

@@ -1,4 +1,4 @@
-// Rounds of repair that go on from the one before must be like rounds made anew.
+// A round that continues the one before must equal a round built anew.
 #include "surface/repair/rounds/round.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vec
   return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
 }
 
-// The same as stage 1 leaves it: grown point by point, in slots as they came free.
+// The same as after stage 1: built point by point, so that slots were reused.
 std::unique_ptr<SignedDelaunay> grown(const Scene& scene, const std::vector<Vec3>& points) {
   RestrictedDelaunay restricted(*scene.isosurface, std::span(points).first(points.size() / 4));
   for (const Vec3& p : points) {
@@ -59,8 +59,9 @@ std::map<TetName, int> constraints_by_name(const RepairRound& round) {
   return names;
 }
 
-// A mesh's triangles by the vertices of the triangulation, the least first; so copies of a vertex are not told apart. A
-// vertex on a subdivided edge, whose place may be rounded otherwise, counts as the infinite one.
+// A mesh's triangles by the vertices of the triangulation, the lowest first, so copies of a vertex are not
+// distinguished. A vertex on a subdivided edge, whose position may be rounded differently, counts as the infinite
+// vertex.
 std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const RepairRound& round) {
   const auto name = [&](std::uint32_t v) {
     const VertexId vertex = built.vertex_of[v];
@@ -86,7 +87,7 @@ std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& mat
   return pieces;
 }
 
-// Takes plain signs and those by the rule in both and compares all that comes of it.
+// Sets plain signs, then those of the rule, in both rounds, and compares all results.
 void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
   ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
   ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
@@ -96,7 +97,7 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
     is_plain ? fresh.take_plain_signs() : fresh.take_signs();
     ASSERT_EQ(constraints_by_name(continued), constraints_by_name(fresh)) << where;
     ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
-    // Circumcenters are rounded otherwise when the vertices of a tetrahedron stand in another order.
+    // Circumcenters are rounded differently when the vertices of a tetrahedron are in another order.
     const std::vector<double>& heights = continued.pole_heights(all);
     const std::vector<double>& fresh_heights = fresh.pole_heights(all);
     ASSERT_EQ(heights.size(), fresh_heights.size()) << where;
@@ -116,7 +117,7 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
   }
 }
 
-// Raises some active cells one level.
+// Refines some active cells by one level.
 void refine_some(const Scene& scene, CellLevels& cell_levels, Rng& rng) {
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
@@ -187,7 +188,7 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
-// A vertex away from the surface, in a cell that it does not cross, counts for no component.
+// A vertex off the surface, in a cell that the surface does not meet, lies on no component.
 TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
   const auto scene = testing::field_scene("sphere", 24);
   std::vector<Vec3> points = all_crossings(*scene);
@@ -203,7 +204,7 @@ TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
     off += is_off ? 1 : 0;
   }
   EXPECT_EQ(off, 2u);
-  // Nor is it a part that the mesh misses.
+  // It does not count as a part that the mesh misses, either.
   round.take_plain_signs();
   EXPECT_TRUE(round.assemble().has_value());
 }

@@ -1,4 +1,4 @@
-// Rounds of repair that are asked to look at certain places, whatever else is wrong.
+// Rounds of repair around given crossings.
 #include "surface/repair/rounds/rounds.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int32_t kMostRounds = 12;
 
-// Rounds that begin with every third crossing of a small volume of noise and have mended all components.
+// Rounds that begin with every third crossing of a small noise volume and have repaired all components.
 struct MendedScene {
   explicit MendedScene(std::uint64_t seed, const Dims& dims = {8, 8, 7}, int threads = 1)
       : scene(testing::noise_scene(dims, seed)) {
@@ -54,7 +54,7 @@ struct MendedScene {
   std::unique_ptr<RepairRounds> rounds;
 };
 
-// Few crossings of the component that has the most of them.
+// A few crossings of the component with the most crossings.
 std::vector<std::uint32_t> some_crossings(const testing::Scene& scene) {
   std::vector<std::int64_t> counts(scene.topology.components.size());
   for (const EdgeCrossing& c : scene.topology.crossings) ++counts[c.component];
@@ -82,7 +82,7 @@ TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   EXPECT_GE(finer, 2);
 }
 
-// Pole heights tell of signs, and so does what the next round makes of them.
+// Pole heights depend on the signs, and so do the results of the next round.
 TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);

@@ -30,8 +30,9 @@ CellLevels everywhere(const Scene& scene) {
   return cell_levels;
 }
 
-// Points strictly between two samples of one side lie on that side: whichever tetrahedron holds one must know.
-TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
+// Points strictly between two samples of one side lie on that side: every tetrahedron that holds one must have this
+// constraint.
+TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideHaveTheirSide) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
@@ -59,7 +60,7 @@ TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
   }
 }
 
-// Enough cells for several blocks. In the symmetric field many samples lie on sides of tetrahedra.
+// Enough cells for several blocks. In the symmetric field many samples lie on facets of tetrahedra.
 TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
   for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
     const SignedDelaunay signed_delaunay = dense(*scene);
@@ -71,7 +72,7 @@ TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(SignConstraint, IsNoneWithoutRaisedCells) {
+TEST(SignConstraint, IsNoneWithoutRefinedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
   for (const std::uint8_t e : constraints_in(signed_delaunay, scene->grid, CellLevels(*scene->isosurface))) {

@@ -50,7 +50,7 @@ TEST(SpuriousPockets, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
   }
 }
 
-TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
+TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsFlippedBack) {
   const auto scene = field_scene("torus", 12);
   SignedDelaunay restricted = dense(*scene);
   const Tetrahedralization& delaunay = restricted.delaunay();
@@ -59,7 +59,7 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
   for (std::size_t i = 0; i < delaunay.tet_slots(); i += 7) {
     const TetId t(i);
     if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
-    // Alone when overturned, and clearly without any sample.
+    // A pocket of its own after the flip, and clearly without a sample.
     bool alone = true;
     for (unsigned face = 0; face < 4; ++face) {
       alone &= restricted.is_above(delaunay.neighbour(t, face)) == restricted.is_above(t);
@@ -75,8 +75,8 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
 }
 
 TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
-  // Coarse points: tetrahedra are large and hold samples. With all signs of one kind, a tetrahedron with a sample of
-  // the other is founded when it is turned.
+  // Coarse points, so tetrahedra are large and contain samples. All signs are made equal; then a tetrahedron that
+  // contains a sample of the other side is no spurious pocket after its flip.
   const auto scene = field_scene("sphere", 16);
   SignedDelaunay restricted(*scene->isosurface, scene->start());
   const Tetrahedralization& delaunay = restricted.delaunay();
