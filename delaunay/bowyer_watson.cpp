@@ -9,15 +9,16 @@ namespace deliso {
 
 namespace {
 
-// Points of the input that are fetched together: they lie anywhere, and so their misses overlap.
+// So many input points are fetched together: they lie anywhere in memory, so their cache misses overlap.
 constexpr std::size_t kFetched = 256;
-// Parts are worth their start for so many points, once one in kBeforeParts has been inserted: those of the last round
-// or two are left then. The rooms of two halves hold a few more vertices than there are points.
+// With so many points or more, parts repay their start. One point in kBeforeParts is inserted before parts begin: then
+// only the last one or two rounds are left. The rooms of the two halves hold slightly more vertices than there are
+// points.
 constexpr std::size_t kFewestForParts = 16384;
 constexpr std::size_t kBeforeParts = 8;
 constexpr std::size_t kMoreForParts = 4;
 
-// Positions in `order` of four points that span space, the first among them; none when all points are coplanar.
+// Positions in `order` of four points that are not coplanar, the first point among them; nothing when all are coplanar.
 std::optional<std::array<std::size_t, 4>> find_simplex(std::span<const Vec3> points,
                                                        std::span<const std::uint32_t> order) {
   std::array<std::size_t, 4> simplex{};
@@ -46,7 +47,7 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
   for (const Vec3& p : points) DELISO_CHECK(box_.contains(p), "every point lies in the box");
   if (points.empty()) return false;
 
-  // Step 1: the insertion order, beginning with four points that span space.
+  // Step 1: the insertion order, beginning with four points that are not coplanar.
   std::vector<std::uint32_t> order = spatial_order(points);
   const auto simplex = find_simplex(points, order);
   if (!simplex) return false;
@@ -55,12 +56,13 @@ bool BowyerWatson::build(std::span<const Vec3> points, std::vector<VertexId>* ve
     std::rotate(order.begin() + static_cast<std::ptrdiff_t>(i), from, from + 1);
   }
 
-  // Step 2: insert, the vertices numbered in that order for the sake of the caches, the perturbation ordered by input.
+  // Step 2: insert. Vertices are numbered in insertion order, for the caches; the perturbation uses the order of the
+  // input.
   std::vector<VertexId> in_order(order.size());
   insert_all({points, order, in_order}, threads_of_parts);
   std::vector<VertexId> vertices(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) vertices[order[i]] = in_order[i];
-  // Step 3: number the vertices as the input.
+  // Step 3: number the vertices in the order of the input.
   number_as_input(points, vertices);
   if (vertex_of != nullptr) *vertex_of = std::move(vertices);
   return true;
@@ -71,7 +73,8 @@ void BowyerWatson::insert_all(const Insertions& all, std::optional<int> threads_
   points_.reserve(room);
   incident_.reserve(room);
   ranks_.reserve(room);
-  tets_.reserve(10 * count);  // six or seven in space, eight on a surface; pages not used cost nothing
+  // A point has six or seven tetrahedra in space, eight on a surface; unused pages cost nothing.
+  tets_.reserve(10 * count);
   for (std::size_t i = 0; i < 4; ++i) all.vertices[i] = add_vertex(all.order[i], all.points[all.order[i]]);
   make_first_tet();
   const std::size_t by_parts = threads_of_parts && count >= kFewestForParts ? count - count / kBeforeParts : 0;
@@ -96,7 +99,7 @@ void BowyerWatson::insert_in_order(const Insertions& some) {
     for (std::size_t i = 0; i < now.order.size(); ++i) fetched[i] = some.points[now.order[i]];
     for (std::size_t i = 0; i < now.order.size(); ++i) {
       if (!now.vertices[i].is_none()) continue;
-      // Equal points follow each other by index in the order, so the one that becomes a vertex has the least index.
+      // Equal points follow each other by index in the order, so the one with the lowest index becomes the vertex.
       const Vec3& p = fetched[i];
       const auto duplicate = find_conflicts_from_located(p, VertexId(now.order[i]), locate(p, hint));
       now.vertices[i] = duplicate ? *duplicate : add_vertex(now.order[i], p);
@@ -157,14 +160,14 @@ void BowyerWatson::number_as_input(std::span<const Vec3> points, std::vector<Ver
     renamed[v.index()] = VertexId(count);
     points_[count++] = points[i];
   }
-  points_.resize(count);  // parts leave gaps
-  // Rename them everywhere.
+  points_.resize(count);  // parts leave unused numbers
+  // Rename the vertices in all arrays.
   for (VertexId& v : vertex_of) v = renamed[v.index()];
   for (std::size_t t = 0; t < tets_.size(); ++t) {
     if (!is_live(TetId(t))) continue;
     for (VertexId& v : tets_[t].vertices) {
       if (v == kInfiniteVertex) continue;
-      incident_[v.index()] = TetId(t);  // by its old name: neighbours there are neighbours in space
+      incident_[v.index()] = TetId(t);  // by its old number: neighbours in that numbering are neighbours in space
       v = renamed[v.index()];
     }
   }

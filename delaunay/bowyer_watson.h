@@ -1,23 +1,24 @@
 // Incremental Delaunay triangulation in space (Bowyer 1981, Watson 1981) with ghost tetrahedra and exact predicates.
 //
-// An insertion has two steps, so that a caller that keeps data on the tetrahedra can look before they go:
+// An insertion has two steps, so that a caller that keeps data on the tetrahedra can read it before they are destroyed:
 //   find_conflicts(p, t)   the conflict region of p, found from a tetrahedron in conflict or, failing that, by a walk;
 //   fill_cavity()          replaces the region by the star of p.
-// A removal has one: remove(v), which may take others along. After insertions and removals in any order the
-// triangulation is that of the points that are left, as if it had been built from them in the order of their vertices.
+// A removal has one step: remove(v), which may remove other vertices along with v. After insertions and removals in any
+// order the triangulation is that of the remaining points, as if it had been built from them in the order of their
+// vertices.
 //
-// Parts. Several threads may insert at the same time, each by a part: a triangulation that shares the arrays of the
-// whole, but takes away only tetrahedra that lie within its slab, with all their finite vertices strictly between its
-// planes. The others that parts come across are *frozen*: what lies next to a tetrahedron within a slab has two or
-// three of its finite vertices in common with it, so it lies within the same slab or within none, and no part meets
-// another. An insertion that a frozen tetrahedron is in conflict with is *blocked*, and left to the whole. What a part
-// does depends neither on threads nor on other parts.
+// Parts. Several threads may insert at the same time, each through a part: a triangulation that shares the arrays of
+// the whole, but destroys only tetrahedra within its slab. A tetrahedron lies within a slab if all its finite vertices
+// lie strictly between the slab's planes. Parts treat all other tetrahedra as *frozen*. A neighbour of a tetrahedron
+// within a slab shares two or three finite vertices with it, so it lies within the same slab or within none: parts
+// never meet. An insertion whose conflict region has a frozen tetrahedron is *blocked*, and left to the whole. The
+// result of a part depends neither on threads nor on other parts.
 //
 // Ties. orient3d is zero exactly for coplanar points. A zero insphere is resolved by a symbolic perturbation of the
 // lifted coordinate by vertex index (Devillers, Teillaud: Perturbations for Delaunay and weighted Delaunay 3D
-// triangulations, 2011), which amounts to infinitesimal weights: the perturbed insphere is never zero, and a flat
-// tetrahedron never appears. A point coplanar with a hull facet is in conflict with its ghost exactly when it is with
-// the tetrahedron inside.
+// triangulations, 2011), which amounts to infinitesimal weights. So the perturbed insphere is never zero, and a flat
+// tetrahedron never appears. A point coplanar with a hull facet is in conflict with the facet's ghost exactly when it
+// is in conflict with the tetrahedron inside.
 #pragma once
 
 #include <array>
@@ -39,17 +40,17 @@
 
 namespace deliso {
 
-// Where a part works: its slab, and places for what is new.
+// Where a part works: its slab, and its ranges for new vertices and tetrahedra.
 struct PartRoom {
   Slab slab;
   Range vertices;
   Range tets;
-  std::vector<TetId> free;  // slots, beside those of the range
+  std::vector<TetId> free;  // free slots, in addition to the range
 };
 
 class BowyerWatson : public Tetrahedralization {
  public:
-  // All points to come lie in `box` (for the static filters); one outside throws InternalError.
+  // All later points must lie in `box` (for the static filters); a point outside throws InternalError.
   explicit BowyerWatson(const Box3& box);
 
   // Builds from scratch. Vertex i of the result is points[i] unless it duplicates an earlier point; vertex_of[i], when
@@ -58,32 +59,32 @@ class BowyerWatson : public Tetrahedralization {
   bool build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of = nullptr) {
     return build(points, vertex_of, std::nullopt);
   }
-  // The same triangulation, most of it made by parts in two slabs where there are many points (build_in_slabs.cpp). Its
-  // tetrahedra are in other slots, the same for any number of threads.
+  // The same triangulation. With many points most of it is made by parts in two slabs (build_in_slabs.cpp). Its
+  // tetrahedra are in other slots than build() gives them, but in the same slots for any number of threads.
   bool build_in_slabs(std::span<const Vec3> points, std::vector<VertexId>* vertex_of, int threads) {
     return build(points, vertex_of, threads);
   }
 
   // The tetrahedron (perhaps a ghost) that contains p, by a visibility walk from `hint` (any live tetrahedron).
   [[nodiscard]] TetId locate(const Vec3& p, TetId hint) const;
-  // The same for a point moved by an infinitesimal (x, y^2, z^3), x, y and z of the given signs: the one finite
-  // tetrahedron that holds it does not depend on `hint`. Which ghost does may.
+  // The same for p moved by an infinitesimal (x, y^2, z^3), where x, y and z have the given signs. The moved point lies
+  // in one finite tetrahedron, or beyond the hull; a finite answer does not depend on `hint`, a ghost may.
   [[nodiscard]] TetId locate_moved(const Vec3& p, const Signs& signs, TetId hint) const;
   // Whether p is in conflict with t (perturbed as if p were inserted next).
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& p) const;
 
-  // The conflict region of p. `start`: a live tetrahedron, best one in conflict with p; if it is not, a walk from it
-  // finds one. Returns the vertex that p duplicates, if any; then there is no region. In a part there may be none for
-  // another reason, see is_blocked().
+  // Finds the conflict region of p. `start` is a live tetrahedron, preferably one in conflict with p; otherwise a walk
+  // from it finds one. Returns the vertex that p duplicates, if any; then there is no region. In a part there may also
+  // be none because the insertion is blocked, see is_blocked().
   std::optional<VertexId> find_conflicts(const Vec3& p, TetId start);
-  // Of a part: whether find_conflicts() gave up, for the region reaches beyond the slab, is not found at `start`, or
-  // there is no room to fill it.
+  // Of a part: whether find_conflicts() gave up. It does so if the region reaches beyond the slab, is not found at
+  // `start`, or there is no room to fill it.
   [[nodiscard]] bool is_blocked() const { return is_blocked_; }
   [[nodiscard]] std::span<const TetId> conflict_region() const { return std::span(region_).first(region_size_); }
-  // The facets around the region, each as the tetrahedron outside knows it.
+  // The facets around the region, each seen from the tetrahedron outside.
   [[nodiscard]] std::span<const FacetId> rim() const { return std::span(rim_).first(rim_size_); }
 
-  // The same facets as the region knows them: 4 * place in conflict_region() + face.
+  // The same facets seen from the region: 4 * position in conflict_region() + face.
   [[nodiscard]] std::span<const std::uint32_t> rim_from_inside() const { return std::span(rim_from_).first(rim_size_); }
 
   // The squared distance of p from the nearest vertex, which always lies on the rim.
@@ -96,39 +97,39 @@ class BowyerWatson : public Tetrahedralization {
   // Right after fill_cavity(): centers[i] = the circumcenter of created()[i], as circumcenter() has it; those of ghosts
   // are left alone. Precondition: as many centers as tetrahedra.
   void circumcenters_of_star(std::span<Vec3> centers) const;
-  // Forgets the region instead.
+  // Drops the region without an insertion.
   void abandon_cavity();
 
-  // Takes v away, and fills the hole that its star leaves (vertex_removal.cpp). Of `others` (by vertex; it may end
-  // before the last one) those that are to go and hang together with v by edges may go with it, which takes less time
-  // than one by one; what has gone is to go no more. The new tetrahedra are created(), the old ones were destroyed().
-  // Vertices keep their places in the numbering, without a tetrahedron, until close_gaps(). Returns false and changes
-  // nothing when all points left are coplanar.
-  enum class Going : std::uint8_t { kNo, kYes, kNow };  // kNow is for remove() itself
+  // Removes v and fills the hole that its star leaves (vertex_removal.cpp). `others` marks, by vertex, more vertices to
+  // remove (it may be shorter than the number of vertices). Those among them that are connected with v by edges may be
+  // removed in the same call, which takes less time than one by one; their marks are reset. The new tetrahedra are
+  // created(), the old ones destroyed(). A removed vertex keeps its number, without a tetrahedron, until close_gaps().
+  // Returns false and changes nothing when all remaining points are coplanar.
+  enum class Going : std::uint8_t { kNo, kYes, kNow };  // kNow is set by remove() alone
   bool remove(VertexId v, std::span<Going> others = {});
   // Slots; some may hold tetrahedra that are created().
   [[nodiscard]] std::span<const TetId> destroyed() const { return hole_.star; }
-  // Numbers the vertices anew without those removed, in the same order. Returns the new id of each old one. Nothing is
-  // destroyed() any more.
+  // Renumbers the vertices without the removed ones, in the same order. Returns the new id of each old one. destroyed()
+  // is empty afterwards.
   std::vector<VertexId> close_gaps();
 
-  // An insertion of a part needs so many slots, all in all; when there are fewer, it ends sooner.
+  // The slots that an insertion of a part needs on average; with fewer, the part ends sooner.
   static constexpr double kTetsPerInsertion = 7;
-  // Rooms for parts in slabs that do not meet, for so many insertions each; none when there would be too many
-  // tetrahedra. No vertex may wait to be closed up.
+  // Rooms for parts in disjoint slabs, each for so many insertions; none when there would be too many tetrahedra.
+  // Precondition: no removed vertex waits for close_gaps().
   std::vector<PartRoom> make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads = 1,
                                    double tets_per_insertion = kTetsPerInsertion);
-  // A part of `whole`, which must stay where it is and be left alone until it has joined its parts.
+  // A part of `whole`. `whole` must not move or change until it has joined its parts.
   BowyerWatson(BowyerWatson& whole, const PartRoom& room);
   // Whether there is room for an insertion, unless it is a very large one.
   [[nodiscard]] bool has_room() const { return points_.room_left() > 0 && tets_left() >= kFewestLeft; }
-  // Takes in one part after the other, in the order of their rooms. Then finish_join() numbers the vertices without
+  // Takes in one part after the other, in the order of their rooms. Then finish_join() renumbers the vertices without
   // gaps, in the same order, and returns the new id of each.
   void join(BowyerWatson& part);
   std::vector<VertexId> finish_join() { return close_gaps(); }
 
  private:
-  // A face of a tetrahedron whose neighbour has yet to be tested, and the same facet as the neighbour knows it.
+  // A face of a tetrahedron whose neighbour has yet to be tested, and the same facet seen from the neighbour.
   struct Untested {
     FacetId mirror;
     unsigned face = 0;
@@ -144,7 +145,7 @@ class BowyerWatson : public Tetrahedralization {
   static constexpr std::size_t kMostTets = std::size_t{1} << (kMarkShift - 2);
   static constexpr std::size_t kFewestLeft = 256;  // slots
 
-  // Another part may be writing the first mirror of a frozen tetrahedron, which has no mark.
+  // A frozen tetrahedron has no mark; it must not be read plainly, for another part may be writing its first mirror.
   [[nodiscard]] std::uint32_t mark(TetId t) const {
     std::uint32_t& value = const_cast<std::uint32_t&>(tets_[t.index()].mirrors[0].value);  // NOLINT: only read
     return std::atomic_ref(value).load(std::memory_order_relaxed) >> kMarkShift;
@@ -154,7 +155,7 @@ class BowyerWatson : public Tetrahedralization {
     mirror.value = (mirror.value & kMirrorMask) | (mark << kMarkShift);
   }
 
-  // For one that is unknown, or known to be the same.
+  // Precondition: t has no mark yet, or the same one.
   void add_mark(TetId t, Mark mark) {
     tets_[t.index()].mirrors[0].value |= static_cast<std::uint32_t>(mark) << kMarkShift;
   }
@@ -171,7 +172,7 @@ class BowyerWatson : public Tetrahedralization {
   void test_unknown_neighbours(std::uint32_t i, std::span<const Untested> untested, const Vec3& p, VertexId p_rank);
   void find_conflicts_of_part(const Vec3& p, TetId start);
   void grow_region_of_part(const Vec3& p, VertexId p_rank, TetId first);
-  // Of a tetrahedron across a facet from one within the slab.
+  // Precondition: `mirror` is the mirror of a facet of a tetrahedron within the slab.
   [[nodiscard]] bool is_frozen(FacetId mirror) const {
     const VertexId far = vertices(mirror.tet())[mirror.face()];
     return far != kInfiniteVertex && !slab_->contains(point(far));
@@ -188,10 +189,10 @@ class BowyerWatson : public Tetrahedralization {
   bool triangulate_link();
   void find_fill();
   void glue_fill();
-  // In one, or by parts on so many threads.
+  // Builds in one go, or by parts on so many threads.
   bool build(std::span<const Vec3> points, std::vector<VertexId>* vertex_of, std::optional<int> threads_of_parts);
   void make_first_tet();
-  // Points of the input in the order in which they are inserted, and the vertex of each once it is.
+  // Points of the input in their insertion order, and the vertex of each inserted one.
   struct Insertions {
     std::span<const Vec3> points;
     std::span<const std::uint32_t> order;
@@ -203,10 +204,10 @@ class BowyerWatson : public Tetrahedralization {
   };
   void insert_all(const Insertions& all, std::optional<int> threads_of_parts);
   VertexId add_vertex(std::uint32_t input, const Vec3& p);
-  // Those that have no vertex yet.
+  // Inserts those that have no vertex yet.
   void insert_in_order(const Insertions& some);
   void insert_in_slabs(const Insertions& some, int threads);
-  // Of a part: those in its slab, less what is blocked; `before`: how many vertices there were before all parts.
+  // Of a part: inserts those in its slab that are not blocked; `before` is the number of vertices before all parts.
   void insert_within(const Insertions& some, std::size_t before);
   [[nodiscard]] TetId locate_within(const Vec3& p, TetId hint) const;
   void number_as_input(std::span<const Vec3> points, std::vector<VertexId>& vertex_of);
@@ -217,7 +218,7 @@ class BowyerWatson : public Tetrahedralization {
   std::optional<Slab> slab_;  // of a part
   bool is_blocked_ = false;
   std::vector<TetId> free_;  // free slots
-  // Region and rim are the first so many of these; what lies beyond is room for branch-free appending.
+  // Only the first region_size_ and rim_size_ elements count; the rest is room for appending without branches.
   std::vector<TetId> region_;
   std::vector<FacetId> rim_;
   std::uint32_t region_size_ = 0;
@@ -229,23 +230,23 @@ class BowyerWatson : public Tetrahedralization {
   std::vector<Corners> region_corners_;  // of region_[i]
   std::vector<std::uint32_t> rim_from_;  // rim_[i] seen from inside, as 4 * position in region_ + face
   SquareEdgeTable edges_;
-  // What remove() works with.
+  // The scratch memory of remove().
   struct Hole {
     std::span<Going> others;
-    std::vector<VertexId> gone;       // that go together, the one asked for first
+    std::vector<VertexId> gone;       // vertices removed together, the one asked for first
     std::vector<TetId> star;          // the tetrahedra at them
     std::vector<TetId> at_vertex;     // those at one of them
-    std::vector<std::uint32_t> seen;  // of each tetrahedron: the latest walk around a vertex that has come to it
+    std::vector<std::uint32_t> seen;  // of each tetrahedron: the latest walk around a vertex that reached it
     std::uint32_t walk = 0;
-    std::vector<FacetId> rim;                     // as the star knows them
-    std::vector<FacetId> beyond;                  // as the tetrahedra around the star know them
+    std::vector<FacetId> rim;                     // seen from the star
+    std::vector<FacetId> beyond;                  // seen from the tetrahedra around the star
     std::vector<VertexId> vertices;               // of the link, and perhaps of the tetrahedra around it; ascending
     std::vector<Vec3> points;                     // of these vertices
     std::unique_ptr<BowyerWatson> triangulation;  // of the points
-    // The facets of the rim by the names of their vertices in that triangulation.
+    // The facets of the rim, named by their vertices in that triangulation.
     std::vector<std::pair<std::array<VertexId, 3>, std::uint32_t>> names;
     std::vector<std::uint32_t> first;   // of each of these vertices: the first name that begins with it
-    std::vector<std::uint32_t> rim_at;  // of each facet of the triangulation: its place in rim, or none
+    std::vector<std::uint32_t> rim_at;  // of each facet of the triangulation: its position in rim, or none
     std::vector<TetId> fill;            // the tetrahedra of it that lie in the hole
     std::vector<std::uint32_t> place;   // of each of its tetrahedra: in fill, or none
   };

@@ -1,9 +1,8 @@
 // Building a triangulation by parts: most points on two threads, either side of a plane.
 //
-// A triangulation of an eighth of the points is cut by a plane across the longest axis that halves the others. Each
-// part walks to its points and inserts them in their order; where it would have to leave its slab, on the way or with
-// the conflict region, the point is left to the whole. The perturbation goes by the input, so it does not matter in
-// which order points come.
+// First an eighth of the points is triangulated. A plane across the longest axis then halves the other points. Each
+// part walks to its points and inserts them in their order. Where the walk or the conflict region would leave the slab,
+// the point is left to the whole. The perturbation uses the order of the input, so the insertion order does not matter.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -16,10 +15,10 @@ namespace deliso {
 
 namespace {
 
-// There are as many tetrahedra a point as there were before, and a few more: slots that are not used stay free.
+// The ratio of tetrahedra to points stays as it was before the parts, plus this margin; unused slots stay free.
 constexpr double kMoreTets = 1.02;
 
-// On either side of a plane between two points that halves them.
+// The two sides of a plane that halves the points and contains none of them.
 std::array<Slab, 2> halves_of(std::span<const Vec3> points, std::span<const std::uint32_t> order) {
   Box3 box;
   for (const std::uint32_t input : order) box.extend(points[input]);
@@ -41,7 +40,7 @@ std::array<Slab, 2> halves_of(std::span<const Vec3> points, std::span<const std:
   return halves;
 }
 
-// A vertex in each cell of a grid, the latest one.
+// The latest vertex in each cell of a grid.
 class LatestVertices {
  public:
   explicit LatestVertices(const Box3& box) : low_(box.low) {
@@ -89,7 +88,8 @@ void BowyerWatson::insert_within(const Insertions& some, std::size_t before) {
     if (slab_->contains(points_[v])) latest.at(points_[v]) = VertexId(v);
   }
   TetId hint;
-  std::optional<Vec3> left;  // the latest point that is left; equal ones are left with it, see insert_in_order()
+  // The latest point left to the whole; points equal to it are left, too, see insert_in_order().
+  std::optional<Vec3> left;
   for (std::size_t i = 0; i < some.order.size(); ++i) {
     const Vec3& p = some.points[some.order[i]];
     if (!slab_->contains(p) || left == p) continue;
@@ -111,7 +111,7 @@ void BowyerWatson::insert_within(const Insertions& some, std::size_t before) {
   }
 }
 
-// Of a part. None where the walk would have to leave the slab, or has nowhere to begin.
+// Of a part. Nothing where the walk would leave the slab, or has no tetrahedron to begin at.
 TetId BowyerWatson::locate_within(const Vec3& p, TetId hint) const {
   if (hint.is_none() || is_ghost(hint) || !lies_within(*slab_, hint)) return {};
   return visibility_walk_within(*this, filter_, *slab_, p, hint);

@@ -1,4 +1,4 @@
-// The second half of an insertion: the conflict region gives way to the star of the point.
+// The second half of an insertion: the star of the point replaces the conflict region.
 #include <algorithm>
 #include <atomic>
 
@@ -11,8 +11,8 @@ namespace deliso {
 
 namespace {
 
-// Vertex slots of face i, so that with the slot opposite it put before them they make a negative tetrahedron; slot 3,
-// where the infinite vertex of a ghost is, comes last.
+// The vertex slots of face i in such an order that they form a negative tetrahedron with the slot opposite put first.
+// Slot 3, which holds the infinite vertex of a ghost, comes last.
 constexpr unsigned kStarSlots[4][3] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
 
 }  // namespace
@@ -31,9 +31,9 @@ void BowyerWatson::abandon_cavity() {
   rim_size_ = 0;
 }
 
-// Slots for so many tetrahedra to create.
+// Provides slots for the tetrahedra to be created.
 void BowyerWatson::take_slots(std::span<const TetId> old, std::size_t count) {
-  // The slots of the old tetrahedra first, then free ones, then new ones; what is left of the old ones is free.
+  // The slots of destroyed tetrahedra are used first, then free ones, then new ones; unused slots become free.
   const std::size_t reused = std::min(old.size(), count);
   created_.assign(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(reused));
   for (const TetId t : old.subspan(reused)) {
@@ -84,7 +84,7 @@ void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
     Tet& tet = tets_[t.index()];
     tet.vertices = {apex, rows_.id(x), rows_.id(y), rows_.id(z)};
     tet.mirrors[0] = outside;
-    // Where a part writes this another one may be looking for marks, see mark().
+    // A part may write this mirror while another part reads its marks, see mark().
     std::atomic_ref(tets_[outside.tet().index()].mirrors[outside.face()].value)
         .store(FacetId(t, 0).value, std::memory_order_relaxed);
     edges.at(y, z) = FacetId(t, 1);
@@ -94,7 +94,7 @@ void BowyerWatson::star_rim(VertexId apex, EdgeTable& edges) {
     incident_[rows_.id(y).index()] = t;
     if (z != LiftedRows::kInfinite) incident_[rows_.id(z).index()] = t;
   }
-  // Step 2: the mirror of a face stands on the reversed edge.
+  // Step 2: the mirror of such a face is the one on the reversed edge.
   for (std::uint32_t i = 0; i < rim_size_; ++i) {
     const Corners& corners = region_corners_[rim_from_[i] >> 2];
     const auto& slots = kStarSlots[rim_from_[i] & 3u];

@@ -1,5 +1,5 @@
-// The circumcenters of two tetrahedra with a vertex in common, side by side: the tetrahedra of a star are found two at
-// a time, and none waits for another's quotients.
+// The circumcenters of two tetrahedra with a common vertex, computed side by side: the tetrahedra of a star are handled
+// two at a time, so that their divisions overlap.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline Vec3Pair cross(const RowPair& a, const RowPair& b) {
 
 struct CircumcenterPair {
   Vec3Pair centers;
-  std::array<bool, 2> is_certain;  // otherwise the center means nothing
+  std::array<bool, 2> is_certain;  // if false, the center is meaningless
 };
 
 // b, c and d: the other vertices of two positively oriented tetrahedra abcd, relative to a. A center that is certain is

@@ -65,7 +65,7 @@ std::optional<VertexId> BowyerWatson::find_conflicts_from_located(const Vec3& p,
   return std::nullopt;
 }
 
-// A caller of a part names the place to start from: a walk might have to look at what others are changing.
+// The caller of a part names a tetrahedron in conflict: a walk might read what other parts are changing.
 void BowyerWatson::find_conflicts_of_part(const Vec3& p, TetId start) {
   const VertexId p_rank(points_.size());
   is_blocked_ = !lies_within(*slab_, start) || !slab_->contains(p) || !conflicts(start, p, p_rank);
@@ -107,7 +107,7 @@ void BowyerWatson::grow_region(const Vec3& p, VertexId p_rank, TetId first) {
 }
 
 void BowyerWatson::reserve_more() {
-  // One tetrahedron adds at most four of each.
+  // One tetrahedron adds at most four to each.
   if (region_size_ + 4 > region_.size()) [[unlikely]] {
     region_.resize(2 * region_.size() + 64);
     region_corners_.resize(region_.size());
@@ -118,9 +118,9 @@ void BowyerWatson::reserve_more() {
   }
 }
 
-// The outcome of a test is as good as random, and a branch on it would cost more than the test: hence results are
-// appended without branches, to the place beyond the end, and the end moves or does not. (Frozen tetrahedra are few;
-// they are not marked, for two parts may look at one.)
+// The outcome of a test is unpredictable, and a mispredicted branch would cost more than the test. So results are
+// appended without branches: each is written beyond the end, and the end moves by 0 or 1. (Frozen tetrahedra are rare.
+// They are not marked, because two parts may read one at the same time.)
 template <bool kIsPart>
 void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_rank) {
   const TetId t = region_[i];
@@ -135,7 +135,7 @@ void BowyerWatson::test_neighbours(std::uint32_t i, const Vec3& p, VertexId p_ra
     }
   }
 
-  // Tell the neighbours to be tested from those that are known.
+  // Separate the neighbours to be tested from those already marked.
   const std::array<FacetId, 4> mirrors = tets_[t.index()].mirrors;
   std::array<Untested, 4> untested{};
   unsigned untested_count = 0;
@@ -173,8 +173,8 @@ void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const Unte
     const VertexId far = vertices(outside)[mirror.face()];
     const LiftedRow& row = rows_.row(far == kInfiniteVertex ? LiftedRows::kInfinite : rows_.add(far, point(far)));
     const LiftedRow& partner = rows(face ^ 1u);
-    // The far vertex replaces vertex `face`. That turns the tetrahedron over, so a positive determinant means inside;
-    // the row stands before its partner, which is a swap when the face is odd.
+    // The far vertex replaces vertex `face`. This reverses the orientation, so a positive determinant means inside. The
+    // row stands before its partner, which is a swap when the face is odd.
     const double det = determinant(RowMinors(row, partner), minors[face >> 1]);
     const bool certain = is_certain(det, products[face >> 1] * (row.w() * partner.w()),
                                     std::max(greatest[face >> 1], std::max(row.w(), partner.w())));
@@ -189,7 +189,7 @@ void BowyerWatson::test_unknown_neighbours(std::uint32_t i, std::span<const Unte
       ++rim_size;
       continue;
     }
-    // Two faces may lead to the same neighbour: then it is known by now.
+    // Two faces may have the same neighbour: then it is marked by now.
     const bool is_new = mark(outside) == kUnknown;
     add_mark(outside, inside ? kInside : kOutside);
     region_[region_size] = outside;

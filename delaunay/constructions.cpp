@@ -11,7 +11,7 @@
 namespace deliso {
 namespace {
 
-// No circumcenter is sent farther than this from its tetrahedron.
+// The largest distance of a computed circumcenter from its tetrahedron.
 constexpr double kFarthest = 0x1p500;
 
 double largest_component(const Vec3& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
@@ -28,7 +28,7 @@ Vec3 circumcenter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double denominator = 2 * orient3d(a, b, c, d);
   const double size = largest_component(numerator);
   if (!(size > 0)) return a;
-  // Direction times length, so that a tiny denominator leads far off, not to infinity.
+  // Direction times length: a tiny denominator gives a distant point instead of infinity.
   const double length = std::min(size / denominator, kFarthest);
   return a + length * (numerator / size);
 }

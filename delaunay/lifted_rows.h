@@ -66,18 +66,18 @@ class LiftedRows {
     size_ = 1;
   }
 
-  // Makes room for so many more vertices.
+  // Reserves room for so many more vertices.
   void reserve_more(std::uint32_t count) {
     if (size_ + count >= ids_.size()) [[unlikely]] {
       grow();
     }
   }
 
-  // The position of v, which is at `point`; added if it is new. There must be room for one more. Whether it is new is
-  // unpredictable, so there is no branch on it: the row is written either way, beyond the end if it is not needed.
+  // Returns the position of v, which is at `point`; adds v if it is new. There must be room for one more. Whether v is
+  // new is unpredictable, so there is no branch on it: the row is always written, at worst beyond the end.
   std::uint32_t add(VertexId v, const Vec3& point) {
     std::uint32_t& position = position_[v.index()];
-    // Masks, for compilers like to make branches of choices.
+    // Masks, because compilers tend to turn conditional expressions into branches.
     const std::uint32_t candidate = position & (0u - ((position - size_) >> 31));  // 0 unless below size_
     const auto is_new = static_cast<std::uint32_t>(ids_[candidate] != v);
     const std::uint32_t result = candidate ^ ((candidate ^ size_) & (0u - is_new));
@@ -112,7 +112,7 @@ class LiftedRows {
 
   Vec3 origin_;
   std::uint32_t size_ = 1;
-  LargeArray<std::uint32_t> position_;  // of each vertex of the triangulation; right only if ids_ agrees
+  LargeArray<std::uint32_t> position_;  // of each vertex of the triangulation; valid only if ids_ agrees
   std::vector<VertexId> ids_;
   std::vector<LiftedRow> rows_;
 };

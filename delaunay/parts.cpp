@@ -7,7 +7,7 @@ namespace deliso {
 
 std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std::size_t insertions, int threads,
                                                double tets_per_insertion) {
-  // Free slots are dealt out; new ones are made for the rest.
+  // Free slots are distributed; new ones are made for the rest.
   const std::size_t count = slabs.size();
   const auto expected = static_cast<std::size_t>(tets_per_insertion * static_cast<double>(insertions));
   const std::size_t wanted = expected + kFewestLeft;
@@ -15,7 +15,8 @@ std::vector<PartRoom> BowyerWatson::make_rooms(std::span<const Slab> slabs, std:
   const std::size_t created = wanted > least_free ? wanted - least_free : 0;
   const std::size_t vertices = points_.size(), tets = tets_.size();
   if (tets + count * created > kMostTets) return {};
-  const int threads_each = (threads + 1) / 2;  // of two arrays beside each other: most of it is waiting for fresh pages
+  // Two arrays at the same time: most of the time goes into waiting for fresh pages.
+  const int threads_each = (threads + 1) / 2;
   run_tasks(2, threads, [&](std::size_t task) {
     if (task == 0) {
       tets_.make_room(tets + count * created, threads_each);

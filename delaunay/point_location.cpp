@@ -6,8 +6,8 @@ namespace {
 
 constexpr auto kAnywhere = [](TetId) { return true; };
 
-// `is_beyond(a, b, c)`: whether the point lies strictly on the side of the plane abc from which they turn
-// counterclockwise. None where the walk would go on to a tetrahedron that it may not enter.
+// `is_beyond(a, b, c)` tells whether the point lies strictly on the side of the plane from which abc turns
+// counterclockwise. Returns nothing where the walk would have to enter a tetrahedron that may_enter refuses.
 template <class IsBeyond, class MayEnter>
 TetId walk(const Tetrahedralization& tets, TetId hint, IsBeyond is_beyond, const MayEnter& may_enter) {
   // Step off a ghost into the hull: the walk itself decides whether p lies outside.
@@ -58,7 +58,7 @@ TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& 
     if (side != 0) [[likely]] {
       return side > 0;
     }
-    // Movements along the normal decide.
+    // The triangle's plane contains the point: the sign of its movement along the normal decides, first axis first.
     for (unsigned axis = 0; axis < 3; ++axis) {
       const int along = normal_sign(a, b, c, axis) * signs[axis];
       if (along != 0) return along > 0;

@@ -18,16 +18,16 @@ namespace deliso {
 // triangulation, 2002).
 TetId visibility_walk(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p, TetId hint);
 
-// The same without leaving the tetrahedra that lie within a slab, of which `hint` is a finite one; none where the walk
-// would have to.
+// The same walk within a slab: `hint` is a finite tetrahedron in the slab. Returns nothing where the walk would leave
+// the tetrahedra within it.
 TetId visibility_walk_within(const Tetrahedralization& tets, const StaticFilter& filter, const Slab& slab,
                              const Vec3& p, TetId hint);
 
 // Which way a point is moved along each axis: 1 or -1.
 using Signs = std::array<int, 3>;
 
-// The same for p + (e sx, e^2 sy, e^3 sz) with an infinitesimal e: such a point never lies on a facet, so the
-// tetrahedron that contains it is the same from every hint. (Beyond the hull there may be several such ghosts.)
+// The same for p + (e sx, e^2 sy, e^3 sz) with an infinitesimal e. Such a point never lies on a facet, so the
+// tetrahedron that contains it is the same from every hint. (Beyond the hull several ghosts may see the point.)
 TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p,
                             const Signs& signs, TetId hint);
 

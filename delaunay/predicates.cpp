@@ -82,7 +82,7 @@ double orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double det = determinant3(ab, ac, ad);
   const double permanent = permanent3(magnitudes(ab), magnitudes(ac), magnitudes(ad));
   if (std::abs(det) * kOrientRelativeError > kOrientErrorDouble * permanent) return det;
-  // In a plane across an axis, or three on a line along one: every monomial has a factor that is exactly zero.
+  // The points lie in a plane across an axis, or three of them on a line along one: every monomial has a zero factor.
   if (permanent == 0 && permanent3(are_not_zero(ab), are_not_zero(ac), are_not_zero(ad)) == 0) return 0;
   if (b == c || b == d || c == d) return 0;
 

@@ -1,4 +1,4 @@
-// Exact geometric predicates. They decide; nothing else may.
+// Exact geometric predicates. All combinatorial decisions are theirs.
 //
 // Evaluation is staged: floating point with a dynamic error bound, double-doubles with a bound, exact expansions
 // (after Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997). Callers

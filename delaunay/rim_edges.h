@@ -1,4 +1,4 @@
-// Glues the tetrahedra of a star: for each directed edge of a cavity's rim, the facet that stands on it.
+// Glues the tetrahedra of a star: for each directed edge of a cavity's rim, the new facet at this edge.
 #pragma once
 
 #include <bit>
@@ -27,7 +27,7 @@ class SquareEdgeTable {
   std::vector<FacetId> table_;
 };
 
-// The same for the rare enormous cavity, as a hash table.
+// The same as a hash table, for the rare cavity that is too large for a square table.
 class HashedEdgeTable {
  public:
   // Prepares for at most `edges` pairs.

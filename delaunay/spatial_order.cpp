@@ -12,8 +12,8 @@ namespace deliso {
 namespace {
 
 constexpr unsigned kBits = 16;      // of the Hilbert curve's grid, per axis
-constexpr unsigned kRounds = 8;     // all but the last have an eighth of what is left
-constexpr std::size_t kCrowd = 32;  // more points than this in one cell of the grid are sorted again
+constexpr unsigned kRounds = 8;     // each but the last takes an eighth of the remaining points
+constexpr std::size_t kCrowd = 32;  // a cell of the grid with more points than this is sorted again
 constexpr unsigned kDigit = 11;     // bits per pass of the radix sort
 constexpr unsigned kKeyBits = 3 * kBits + 3;
 
@@ -22,7 +22,7 @@ struct KeyedPoint {
   std::uint32_t index;
 };
 
-// Grid cells that are taken together, coordinate by coordinate, so that the compiler finds registers full of them.
+// Grid cells handled together, coordinate by coordinate, so that the compiler can vectorize the loops.
 constexpr std::size_t kTogether = 8;
 using Cells = std::array<std::array<std::uint32_t, kTogether>, 3>;
 

@@ -1,4 +1,4 @@
-// The first stage of both predicates where a box of all points is known: inlined into the walk and the cavity search.
+// The first stage of both predicates where a box of all points is known. It is inlined into walk and cavity search.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace deliso {
 // Filtered predicates. Only the signs of their values are meaningful.
 class StaticFilter {
  public:
-  // All points to come lie in `box`.
+  // All later points must lie in `box`.
   explicit StaticFilter(const Box3& box) {
     // |det| of differences inside the box is off by at most (7 + 56 u) u times its permanent, and that is at most
     // 6 width height depth. (The sizes are rounded: hence the 1 + 2^-20.)

@@ -34,7 +34,7 @@ class Tetrahedralization {
   // The same facet seen from the neighbour across it.
   [[nodiscard]] FacetId mirror(FacetId f) const { return tets_[f.tet().index()].mirrors[f.face()]; }
   [[nodiscard]] TetId neighbour(TetId t, unsigned face) const { return tets_[t.index()].mirrors[face].tet(); }
-  // Whether a vertex has tetrahedra; only one that was removed, whose gap is still to be closed, has none.
+  // Whether a vertex has tetrahedra. Only a removed vertex has none, until close_gaps() drops it.
   [[nodiscard]] bool is_live(VertexId v) const { return !incident_[v.index()].is_none(); }
   // Some live tetrahedron that has v as a vertex.
   [[nodiscard]] TetId incident_tet(VertexId v) const { return incident_[v.index()]; }
@@ -50,19 +50,19 @@ class Tetrahedralization {
     const auto& slots = kFacetSlots[f.face()];
     return {v[slots[0]], v[slots[1]], v[slots[2]]};
   }
-  // Tells the processor that t will be read soon.
+  // Prefetches t.
   void prefetch(TetId t) const { __builtin_prefetch(&tets_[t.index()]); }
 
  protected:
   Tetrahedralization() = default;
-  // A view of another one, with room for new vertices and tetrahedra.
+  // A view of another one, with room for new vertices and tetrahedra of its own.
   Tetrahedralization(Tetrahedralization& whole, const Range& vertices, const Range& tets)
       : points_(whole.points_, vertices), incident_(whole.incident_, vertices), tets_(whole.tets_, tets) {}
 
   // Half a cache line. A free slot has no vertex in slot 0.
   struct alignas(32) Tet {
     std::array<VertexId, 4> vertices;
-    std::array<FacetId, 4> mirrors;  // across face i: that facet as the neighbour knows it
+    std::array<FacetId, 4> mirrors;  // across face i: the facet seen from the neighbour
   };
 
   SharedArray<Vec3> points_;     // point of each vertex

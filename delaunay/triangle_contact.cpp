@@ -28,7 +28,7 @@ int orient2d(std::size_t axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   return sign(orient3d({a[u], a[v], 0}, {b[u], b[v], 0}, {c[u], c[v], 0}, {a[u], a[v], 1}));
 }
 
-// An axis along which abc keeps an area. Precondition: not collinear.
+// An axis along which abc projects to a triangle with an area. Precondition: not collinear.
 std::size_t projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   std::size_t axis = 0;
   while (axis < 2 && orient2d(axis, a, b, c) == 0) ++axis;
@@ -86,8 +86,8 @@ struct Interval {
   Piercing low, high;
 };
 
-// The corner that the other plane cuts off, and its side (a corner on the plane counts for the side that leaves it
-// alone). Both edges at that corner meet the plane.
+// The corner that is alone on its side of the other plane, and that side. A corner on the plane counts for the side on
+// which it leaves one corner alone. Both edges at the lone corner meet the plane.
 std::pair<std::size_t, int> lone_corner(const Sides& sides) {
   for (const int side : {1, -1}) {
     if (std::count(sides.begin(), sides.end(), side) != 1) continue;
@@ -98,7 +98,7 @@ std::pair<std::size_t, int> lone_corner(const Sides& sides) {
   return {zero, -sides[(zero + 1) % 3]};
 }
 
-// Seen with n(s) upward and the positive side of the other plane ahead, D points to the left; so a lone corner ahead
+// Look with n(s) upward and the positive side of the other plane ahead: D points to the left. So a lone corner ahead
 // has its next edge on the left, a lone corner behind its previous one. For t, D points to the right.
 Interval interval_on_line(const Corners& corners, const Sides& sides, bool is_first) {
   const auto [lone, side] = lone_corner(sides);
@@ -120,8 +120,8 @@ int order_along_line(const Piercing& of_s, const Piercing& of_t) {
   return sign(orient3d(of_s.from, of_s.to, of_t.from, of_t.to));
 }
 
-// Certain only when true: a plane along s, or hardly beside it, has all of t beyond it. Any normal will do; that of s
-// is rounded.
+// Certain only when true: a plane (nearly) through s has all of t beyond it. Any normal near that of s is valid, so it
+// may be rounded.
 bool clearly_beyond_plane(const Corners& s, const Corners& t) {
   const Vec3 u = s[1] - s[0], v = s[2] - s[0], normal = cross(u, v);
   double size = 0;
@@ -151,9 +151,9 @@ TriangleContact contact_of_disjoint(const Corners& s, const Corners& t) {
   return overlap && is_proper(s_sides) && is_proper(t_sides) ? TriangleContact::kCrossing : TriangleContact::kTouching;
 }
 
-// Certain only when true: a plane through the corner that s and t share (s[i] and t[j]) has the rest of each on its own
-// side. Any normal will do; this one halves the angle between the middles of the two angles there, which succeeds for
-// nearly all pairs of an umbrella.
+// Certain only when true: a plane through the common corner of s and t (s[i] and t[j]) has the rest of each on its own
+// side. Any normal is valid. This one bisects the angle between the bisectors of the two triangles' angles there, which
+// succeeds for nearly all pairs of an umbrella.
 bool clearly_apart_at_vertex(const Corners& s, std::size_t i, const Corners& t, std::size_t j) {
   constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
   const Vec3 s1 = s[kNext[i]] - s[i], s2 = s[kPrevious[i]] - s[i], t1 = t[kNext[j]] - t[j], t2 = t[kPrevious[j]] - t[j];
@@ -179,7 +179,7 @@ TriangleContact contact_at_vertex(const Corners& s, const Corners& t) {
   if (c == 0 && d == 0) {
     const TriangleContact contact = coplanar_contact(s, t);
     if (contact == TriangleContact::kCrossing) return contact;
-    // Beyond the vertex they can share the direction of an edge.
+    // Beyond the vertex they may still overlap along a common edge direction.
     const std::size_t axis = projection_axis(s[0], s[1], s[2]);
     for (const Vec3& p : {s[1], s[2]}) {
       for (const Vec3& q : {t[1], t[2]}) {
@@ -203,7 +203,7 @@ TriangleContact contact_at_edge(const Corners& s, const Vec3& apex_of_t) {
   return same_side ? TriangleContact::kCrossing : TriangleContact::kNone;
 }
 
-// The corners from corner `first` on.
+// The corners in cyclic order, starting at corner `first`.
 Corners turned(const Corners& corners, std::size_t first) {
   return {corners[first], corners[(first + 1) % 3], corners[(first + 2) % 3]};
 }
@@ -214,7 +214,8 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) { return !collinear(a
 
 TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
                                  const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points) {
-  // Bit i or j of a mask: corner i of s, corner j of t is shared. Without branches, for nothing here can be foretold.
+  // Bit i or j of a mask: corner i of s, or corner j of t, is shared. No branches, because the outcome is
+  // unpredictable.
   unsigned in_s = 0, in_t = 0;
   for (unsigned i = 0; i < 3; ++i) {
     for (unsigned j = 0; j < 3; ++j) {

@@ -20,8 +20,8 @@ namespace deliso {
 
 enum class TriangleContact { kNone, kTouching, kCrossing };
 
-// How two triangles, given by the indices and the places of their corners, meet beyond what they share. Precondition:
-// neither has zero area, coordinates as orient3d wants them (delaunay/predicates.h).
+// How two triangles meet beyond what they share, given the indices and the coordinates of their corners. Precondition:
+// neither has zero area, coordinates as orient3d requires them (delaunay/predicates.h).
 TriangleContact triangle_contact(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
                                  const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points);
 inline TriangleContact triangle_contact(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& s,

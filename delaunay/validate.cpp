@@ -51,7 +51,7 @@ Violation check_mirrors(const Tetrahedralization& tets, TetId t) {
       return name(f) + " has no live neighbour";
     }
     if (tets.mirror(mirror) != f) return name(f) + " is not the mirror of its mirror";
-    // Seen from the other side the same three vertices turn the other way round.
+    // Seen from the other side the same three vertices have the opposite orientation.
     const auto here = tets.facet_vertices(f);
     auto there = tets.facet_vertices(mirror);
     std::reverse(there.begin(), there.end());
@@ -93,7 +93,7 @@ bool in_conflict(const Tetrahedralization& tets, TetId t, VertexId v) {
     const double side = orient3d(tets.point(hull[0]), tets.point(hull[1]), tets.point(hull[2]), p);
     if (side != 0) return side > 0;
     t = tets.neighbour(t, 3);
-    if (has_vertex(tets, t, v)) return false;  // only when that tetrahedron is flat: reported elsewhere
+    if (has_vertex(tets, t, v)) return false;  // only when that tetrahedron is flat, which another check reports
   }
   const auto& ids = tets.vertices(t);
   const std::array<Vec3, 4> tet = {tets.point(ids[0]), tets.point(ids[1]), tets.point(ids[2]), tets.point(ids[3])};

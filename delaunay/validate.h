@@ -1,5 +1,5 @@
-// Checks of a tetrahedralization, from the cheap to the exhaustive. A violation is a value: one sentence that names the
-// culprit; nothing means all is well.
+// Checks of a tetrahedralization, from cheap to exhaustive. A violation is returned as one sentence that names the
+// culprit; an empty result means that there is none.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ std::optional<std::string> find_orientation_violation(const Tetrahedralization& 
 // with the two checks above this proves the whole triangulation Delaunay (Delaunay lemma). Linear time.
 std::optional<std::string> find_delaunay_violation(const Tetrahedralization& tets);
 
-// A vertex in conflict with any tetrahedron whatever, ties perturbed. Quadratic time: for tests.
+// A vertex in conflict with any tetrahedron at all, ties perturbed. Quadratic time: for tests.
 std::optional<std::string> find_delaunay_violation_by_brute_force(const Tetrahedralization& tets);
 
 // The first violation of the three linear checks.

@@ -1,16 +1,16 @@
-// Taking vertices away (after Devillers: On deletion in Delaunay triangulations, 2002; Devillers, Teillaud:
-// Perturbations and vertex removal in a 3D Delaunay triangulation, 2003).
+// Removing vertices (after Devillers: On deletion in Delaunay triangulations, 2002; Devillers, Teillaud: Perturbations
+// and vertex removal in a 3D Delaunay triangulation, 2003).
 //
-// Vertices that are joined by edges go together: the hole is the union of their stars, and its link, here all vertices
-// of these tetrahedra that are left, is hardly larger than that of one star. Every tetrahedron that comes into the hole
-// has its vertices on the link, and it is not in conflict with any vertex left. So it belongs to the triangulation of
-// the link's vertices alone, too, perturbed in the same order: triangulate them, and take over what that triangulation
-// has inside the hole. Ghosts are like the others. Where every tetrahedron goes, the hole has no rim, and all of that
-// triangulation is taken over.
+// Vertices connected by edges are removed together. The hole is the union of their stars; its link, here all remaining
+// vertices of these tetrahedra, is hardly larger than that of one star. Every new tetrahedron in the hole has its
+// vertices on the link and is in conflict with no remaining vertex. So it also belongs to the triangulation of the
+// link's vertices alone, perturbed in the same order. We build that triangulation, and copy its tetrahedra inside the
+// hole. Ghosts are handled alike. If every tetrahedron is destroyed, the hole has no rim, and the whole triangulation
+// is copied.
 //
-// The same holds of any set of vertices left that the link is a part of. When the link's own are coplanar, the far
-// vertices of the tetrahedra around the star are added. If all are coplanar then, around the star are ghosts alone, and
-// the star is everything but its link.
+// The same holds for any set of remaining vertices that contains the link. When the vertices of the link are coplanar,
+// the far vertices of the tetrahedra around the star are added. If even these are all coplanar, only ghosts surround
+// the star, and the remaining vertices are exactly those of the link.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -23,11 +23,11 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFu;
-constexpr std::size_t kMostAtOnce = 256;  // vertices that go together
+constexpr std::size_t kMostAtOnce = 256;  // vertices removed together
 
 using FacetName = std::array<VertexId, 3>;
 
-// The vertices of a facet seen from one of its sides, the least first.
+// The vertices of a facet seen from one of its sides, the lowest first.
 FacetName named(FacetName v) {
   std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
   return v;
@@ -66,7 +66,7 @@ bool BowyerWatson::goes_now(VertexId v) const {
   return v == hole_.gone.front() || (v.index() < hole_.others.size() && hole_.others[v.index()] == Going::kNow);
 }
 
-// The vertices that go together, the tetrahedra at them, and the facets around these.
+// Finds the vertices removed together, the tetrahedra at them, and the facets around these.
 void BowyerWatson::find_star() {
   hole_.star.clear();
   hole_.vertices.clear();
@@ -85,7 +85,7 @@ void BowyerWatson::find_star() {
   for (const TetId t : hole_.star) set_mark(t, kUnknown);
 }
 
-// The tetrahedra at one vertex that goes, as far as they are not there already, and their vertices.
+// Adds the tetrahedra at a removed vertex that are not in the star yet, and their vertices.
 void BowyerWatson::add_star(VertexId v) {
   hole_.seen.resize(tet_slots(), 0);
   const std::uint32_t walk = ++hole_.walk;
@@ -127,7 +127,7 @@ bool BowyerWatson::triangulate_link() {
   return false;
 }
 
-// The tetrahedra of the link's triangulation that lie in the hole: those behind its rim, and on from there.
+// Finds the tetrahedra of the link's triangulation that lie in the hole: those behind its rim, then their neighbours.
 void BowyerWatson::find_fill() {
   const BowyerWatson& link = *hole_.triangulation;
   const auto name_there = [&](VertexId v) {
@@ -148,7 +148,7 @@ void BowyerWatson::find_fill() {
   for (const auto& [name, i] : rim) ++first[name[0].index() + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
 
-  // Step 2: find them there.
+  // Step 2: find these facets in that triangulation.
   hole_.rim_at.assign(4 * link.tet_slots(), kNowhere);
   hole_.place.assign(link.tet_slots(), kNowhere);
   hole_.fill.clear();
@@ -172,7 +172,7 @@ void BowyerWatson::find_fill() {
   }
   DELISO_CHECK(found == rim.size(), "the triangulation of the link holds the rim of the hole");
 
-  // Step 3: what lies behind facets that are not on the rim; everything where there is no rim.
+  // Step 3: cross every facet that is not on the rim; without a rim take all tetrahedra.
   for (std::size_t i = 0; rim.empty() && i < link.tet_slots(); ++i) {
     if (link.is_live(TetId(i))) fill_with(TetId(i));
   }

@@ -12,7 +12,7 @@ namespace {
 
 using Word = std::uint64_t;
 constexpr std::size_t kWordBits = kSidesPerWord;
-// Layers that a thread takes at a time: whole bricks, so that threads write to words of their own.
+// The number of layers that a thread takes at a time: whole bricks, so that no two threads write to the same word.
 constexpr std::size_t kSlabLayers = 32;
 
 // The signs of all samples, in rows of whole words.
@@ -44,7 +44,7 @@ struct SampleSigns {
   }
 };
 
-// Active bits of a row of extended cells from the four rows of samples around it.
+// The active bits of a row of extended cells, from the four rows of samples around it.
 void activate_row(const std::array<const Word*, 4>& rows, std::size_t samples, std::vector<Word>& active) {
   Word any_carry = 0;  // last bit of the word before
   Word all_carry = 1;
@@ -84,7 +84,8 @@ Word mask(std::size_t axis, std::int32_t first, std::int32_t last) {
 
 ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue, int threads) {
   const Dims& n = grid.dims();
-  // A coordinate's low two bits tell the place in a brick, the third the brick in a line, the rest the line.
+  // The low two bits of a coordinate give the position in a brick, the third bit the brick in a cache line, the rest
+  // the cache line.
   std::size_t line_stride = 512;
   for (std::size_t a = 0; a < 3; ++a) {
     places_[a].resize(static_cast<std::size_t>(n[a]) + 1);
@@ -114,7 +115,7 @@ ActiveCells::ActiveCells(const ScalarGrid& grid, double isovalue, int threads) {
   });
 }
 
-// A row of cells to its bricks, four cells each.
+// Distributes the bits of a row of cells to its bricks, four cells to each.
 void ActiveCells::deal_out(const std::vector<std::uint64_t>& active, std::int32_t y, std::int32_t z) {
   for (std::size_t word = 0; word < active.size(); ++word) {
     auto x = static_cast<std::int32_t>(word * kWordBits);
@@ -143,8 +144,8 @@ bool ActiveCells::any_active_of_many(const Cell& low, const Cell& high) const {
   return false;
 }
 
-// In a box that reaches over two bricks at most along every axis. How many it is cannot be foretold: so eight are
-// looked at in any case, the same ones twice if need be.
+// For a box that meets at most two bricks along every axis. How many it meets is unpredictable, so eight bricks are
+// always read, some of them twice.
 bool ActiveCells::any_active_of_eight(const Cell& low, const Cell& high) const {
   std::array<std::array<std::size_t, 2>, 3> bricks;  // what each coordinate contributes to the number of a word
   std::array<std::array<Word, 2>, 3> masks;

@@ -7,13 +7,13 @@ namespace deliso {
 
 namespace {
 
-// Where a line comes into an extended cell and leaves it, in the parameters of the grid cell behind it. Either place is
-// a crossing, or the end of the segment, at `low` or `high`. The one formula for both cells of a face: only the
-// coordinate across the face differs, and that is exactly 0 or 1.
+// Where a line enters and leaves an extended cell, in the parameters of the grid cell behind it. Each of the two
+// positions is a face crossing, or an end of the segment, at `low` or `high`. Both cells of a face use this one
+// formula: only the coordinate across the face differs, and it is exactly 0 or 1.
 std::array<Vec3, 2> positions_in_cell(const IndexLine& line, const CellVisit& visit, const AxisValues& low,
                                       const AxisValues& high, const Cell& base, const Dims& dims) {
-  // Without branches: what kind of place it is, and along which axis, cannot be foretold. The plane of an end, which
-  // has none, is put behind the coordinates.
+  // No branches, because the kind of a position and its axis are unpredictable. The plane of a segment's end, which has
+  // none, is written behind the coordinates.
   std::array<std::array<double, 4>, 2> crossings;
   for (std::size_t a = 0; a < 3; ++a) {
     const Pair at = line.base[a] + Pair{visit.in.s, visit.out.s} * line.direction[a];
@@ -28,8 +28,8 @@ std::array<Vec3, 2> positions_in_cell(const IndexLine& line, const CellVisit& vi
   const double* const in = place(visit.in, low, 0);
   const double* const out = place(visit.out, high, 1);
   const auto coordinate = [&](std::size_t a) {
-    // By selection: crossings lie on either face as often as between them. In outer cells the coordinate stays that of
-    // the box's face.
+    // By selection, because a crossing lies on either face as often as between them. In outer cells the coordinate
+    // keeps the value of the box's face.
     const auto least = static_cast<double>(visit.cell[a] == dims[a]);
     const auto most = static_cast<double>(visit.cell[a] != 0);
     const Pair u = Pair{in[a], out[a]} - static_cast<double>(base[a]);

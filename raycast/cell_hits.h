@@ -29,7 +29,8 @@ struct CellHits {
 CellHits solve_cell(const ScalarGrid& grid, double isovalue, CubicSolver solver, const IndexLine& line,
                     const CellVisit& visit, const AxisValues& low, const AxisValues& high);
 
-// Does the isovalue lie between samples of an extended cell? An outer one has only those of a face, edge or corner.
+// Whether the isovalue lies between the samples of an extended cell. An outer cell has only the samples of a face, edge
+// or corner of the box.
 bool cell_holds(const ScalarGrid& grid, const Cell& cell, double isovalue);
 
 }  // namespace deliso

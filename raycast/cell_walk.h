@@ -1,12 +1,12 @@
-// A line on its way through the voxel cells.
+// The walk of a line through the voxel cells.
 //
-// Index space: sample (i, j, k) sits at (i, j, k). The *extended cells* of an axis with n samples are numbered 0 to n:
-// cell e covers [e - 1, e], cell 0 everything before the first sample and cell n everything behind the last. The field
-// is constant across cells 0 and n, so a line of any length crosses at most n faces per axis and needs no clipping.
+// Index space: sample (i, j, k) lies at (i, j, k). The *extended cells* of an axis with n samples are numbered 0 to n:
+// cell e covers [e - 1, e], cell 0 everything before the first sample and cell n everything behind the last. Across
+// cells 0 and n the field is constant, so a line of any length crosses at most n faces per axis and needs no clipping.
 //
-// One rule orders the face crossings of a line, wherever they are computed: by line parameter, equal ones by axis. Two
-// cells that follow each other always share a face, and the crossing of that face is one and the same `Crossing` for
-// both. Every way to traverse the volume (cell by cell, or leaving blocks of cells in one jump) follows this order.
+// One rule orders the face crossings of a line, wherever they are computed: by line parameter, and equal ones by axis.
+// Consecutive cells always share a face, and both see the crossing of this face as one and the same `Crossing`. Every
+// way to traverse the volume (cell by cell, or in one jump out of a block of cells) follows this order.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ namespace deliso {
 
 using Cell = std::array<std::int32_t, 3>;
 
-// Stands for an infinite line parameter; a product with zero is still zero.
+// Stands for an infinite line parameter; unlike infinity, its product with zero is zero.
 inline constexpr double kNever = 1e300;
 
 // The extended cell that holds coordinate x on an axis of n samples; the outermost one when x is not a number. No
-// branches: many points are far outside.
+// branches, because many points are far outside.
 inline std::int32_t extended_cell(double x, std::int32_t n) {
   const double inside = std::min(std::max(0.0, x), static_cast<double>(n - 1));
   return static_cast<std::int32_t>(inside) + static_cast<std::int32_t>(x >= 0);
@@ -37,7 +37,8 @@ inline Cell grid_cell(const Cell& extended, const Dims& dims) {
           std::clamp(extended[2] - 1, 0, dims[2] - 2)};
 }
 
-// A place on the line: its parameter and, for a face crossing, the face's axis and plane.
+// A point where the line crosses a face, given by its parameter and the face's axis and plane; or an end of the
+// segment.
 struct Crossing {
   double s = 0;
   std::int32_t axis = -1;  // -1: an end of the segment
@@ -96,8 +97,8 @@ class CellWalk {
     return step_along(2);
   }
 
-  // Goes on to the first cell beyond the block, which holds the present cell; false when the walk ends within it. The
-  // same as calling step() until then, only faster.
+  // Moves on to the first cell beyond the block, which holds the present cell. Returns false when the walk ends within
+  // the block. The result is that of repeated calls of step(), found faster.
   bool leave(const CellBlock& block);
 
  private:
@@ -113,7 +114,8 @@ class CellWalk {
   }
   [[nodiscard]] double key(std::size_t a, std::int32_t plane) const { return to_key(line_->crossing(a, plane)); }
   void set_next(std::size_t a) {
-    // By a look-up: compilers would make a branch of a choice, and which step is the last cannot be foretold.
+    // By table look-up, because whether this is the last step is unpredictable (compilers turn a conditional expression
+    // into a branch).
     const std::array<double, 2> never_or_next = {kNever, key(a, plane_after(a, 1))};
     next_[a] = never_or_next[static_cast<std::size_t>(remaining_[a] > 0)];
   }
@@ -146,7 +148,7 @@ class CellWalk {
 template <bool Backward>
 std::int32_t CellWalk<Backward>::steps_before(std::size_t b, std::int32_t most, double key_a, std::size_t a) const {
   if (most == 0) return 0;
-  // Guess from the rounded position, then settle by the order of crossings.
+  // Estimate the number from the rounded position, then correct it by the order of crossings.
   const double x = line_->base[b] + to_key(key_a) * line_->direction[b];
   const double guess = step_[b] > 0 ? std::floor(x) + 1 - cell_[b] : cell_[b] - (std::floor(x) + 1);
   auto count = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(most)));

@@ -1,4 +1,4 @@
-// Quick answers of an isosurface: on which side a point lies, and whether a segment comes near.
+// Quick queries of an isosurface: on which side a point lies, and whether a segment can meet the surface.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -11,12 +11,12 @@ namespace deliso {
 
 namespace {
 
-// Longest side of a box of cells that is searched for active ones without a ray.
+// The longest side of a box of cells that is searched for active cells without a ray.
 constexpr std::int32_t kMostCells = 7;
-// A segment is looked at in up to two to the power of so many pieces.
+// A segment is examined in at most two to this power pieces.
 constexpr int kMostHalvings = 3;
 
-// Four whole numbers that are worked on together (a vector type of GCC and Clang): those of a place.
+// The three coordinates of a position and a fourth number in one register (a vector type of GCC and Clang).
 using Ints = std::int32_t __attribute__((vector_size(16)));
 Ints ints(const Isosurface::Place& place) {
   static_assert(sizeof(place) == sizeof(Ints));
@@ -36,7 +36,7 @@ Isosurface::Place Isosurface::place_of(const Vec3& p) const {
 }
 
 void Isosurface::prefetch(const Place& place) const {
-  if (bricks_ == nullptr || place.clearance != 0) return;  // far from the isosurface nothing else is read
+  if (bricks_ == nullptr || place.clearance != 0) return;  // far from the isosurface no other memory is read
   active_->prefetch(place.cell);
   const Dims& dims = grid_.dims();
   const Cell base = grid_cell(place.cell, dims);
@@ -53,12 +53,12 @@ void Isosurface::prefetch(const Place& place) const {
 bool Isosurface::is_clear_box(const Place& a, const Place& b) const {
   if (bricks_ == nullptr) return false;
   if (EmptyBricks::is_empty_between(a.cell, a.clearance, b.cell, b.clearance)) return true;
-  // Which cell is the lower one cannot be foretold: without branches, all axes at once.
+  // Which cell is the lower one is unpredictable: all axes at once, without branches.
   const Ints ahead = ints(b) - ints(a);
-  const Ints back = ahead & (ahead >> 31);  // 0 unless it goes back
+  const Ints back = ahead & (ahead >> 31);  // 0 unless the segment runs backward
   const Ints low = ints(a) + back;
   const Ints high = ints(b) - back;
-  const Ints spare = kMostCells - (high - low);  // below 0 where it is too long
+  const Ints spare = kMostCells - (high - low);  // negative where the box is too long
   if ((spare[0] | spare[1] | spare[2]) < 0) return false;
   return !active_->any_active({low[0], low[1], low[2]}, {high[0], high[1], high[2]});
 }

@@ -127,7 +127,7 @@ SignChanges bracketed_sign_changes(const BernsteinCubic& b) {
     found.add(root_between(c, 0, 1, b[0], b[3]));
     return found;
   }
-  // Several: look at each piece between the extrema.
+  // Several roots are possible: examine each piece between the extrema.
   const SignChanges splits = extrema(b);
   double low = 0;
   double value_low = b[0];
@@ -143,8 +143,8 @@ SignChanges bracketed_sign_changes(const BernsteinCubic& b) {
 }
 
 SignChanges schwarze_roots(const PowerCubic& c) {
-  // A leading coefficient that counts as zero, relative to the largest. The closed form loses about half the digits of
-  // (second coefficient / leading coefficient), so leaving out a smaller term does no more harm than keeping it.
+  // A leading coefficient below this fraction of the largest counts as zero. The closed form loses about half the
+  // digits of (second coefficient / leading coefficient), so dropping a smaller term does no more harm than keeping it.
   constexpr double kVanishing = 1e-5;
   constexpr double kRounding = 1e-15;
   const double largest = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2]), std::abs(c[3])});
@@ -165,7 +165,7 @@ SignChanges schwarze_roots(const PowerCubic& c) {
   } else if (std::abs(c[1]) > kVanishing * largest) {
     roots.add(-c[0] / c[1]);
   }
-  // Give back the digits that the closed form lost: two of Newton's steps, where they are small.
+  // Two Newton steps, where they are small, restore the digits that the closed form lost.
   for (double& root : roots.at)
     for (int i = 0; i < 2; ++i) {
       const double step = evaluate(c, root) / derivative(c, root);
@@ -189,10 +189,11 @@ SignChanges schwarze_sign_changes(const BernsteinCubic& b) {
     nearest = i;
     nearest_distance = distance;
   }
-  // The signs at the ends rule over rounded roots.
+  // Where the signs at the ends contradict the rounded roots, the signs win.
   const bool must_be_odd = is_above(b[0]) != is_above(b[3]);
   const bool repair = ((inside & 1) != 0) != must_be_odd;
-  if (repair && nearest < 0) return bracketed_sign_changes(b);  // a lost root: the closed form found none at all
+  // The closed form found no root at all although there is one.
+  if (repair && nearest < 0) return bracketed_sign_changes(b);
   SignChanges found;
   for (int i = 0; i < roots.count; ++i) {
     const double t = roots.at[static_cast<std::size_t>(i)];

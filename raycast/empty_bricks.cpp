@@ -8,7 +8,7 @@ namespace deliso {
 
 namespace {
 
-// Distances along a line of bricks: to the nearest brick with distance 0, at most `farthest`.
+// Distances along a line of bricks to the nearest brick with distance 0, at most `farthest`.
 void spread_along_row(std::int8_t* row, std::size_t count) {
   for (std::size_t i = 1; i < count; ++i) row[i] = std::min(row[i], static_cast<std::int8_t>(row[i - 1] + 1));
   for (std::size_t i = count - 1; i > 0; --i) {
@@ -16,8 +16,8 @@ void spread_along_row(std::int8_t* row, std::size_t count) {
   }
 }
 
-// For every line of `count` rows of `width` bricks, `stride` apart: out[i] = min over j of max(|i - j|, in[j]), which
-// takes one more axis into the largest-coordinate distance.
+// For every line of `count` rows of `width` bricks, `stride` apart: out[i] = min over j of max(|i - j|, in[j]). This
+// extends the largest-coordinate distance by one axis.
 void spread_across_rows(const std::int8_t* in, std::int8_t* out, std::size_t count, std::size_t stride,
                         std::size_t width, int farthest) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ EmptyBricks::EmptyBricks(const ScalarGrid& grid, const ActiveCells& active, doub
   });
 }
 
-// Those of any sample of each brick of a row; cell e has samples e - 1 and e.
+// The signs of any sample of each brick of a row; cell e has samples e - 1 and e.
 void EmptyBricks::set_signs(const ScalarGrid& grid, double isovalue, std::size_t y, std::size_t z) {
   const auto sample = [&](std::size_t axis, std::size_t brick) { return std::min(brick_cell(brick), dims_[axis] - 1); };
   for (std::size_t x = 0; x < bricks_[0]; ++x) {

@@ -1,7 +1,8 @@
-// How far the isosurface is, by bricks of 4 x 4 x 4 extended cells: one signed byte each, small enough for the caches.
+// How far the isosurface is, in bricks of 4 x 4 x 4 extended cells: one signed byte per brick, small enough for the
+// caches.
 //
-// Most points and segments that a mesher asks about lie far from the surface: one look at this table tells on which
-// side a point lies, or that a segment has no hit.
+// Most points and segments that a mesher asks about lie far from the surface. For these one read of this table gives
+// the side on which the point lies, or shows that the segment has no hit.
 #pragma once
 
 #include <algorithm>
@@ -29,14 +30,15 @@ class EmptyBricks {
                             static_cast<std::size_t>(cell[2]) >> kShift)];
   }
 
-  // Is the box of bricks that two cells with these clearances span known to be empty?
+  // Whether the box of bricks that two cells with these clearances span is known to be empty.
   static bool is_empty_between(const Cell& a, int clearance_a, const Cell& b, int clearance_b) {
     int apart = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
       apart = std::max(apart, std::abs((a[axis] >> kShift) - (b[axis] >> kShift)));
     return apart < std::max(std::abs(clearance_a), std::abs(clearance_b));
   }
-  // Cells without the isovalue around a cell with that clearance, which is not 0. May reach beyond the extended cells.
+  // A block of cells around a cell with this clearance (not 0), none of which holds the isovalue. It may reach beyond
+  // the extended cells.
   static CellBlock clear_block(const Cell& cell, int clearance) {
     const std::int32_t aside = (std::abs(clearance) - 1) << kShift, side = (1 << kShift) - 1;
     CellBlock block;

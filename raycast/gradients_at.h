@@ -1,4 +1,4 @@
-// The gradient of the field jumps where a ray goes from cell to cell: at a point of a cell's side there are several.
+// The gradients of the field at a point. On a side of a cell there are several: the gradient jumps from cell to cell.
 #pragma once
 
 #include <cmath>

@@ -31,7 +31,7 @@ void MinMaxKdTree::lay_out(std::int32_t leaf_cells) {
   levels_.assign(downward.rbegin(), downward.rend());
   for (auto& bits : level_of_bit_)
     for (auto& level : bits) level = static_cast<std::int8_t>(root_level() + 1 - level);
-  // Leaves, and a place for every node that is kept.
+  // Count the nodes of the leaf level and of all levels that are stored.
   leaf_level_ = std::min(bit_width(leaf_cells) - 1, root_level());
   std::size_t first = 0;
   for (int l = std::max(leaf_level_, 1); l <= root_level(); ++l) {
@@ -43,7 +43,7 @@ void MinMaxKdTree::lay_out(std::int32_t leaf_cells) {
 
 namespace {
 
-// One side of the ranges (the minima or the maxima) for all levels, bottom-up.
+// One bound of the ranges (the minima or the maxima) for all levels, bottom-up.
 template <class Sample, class Better>
 class RangeBuilder {
  public:
@@ -57,7 +57,7 @@ class RangeBuilder {
     std::vector<Sample> best(row);
     for (std::size_t z = 0; z < level.dims[2]; ++z)
       for (std::size_t y = 0; y < level.dims[1]; ++y) {
-        // Over the rows of samples of this row of nodes, then along x.
+        // First over the rows of samples of this row of nodes, then along x.
         const auto [j0, j1] = sample_range(level, 1, y);
         const auto [k0, k1] = sample_range(level, 2, z);
         std::copy_n(samples_.data() + row * (j0 + index_of(dims_[1]) * k0), row, best.data());

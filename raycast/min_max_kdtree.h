@@ -1,11 +1,11 @@
 // A kd-tree over the voxel cells of a grid, with the smallest and largest sample of every node.
 //
-// A node covers a box of cells. The root covers all; every level halves the boxes of the level above along one axis,
-// the one with the longest side, at the multiple of a power of two nearest the middle. So all boxes of a level have one
-// size (cut off at the volume's far faces), a level is a small regular grid of nodes, and the tree needs no pointers:
-// the node of a level that holds a cell is found by shifting the cell's coordinates, and the smallest node that holds
-// two cells from the highest bit in which they differ. It takes two samples per cell and is built bottom-up by pairwise
-// minima.
+// A node covers a box of cells. The root covers all cells. Every level halves the boxes of the level above along one
+// axis, the one with the longest side, at the multiple of a power of two nearest the middle. So all boxes of a level
+// have the same size (cut off at the volume's far faces), a level is a small regular grid of nodes, and the tree needs
+// no pointers. The node of a level that holds a cell is found by a shift of the cell's coordinates. The smallest node
+// that holds two cells follows from the highest bit in which they differ. The tree stores two samples per cell and is
+// built bottom-up by pairwise minima and maxima.
 #pragma once
 
 #include <bit>
@@ -27,18 +27,18 @@ class MinMaxKdTree {
   MinMaxKdTree(const ScalarGrid& grid, std::int32_t leaf_cells);
 
   // Levels are counted from the cells up: a node of level l covers up to 2^l cells. Levels below leaf_level() are not
-  // kept, nor is level 0, where a cell's own samples tell.
+  // stored, nor is level 0, whose ranges follow from a cell's own samples.
   [[nodiscard]] int leaf_level() const { return leaf_level_; }
   [[nodiscard]] int root_level() const { return static_cast<int>(levels_.size()) - 1; }
-  // The level of the smallest node that holds both cells of the grid; 0 for one and the same.
+  // The level of the smallest node that holds both cells of the grid; 0 if they are the same cell.
   [[nodiscard]] int common_level(const Cell& a, const Cell& b) const;
-  // Smallest and largest sample of the node that holds `cell` (a cell of the grid). Precondition: the level is kept.
+  // Smallest and largest sample of the node that holds `cell` (a cell of the grid). Precondition: the level is stored.
   [[nodiscard]] std::pair<double, double> range(int level, const Cell& cell) const;
   [[nodiscard]] bool holds(double isovalue, int level, const Cell& cell) const {
     const auto [low, high] = range(level, cell);
     return low < isovalue && isovalue < high;
   }
-  // The box of that node in extended cells; nodes at the volume's faces go on outward for ever.
+  // The box of that node in extended cells; a node at the volume's faces extends outward without end.
   [[nodiscard]] CellBlock block(int level, const Cell& cell) const;
   [[nodiscard]] std::size_t bytes() const;
 
@@ -59,9 +59,10 @@ class MinMaxKdTree {
   Dims dims_{};   // samples per axis
   int leaf_level_ = 0;
   std::vector<Level> levels_;
-  std::array<std::array<std::int8_t, 32>, 3> level_of_bit_{};  // level whose nodes first join cells that differ there
-  Samples low_;                                                // smallest sample of every node
-  Samples high_;                                               // largest sample of every node
+  // The level whose nodes first join cells that differ in this bit.
+  std::array<std::array<std::int8_t, 32>, 3> level_of_bit_{};
+  Samples low_;   // smallest sample of every node
+  Samples high_;  // largest sample of every node
 };
 
 // ---- Inline: one test per node of a search --------------------------------------------------------------------------

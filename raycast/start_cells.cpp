@@ -9,7 +9,7 @@ namespace deliso {
 namespace {
 
 struct FindStartCells {
-  // The place of a coordinate along an axis whose last sample is `last`: its cell, and where in that.
+  // A coordinate along an axis whose last sample is `last`: its cell, and its position within the cell.
   struct Along {
     double cell = 0, place = 0;
   };
@@ -50,13 +50,13 @@ struct Cubic {
   double c0, c1, c2, c3;
 };
 
-// A linear function of t: the values at both ends of an edge, blended.
+// A linear function of t: the values at both ends of an edge, interpolated.
 struct Linear {
   double c0, c1;
 };
 
 struct FallingHitsAround {
-  // The interpolant on the line: blended along x, then y, then z, each time by a linear function of t.
+  // The interpolant on the line: interpolated along x, then y, then z, each time by a linear function of t.
   [[gnu::always_inline]] static Linear on_edge(double low, double high, double u, double d) {
     const double rise = high - low;
     return {low + rise * u, rise * d};
@@ -76,17 +76,17 @@ struct FallingHitsAround {
     return {low.c0 + rise0 * u.z, low.c1 + rise1 * u.z + rise0 * d.z, low.c2 + rise2 * u.z + rise1 * d.z, rise2 * d.z};
   }
 
-  // Whether the line stays in the cell along an axis for as long as `reach` both ways.
+  // Whether the line stays within the cell along an axis over the range from -reach to reach.
   [[gnu::always_inline]] static bool stays(double at, double along, double reach) {
     return reach * std::abs(along) <= (1 - at < at ? 1 - at : at);
   }
 
   [[gnu::always_inline]] static void run(StartCells& cells) {
-    constexpr double kLeastSlope = 0.5;  // of that at t = 0
+    constexpr double kLeastSlope = 0.5;  // as a fraction of the slope at t = 0
     constexpr int kMostSteps = 8;
-    constexpr double kSmallStep = 1e-8;  // its square is beyond the digits of a double
+    constexpr double kSmallStep = 1e-8;  // its square is below the rounding of a double
     Lanes c0, c1, c2, c3, t;
-    Lanes moves;  // 1 as long as it does
+    Lanes moves;  // 1 for a lane that still moves
     for (std::size_t i = 0; i < kLanes; ++i) {
       const Cubic c = on_line(cells.relative, i, cells.line.origin.at(i), cells.line.direction.at(i));
       c0[i] = c.c0;
@@ -96,7 +96,7 @@ struct FallingHitsAround {
       t[i] = -c.c0 / c.c1;
       moves[i] = c.c1 < 0 ? 1 : 0;
     }
-    // Newton's method, as long as any of them moves.
+    // Newton's method, until no lane moves.
     for (int step = 0; step < kMostSteps; ++step) {
 #pragma GCC unroll 1
       for (std::size_t i = 0; i < kLanes; ++i) {

@@ -5,7 +5,8 @@
 namespace deliso {
 
 BernsteinCubic restrict_to_segment(const CellCorners& f, const Vec3& a, const Vec3& b) {
-  // Interpolate along z, then y, then x, each at a and at b. Of a pair the first has z from a, the second from b.
+  // Interpolate along z, then y, then x, each at a and at b. In each pair, the first value uses z from a, the second z
+  // from b.
   const auto both = [](double s) { return Pair{s, s}; };
   const auto blend_pairs = [](const Pair& at0, const Pair& at1, const Pair& t) { return (1 - t) * at0 + t * at1; };
   const Pair az_bz = {a.z, b.z};

@@ -8,8 +8,8 @@
 
 namespace deliso {
 
-// The field minus the isovalue at the eight corners of a cell. Its signs are exact, and interpolation keeps them: where
-// all corners lie on one side, every computed value does.
+// The field minus the isovalue at the eight corners of a cell. The signs are exact, and interpolation keeps them: if
+// all corners lie on one side, so does every interpolated value.
 inline CellCorners relative_to(const CellCorners& corners, double isovalue) {
   CellCorners relative;
   for (std::size_t i = 0; i < 8; ++i) relative[i] = corners[i] - isovalue;
@@ -36,10 +36,10 @@ inline double relative_value(const CellCorners& f, const Vec3& p) {
 }
 
 // The trilinear interpolant along the segment from a to b (both in the cell's parameters, [0, 1]^3) as a cubic in the
-// segment's own parameter. Its blossom takes each coordinate from a or from b on its own, so the Bernstein coefficients
-// are averages of interpolated values at the corners of the box that a and b span. The end coefficients are, bit for
-// bit, relative_value(relative, a) and relative_value(relative, b); on a face that two cells share, both cells get
-// the same.
+// segment's own parameter. The cubic's blossom takes each coordinate from a or from b independently. So the Bernstein
+// coefficients are averages of interpolated values at the corners of the box that a and b span. The end coefficients
+// are, bit for bit, relative_value(relative, a) and relative_value(relative, b). On a face shared by two cells, both
+// cells get the same values.
 BernsteinCubic restrict_to_segment(const CellCorners& relative, const Vec3& a, const Vec3& b);
 
 // The sign changes along that segment: an odd number exactly when its end values lie on different sides, zero counting

@@ -15,7 +15,7 @@ inline bool has_isosurface(const ScalarGrid& grid, double isovalue) {
   return low < isovalue && isovalue <= high;
 }
 
-// For a message: the data's range, and that its lowest value is no isovalue when that is what was overlooked.
+// The range of the data, for a message; adds that the lowest value is no isovalue when that was the mistake.
 inline std::string isovalue_range_text(const ScalarGrid& grid, double isovalue) {
   const auto [low, high] = grid.range();
   const std::string range = "the data's range is " + shortest_text(low) + " to " + shortest_text(high);

@@ -1,4 +1,4 @@
-// The samples of a volume in one type: an array that never changes, in memory of our own or mapped from a file.
+// The samples of a volume in one type: an immutable array, in our own memory or mapped from a file.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,13 @@ class SampleArray {
     samples_ = *kept;
     memory_ = std::move(kept);
   }
-  // Samples in memory that lives as long as `mapping`.
+  // Samples in memory that stays valid as long as `mapping` exists.
   SampleArray(std::shared_ptr<const void> mapping, std::span<const Sample> samples)
       : samples_(samples), memory_(std::move(mapping)), is_mapped_(true) {}
 
   SampleArray(const SampleArray&) = default;
   SampleArray& operator=(const SampleArray&) = default;
-  SampleArray(SampleArray&& other) noexcept { swap(other); }  // which is empty afterwards
+  SampleArray(SampleArray&& other) noexcept { swap(other); }  // leaves `other` empty
   SampleArray& operator=(SampleArray&& other) noexcept {
     SampleArray(std::move(other)).swap(*this);
     return *this;
@@ -50,7 +50,7 @@ class SampleArray {
   [[nodiscard]] const Sample* end() const { return samples_.data() + samples_.size(); }
   [[nodiscard]] const Sample& front() const { return samples_.front(); }
   const Sample& operator[](std::size_t n) const { return samples_[n]; }
-  // In a file's memory, which the system may drop and read again.
+  // Whether it is in a file's memory, which the system may drop and read again.
   [[nodiscard]] bool is_mapped() const { return is_mapped_; }
 
   friend bool operator==(const SampleArray& a, const SampleArray& b) {

@@ -13,7 +13,7 @@ namespace deliso {
 
 inline constexpr std::size_t kSidesPerWord = 64;
 
-// Whether a sample lies above an isovalue, decided by numbers of the samples' own type.
+// Compares a sample with an isovalue in the sample's own type.
 template <class Sample>
 class SideTest {
  public:
@@ -22,7 +22,8 @@ class SideTest {
       threshold_ = isovalue;
       never_equal_ = false;
     } else {
-      // The greatest number of the type that is not above the isovalue; samples above it lie above the isovalue.
+      // The largest number of the type that is not above the isovalue: a sample is above the isovalue when it is above
+      // this.
       constexpr Sample kLowest = std::numeric_limits<Sample>::lowest();
       constexpr Sample kHighest = std::numeric_limits<Sample>::max();
       if (isovalue < static_cast<double>(kLowest)) {
@@ -47,7 +48,7 @@ class SideTest {
   [[nodiscard]] bool never_equal() const { return never_equal_; }
   [[nodiscard]] bool equals(Sample sample) const { return !never_equal_ && sample == threshold_; }
 
-  // Bit i of the words, counted through: does sample i lie above? The rest of the last word is 0.
+  // Bit i of the words, counted across them: whether sample i lies above. The unused bits of the last word are 0.
   void pack(const Sample* samples, std::size_t count, std::uint64_t* words) const {
     std::array<std::uint8_t, kSidesPerWord> flags{};
     for (std::size_t start = 0; start < count; start += kSidesPerWord) {
@@ -69,7 +70,7 @@ class SideTest {
   static std::uint64_t packed(const std::array<std::uint8_t, kSidesPerWord>& flags) {
     std::uint64_t word = 0;
     for (std::size_t byte = 0; byte < 8; ++byte) {
-      // Eight flags in one number, the first lowest; the product gathers them in its top byte.
+      // Eight flags in one number, the first in the lowest byte; the multiplication gathers them in the top byte.
       std::uint64_t eight = 0;
       for (std::size_t b = 0; b < 8; ++b) eight |= static_cast<std::uint64_t>(flags[8 * byte + b]) << (8 * b);
       word |= ((eight * 0x0102040810204080ull) >> 56) << (8 * byte);

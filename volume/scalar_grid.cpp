@@ -125,10 +125,10 @@ ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
   range_ = visit_samples(samples_, [this](const auto& s) { return finite_range(s, dims_); });
 }
 
-// Volumes, and the exact determinants of a mesh's vertices, are products of lengths.
+// Volumes, and the exact determinants of a mesh's vertices, are products of lengths: these must stay in range.
 void ScalarGrid::check_places() const {
   constexpr double kSmallest = 1e-100, kLargest = 1e100;
-  // A coordinate's rounding is then below 1e-4 of a spacing.
+  // Up to this distance in spacings a coordinate's rounding is below 1e-4 of a spacing.
   constexpr double kFarthest = 0x1p40;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(spacing_[axis] > 0)) throw InputError("the spacing is " + text(spacing_) + ": each must be positive");
@@ -173,7 +173,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   if (never_equal) return isovalue;
   Neighbors near = find_neighbors(grid, isovalue);
   while (near.equal) {
-    // Step down by 1 % of the gap; in a gap of few doubles the step may round to nothing, so try its middle too.
+    // Lower it by 1 % of the gap. In a gap of few doubles this may round to nothing, so also try the middle of the gap.
     const bool has_lower = near.lower > -kInfinity;
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
     if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
@@ -182,7 +182,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
       if (candidate < isovalue && candidate > near.lower) return candidate;
     }
     if (!has_lower) return std::nextafter(isovalue, -kInfinity);
-    // The gap holds no double: go on below it.
+    // The gap holds no double: continue with the gap below it.
     isovalue = near.lower;
     near = find_neighbors(grid, isovalue);
   }

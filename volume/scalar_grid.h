@@ -32,9 +32,9 @@ decltype(auto) visit_samples(const Samples& samples, Function&& f);
 // Samples in x-fastest order. Sample (i, j, k) sits in the world at origin + (i sx, j sy, k sz).
 class ScalarGrid {
  public:
-  // Throws InputError when a dimension is below 2, the sample count does not fit dims, a spacing is not positive, or
-  // beyond 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot tell 1e-4 of a spacing, or a
-  // sample is NaN or infinite (naming the first).
+  // Throws InputError when a dimension is below 2, the sample count does not fit dims, a spacing is not positive or
+  // outside 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot resolve 1e-4 of a spacing, or
+  // a sample is NaN or infinite (naming the first).
   ScalarGrid(Dims dims, Samples samples, Vec3 spacing = {1, 1, 1}, Vec3 origin = {0, 0, 0});
 
   [[nodiscard]] const Dims& dims() const { return dims_; }
@@ -74,13 +74,14 @@ class ScalarGrid {
 // type's range. Throws InputError when `value` is NaN or a dimension would leave the range of Dims.
 ScalarGrid padded(const ScalarGrid& grid, double value);
 
-// A regular isovalue: `isovalue` itself unless some sample equals it; then it is lowered by 1 % of the gap to the next
-// lower sample value (or, when there is none, of the gap to the next higher one; or, when all samples are equal, to the
-// next lower double). Never equal to a sample: when a gap is too narrow to hold a double, the next gap below is taken.
+// A regular isovalue: never equal to a sample. It is `isovalue` itself unless some sample equals it. Then it is lowered
+// by 1 % of the gap to the next lower sample value. If there is no lower sample, it is lowered by 1 % of the gap to the
+// next higher one; if all samples are equal, to the next lower double. When a gap is too narrow to hold a double, the
+// next gap below is taken.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
-// A value lower by 1 % of the gap to the next lower sample value: between the same samples, so the same ones lie above
-// it.
+// A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same
+// samples lie above it.
 double lowered_isovalue(const ScalarGrid& grid, double isovalue);
 
 // The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,

@@ -27,7 +27,7 @@ struct Box3 {
   }
   // Whether the boxes have a point in common, faces included.
   [[nodiscard]] bool meets(const Box3& b) const {
-    // All at once: which of the six fails cannot be foretold.
+    // All six comparisons are made: which one fails is unpredictable, so a branch on each would cost more.
     const auto within = [](double a, double c) { return static_cast<unsigned>(a <= c); };
     return (within(low.x, b.high.x) & within(b.low.x, high.x) & within(low.y, b.high.y) & within(b.low.y, high.y) &
             within(low.z, b.high.z) & within(b.low.z, high.z)) != 0;

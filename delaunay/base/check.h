@@ -14,7 +14,7 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message) : std::runtime_error(without_ends(message)) {}
 
  private:
-  // A name in a message may hold the character that ends what().
+  // A name quoted in the message may contain a zero byte, which would end the text of what().
   static std::string without_ends(std::string message) {
     std::replace(message.begin(), message.end(), '\0', ' ');
     return message;

@@ -1,4 +1,4 @@
-// Numbers of things in sentences.
+// Counts of things, worded for messages.
 #pragma once
 
 #include <cstdint>

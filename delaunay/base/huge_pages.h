@@ -1,5 +1,5 @@
-// An allocator for large flat arrays that are read all over: takes them from the system in huge pages, which saves most
-// of the misses in address translation, and gives them back at once. Where that is not to be had it is std::allocator.
+// An allocator for large flat arrays that are read at random. It takes memory from the system in huge pages, which
+// avoids most TLB misses, and gives freed memory back at once. On systems without huge pages it is std::allocator.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ class HugePageAllocator {
     char* const begin = static_cast<char*>(mapped) + before;
     if (before > 0) munmap(mapped, before);
     munmap(begin + bytes, kPage - before);
-    madvise(begin, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost when it is not granted
+    madvise(begin, bytes, MADV_HUGEPAGE);  // only advice: if the system refuses it, nothing is lost
     return reinterpret_cast<T*>(begin);
   }
   void deallocate(T* memory, std::size_t count) {
@@ -70,8 +70,8 @@ using HugePageAllocator = std::allocator<T>;
 template <class T>
 using LargeArray = std::vector<T, HugePageAllocator<T>>;
 
-// The same, but elements made without a value hold anything until they are written: so they can be written for the
-// first time, which is when pages come, by several threads.
+// The same, but elements made without a value stay uninitialized until they are written. So several threads can write
+// them for the first time, which is when the system provides the pages.
 template <class T>
 class UnwrittenAllocator : public HugePageAllocator<T> {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,6 @@
-// Numbers side by side, for steps that are the same for several triangles, lines or cells. A loop over all lanes whose
-// body has no branch becomes vector instructions; each lane gets what the same operations give alone, to the last bit.
+// Several numbers side by side (lanes), for steps that are the same for several triangles, lines or cells. A loop over
+// all lanes whose body has no branch becomes vector instructions. Each lane gets bit for bit the result that the same
+// operations give alone.
 #pragma once
 
 #include <array>
@@ -36,8 +37,9 @@ template <class Step, class... Arguments>
   Step::run(arguments...);
 }
 
-// Step::run(arguments...), a static function that is always inlined and loops over lanes: in registers as wide as all
-// lanes where the processor has them, chosen when the program runs, or else in those of two numbers that all have.
+// Runs Step::run(arguments...), a static function that is always inlined and loops over lanes. At run time this chooses
+// registers as wide as all lanes where the processor has them, and else registers of two numbers, which every processor
+// has.
 template <class Step, class... Arguments>
 void run_in_lanes(Arguments&... arguments) {
   static const bool kHasWideRegisters = __builtin_cpu_supports("avx2") != 0;

@@ -1,4 +1,4 @@
-// What an allocator keeps of memory that was freed.
+// Memory that the allocator still holds after it was freed.
 #pragma once
 
 #include <cstdlib>  // tells which library it is
@@ -9,8 +9,8 @@
 
 namespace deliso {
 
-// Gives it back to the system, so that the peak of what comes next does not add to it. To be called after a stage that
-// freed much in small pieces; takes milliseconds.
+// Gives this memory back to the system, so that it does not add to the peak of the next stage. Call it after a stage
+// that freed much memory in small pieces; it takes milliseconds.
 inline void release_free_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

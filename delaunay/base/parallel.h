@@ -1,5 +1,5 @@
-// Independent tasks on several threads. Results must not depend on who runs which task: a task writes to its own places
-// only.
+// Independent tasks on several threads. Results must not depend on which thread runs which task: a task writes only to
+// elements of its own.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace deliso {
 
-// Calls body(i) once for each i below `count`, on at most `threads` threads, this one among them; tasks begin in the
-// order of their numbers. When bodies throw, the exception of the lowest number is thrown on, after all have ended.
+// Calls body(i) once for each i below `count`, on at most `threads` threads including the caller's. Tasks begin in
+// ascending order of i. If bodies throw, the exception of the lowest i is rethrown after all tasks have ended.
 template <class Body>
 void run_tasks(std::size_t count, int threads, Body&& body) {
   std::atomic<std::size_t> next{0};
@@ -32,7 +32,7 @@ void run_tasks(std::size_t count, int threads, Body&& body) {
     try {
       while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
     } catch (const std::exception&) {
-      // No more threads to be had: those there are do the work.
+      // No more threads can be created: the existing ones do the work.
     }
     work();
   }

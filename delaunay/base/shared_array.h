@@ -1,7 +1,8 @@
 // A large flat array that several workers may append to at the same time, each within a range of its own.
 //
-// The owner is used like a vector. For workers it makes room, and each gets a view: the same elements, and an end of
-// its own that runs through a range which nobody else uses. Afterwards the owner takes the views in, in their order.
+// The owner uses it like a vector. For workers the owner reserves room and gives each a view. A view shows the same
+// elements, and appends to a range that no other view uses. Afterwards the owner takes in the views in the order of
+// their ranges.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace deliso {
 
-// Places in an array: first to last - 1.
+// Indices of an array: first to last - 1.
 struct Range {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -26,8 +27,8 @@ class SharedArray {
  public:
   SharedArray() = default;
   explicit SharedArray(std::size_t count) { resize(count); }
-  // A view that begins to append at range.first. The owner must have room for the range, and be left alone as long as
-  // there are views.
+  // A view that begins to append at range.first. The owner must have room for the range, and must not be changed as
+  // long as there are views.
   SharedArray(SharedArray& owner, const Range& range)
       : data_(owner.data_), size_(range.first), room_(range.last), first_(range.first), is_view_(true) {
     DELISO_CHECK(owner.size_ <= range.first && range.last <= owner.room_, "the owner has room for the view");
@@ -43,7 +44,7 @@ class SharedArray {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  // How many more it can hold without growing.
+  // How many more elements it can hold without growing.
   [[nodiscard]] std::size_t room_left() const { return room_ - size_; }
   T* data() { return data_; }
   [[nodiscard]] const T* data() const { return data_; }
@@ -61,7 +62,7 @@ class SharedArray {
     }
     return *std::construct_at(data_ + size_++, std::forward<Args>(args)...);
   }
-  void push_back(const T& value) { emplace_back(T(value)); }  // a copy: the value may lie in this array
+  void push_back(const T& value) { emplace_back(T(value)); }  // a copy, because the value may lie in this array
   // New elements are those of T().
   void resize(std::size_t count) {
     if (count > room_) reserve(std::max(count, 2 * size_));
@@ -70,7 +71,7 @@ class SharedArray {
     size_ = count;
   }
   void clear() { resize(0); }
-  // Several threads share the copying, most of which is waiting for fresh pages.
+  // Several threads share the copying: most of its time goes into waiting for fresh pages.
   void reserve(std::size_t count, int threads = 1) {
     if (count <= room_) return;
     DELISO_CHECK(!is_view_, "a view stays within its range");
@@ -84,7 +85,7 @@ class SharedArray {
     larger.size_ = size_;
     swap(larger);
   }
-  // The same, but when it grows it grows by half or more, so that it does not matter how often this is called.
+  // The same, but it grows at least by half, so frequent calls take amortized constant time per element.
   void make_room(std::size_t count, int threads = 1) {
     if (count > room_) reserve(std::max(count, room_ + room_ / 2), threads);
   }
@@ -96,8 +97,8 @@ class SharedArray {
     std::swap(is_view_, other.is_view_);
   }
 
-  // Takes in what a view of this array has appended; the view is of no more use. Views come in the order of their
-  // ranges. Returns the places that were skipped before it, where there is T() now.
+  // Takes in what a view of this array has appended; the view must not be used afterwards. Views are taken in the order
+  // of their ranges. Returns the indices that were skipped before the view's range; their elements are now T().
   Range take_in(SharedArray& view) {
     DELISO_CHECK(!is_view_ && view.is_view_ && view.data_ == data_ && size_ <= view.first_, "views come in order");
     const Range skipped{size_, view.first_};
@@ -121,7 +122,7 @@ class SharedArray {
   T* data_ = nullptr;
   std::size_t size_ = 0;
   std::size_t room_ = 0;
-  std::size_t first_ = 0;  // its own elements begin here: those of a view are what it has appended
+  std::size_t first_ = 0;  // where its own elements begin; those of a view are what it has appended
   bool is_view_ = false;
 };
 

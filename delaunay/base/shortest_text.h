@@ -1,4 +1,4 @@
-// Numbers in messages and files: as short as they can be without becoming another number.
+// Numbers in messages and files, with as few digits as read back as the same number.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A slab of space, as volumes are cut into parts that threads work on apart from each other.
+// A slab of space: volumes are cut into slabs so that threads can work on them independently.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace deliso {
 
-// What lies strictly between two planes across an axis.
+// The open region between two planes across an axis.
 struct Slab {
   std::size_t axis = 0;
   double low = -std::numeric_limits<double>::infinity();

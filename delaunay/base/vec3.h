@@ -32,7 +32,7 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 constexpr double squared_norm(const Vec3& a) { return dot(a, a); }
 inline double norm(const Vec3& a) { return std::sqrt(squared_norm(a)); }
-// The same where the square may be beyond the range of doubles, as that of a gradient.
+// The norm of a vector whose square may overflow or underflow, such as a gradient.
 inline double norm_of_any_size(const Vec3& a) {
   constexpr double kSmallest = 1e-280, kLargest = 1e280;
   const double squared = squared_norm(a);

@@ -12,7 +12,7 @@
 namespace deliso {
 namespace {
 
-// CLI11 would only say that a command is missing.
+// Names an unknown command; CLI11 would only say that a command is missing.
 void check_first_argument(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2) return;
   const std::string_view name = argv[1];
@@ -34,7 +34,7 @@ const CLI::App* find_command(const CLI::App& app, std::string_view name) {
   return nullptr;
 }
 
-// CLI11 would first tell which required options are missing, where one is only misspelt.
+// Names a misspelt option; CLI11 would first name the required options that are missing.
 void check_option_names(const CLI::App& app, int argc, const char* const* argv) {
   const CLI::App* command = argc < 2 ? nullptr : find_command(app, argv[1]);
   if (command == nullptr) return;

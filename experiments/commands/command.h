@@ -15,19 +15,19 @@ class Option;
 
 namespace deliso {
 
-// An option that takes a value. Each function gives it back, so that they chain.
+// An option that takes a value. Every function returns the option, so that calls can be chained.
 class CommandOption {
  public:
   explicit CommandOption(CLI::Option& option) : option_(&option) {}
 
-  // What the help calls the value; empty: nothing.
+  // The name of the value in the help; empty: no name.
   CommandOption& type_name(const std::string& name);
   CommandOption& required();
-  // `refusal` says of a value as typed what is wrong with it, or nothing.
+  // `refusal` returns an error text for a value as typed, or nothing.
   CommandOption& check(std::string (*refusal)(const std::string& value));
-  // The help tells the value that the variable has now.
+  // The help shows the present value of the variable as the default.
   CommandOption& show_default();
-  // It may come again, with one value each time.
+  // It may be given several times, each time with one value.
   CommandOption& repeatable();
 
  private:
@@ -45,7 +45,7 @@ class Command {
   void add_flag(const std::string& names, bool& value, const std::string& help);
   // The last paragraph of the help.
   void footer(const std::string& text);
-  // What the command does, while the command line is parsed; `exit_code` takes its result.
+  // Sets what the command does, which runs while the command line is parsed; `exit_code` receives the result.
   void callback(ExitCode& exit_code, std::function<ExitCode()> action);
 
  private:
@@ -55,7 +55,7 @@ class Command {
 // All commands.
 class CommandLine {
  public:
-  // What `deliso --help` says first and last, and `deliso --version`.
+  // `description` and `footer` are the first and last text of `deliso --help`, `version` is that of `deliso --version`.
   CommandLine(const std::string& description, const std::string& footer, std::function<std::string()> version);
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
@@ -63,8 +63,8 @@ class CommandLine {
 
   // A command without options yet.
   Command add_command(const std::string& name, const std::string& help);
-  // Runs the command that the arguments name, or prints help or version. Throws InputError, with the nearest name where
-  // one is unknown, and whatever the command throws.
+  // Runs the command that the arguments name, or prints help or version. Throws InputError, naming the nearest known
+  // name for an unknown one, and whatever the command throws.
   void parse(int argc, const char* const* argv);
 
  private:

@@ -1,4 +1,4 @@
-// What the commands' options have in common: the volume and the isovalue.
+// Options that several commands share: the volume and the isovalue.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace deliso {
 
-// The options that name a volume, as typed. Those beyond the path describe a .raw file, which cannot describe itself.
+// The options that name a volume, as typed. All but the path describe a .raw file, which has no header.
 struct VolumeOptions {
   std::string path;
   std::string dims;
@@ -26,7 +26,7 @@ ScalarGrid load_volume(const VolumeOptions& options);
 // samples are too large or too close to each other to compute with.
 void check_isovalue(const ScalarGrid& grid, double isovalue);
 
-// Says on stderr, when another isovalue was used, which one and why.
+// If another isovalue was used, says on stderr which one and why.
 void remark_isovalue(const ScalarGrid& grid, double isovalue, double used);
 
 }  // namespace deliso

@@ -39,7 +39,7 @@ void print_list() {
   for (const AnalyticField& field : analytic_fields()) std::cout << field.name << ": " << field.description << '\n';
 }
 
-// Coarse volumes may miss what the field has.
+// The suggested isovalue; says so when a coarse volume has no point of the isosurface.
 std::string suggested_isovalue(const AnalyticField& field, std::int32_t size, std::uint64_t seed) {
   constexpr std::int32_t kCoarse = 16;
   const bool has_points = size > kCoarse || has_isosurface(generate_field(field.name, size, seed), field.isovalue);

@@ -1,4 +1,4 @@
-// deliso info: what a volume holds, and isovalues worth a try.
+// deliso info: the contents of a volume, and suggested isovalues.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -38,7 +38,7 @@ Json info_report(const VolumeOptions& options, const ScalarGrid& grid, const Sam
               {"suggested_isovalues", suggestions}};
 }
 
-// Sixteen rows, or fewer where there are fewer bins: where the first bin begins, how many samples, a bar.
+// One line per row, at most sixteen: where its first bin begins, the number of samples, a bar.
 void print_histogram(const SampleHistogram& histogram) {
   constexpr std::size_t kMostRows = 16;
   constexpr double kBarWidth = 40;

@@ -57,7 +57,7 @@ void check_mesh_output(const std::filesystem::path& path, const std::string& opt
   check_replaceable(path, option);
 }
 
-// Everything that could keep the results from being written is found before the work starts.
+// Finds everything that could prevent the results from being written before the work starts.
 void check_outputs(const MeshCommandOptions& options) {
   check_mesh_output(options.output, "-o");
   if (!options.stage1_output.empty()) check_mesh_output(options.stage1_output, "--stage1-out");
@@ -67,7 +67,8 @@ void check_outputs(const MeshCommandOptions& options) {
 }
 
 void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const MeshingResult& result) {
-  // The report first in memory, or where it cannot be taken back: a failure there must leave no mesh behind.
+  // First the report is made in memory, or written where it cannot be taken back: if this fails, no mesh may be left
+  // behind.
   const std::string report = options.report.empty() ? "" : json_text(mesh_report(run, result));
   const bool is_file = !is_special(options.report);
   if (!is_file) write_text(report, options.report);
@@ -113,7 +114,7 @@ ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result
 }
 
 ExitCode run_mesh(const MeshCommandOptions& options) {
-  // Every option is judged before the volume is read, the volume before the work starts.
+  // Every option is checked before the volume is read, and the volume before the work starts.
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   MeshingOptions meshing;
   meshing.parameters = resolved_parameters(options);
@@ -124,7 +125,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   meshing.stop = &catch_stop_signals();
   const ScalarGrid grid = load_volume(options.volume);
 
-  // Mesh, watched on a terminal.
+  // Mesh, with a progress bar on a terminal.
   const MeshRun run{options.volume.path, grid, isovalue, meshing};
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);

@@ -1,4 +1,4 @@
-// The program `deliso`: reads the command line, runs one command, turns failures into messages and exit codes.
+// The program `deliso`: reads the command line, runs one command, and reports failures as messages and exit codes.
 #pragma once
 
 #include "experiments/system/exit_code.h"

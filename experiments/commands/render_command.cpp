@@ -54,7 +54,7 @@ struct Panel {
 
 constexpr std::int32_t kLargestSide = 16384;
 constexpr std::int32_t kMostSamples = 8;
-constexpr std::int64_t kMostRays = std::int64_t{1} << 26;  // they are all kept until a panel is drawn
+constexpr std::int64_t kMostRays = std::int64_t{1} << 26;  // all rays of a panel are kept in memory until it is drawn
 
 double number_in(const std::string& text, const std::string& option, double low, double high) {
   const double value = parse_number(text, option);
@@ -129,7 +129,7 @@ Panel mesh_panel(const std::string& name, TriangleMesh mesh) {
   return {name, std::move(shape), drawn};
 }
 
-// The surface by ray casting first (when it is asked for or nothing else is), then marching cubes, then the meshes.
+// First the ray-cast surface (when it is asked for, or nothing else is), then marching cubes, then the meshes.
 std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_ptr<IsosurfaceShape> surface,
                                const ScalarGrid& grid, double isovalue) {
   std::vector<Panel> panels;
@@ -158,7 +158,7 @@ void print_panels(const std::string& output, const Image& image, const std::vect
 }
 
 ExitCode run_render(const RenderCommandOptions& options) {
-  // Every option is judged before anything is read.
+  // Every option is checked before anything is read.
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   const View view = parse_view(options);
   const PictureOptions picture = parse_picture_options(options);
@@ -179,7 +179,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   const std::vector<Vec3> framed = surface->outermost_points();
   const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used);
 
-  // All panels are seen alike: the same camera, the same cuts.
+  // All panels have the same camera and the same clip planes.
   const std::int32_t width = image.width / panel_count;
   const Camera camera(view, framed, width, image.height);
   Box3 whole = grid.box();

@@ -61,7 +61,7 @@ ExitCode report(const RunnerSummary& summary, const RunnerOptions& options, bool
   return summary.failed.empty() ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
-// A default folder may be missing: its data sets are then absent. One that was named must be there.
+// The default folder may be missing: then its data sets are absent. A folder that was named must exist.
 fs::path data_folder(const RunCommandOptions& options) {
   if (options.data.empty()) return default_data_folder(options.experiment);
   std::error_code error;
@@ -74,7 +74,7 @@ fs::path data_folder(const RunCommandOptions& options) {
 }
 
 ExitCode run_run(const RunCommandOptions& options) {
-  // The experiment and every option are judged before the first run.
+  // The experiment and every option are checked before the first run.
   Experiment experiment = read_experiment(options.experiment);
   if (options.builtin) experiment = builtin_form(std::move(experiment));
   if (options.smoke) experiment = smoke_form(std::move(experiment));
@@ -90,7 +90,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   }
   runner.stop = &catch_stop_signals();
 
-  // Do the runs, watched on a terminal.
+  // Do the runs, with progress on a terminal.
   using Style = RunProgress::Style;
   Style style = stderr_is_terminal() ? Style::kBar : Style::kSilent;
   if (options.progress) style = Style::kLines;
@@ -101,7 +101,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   const RunnerSummary summary = run_experiment(experiment, runner, progress);
   const ExitCode exit_code = report(summary, runner, options.quiet);
 
-  // Of a shard there is no whole table yet.
+  // A single shard gives no complete table yet.
   if (runner.shard.count == 1 && !summary.stopped) {
     std::vector<std::string> notes;
     std::cout << write_tables(experiment, {runner.out_folder}, runner.out_folder, notes);

@@ -25,14 +25,14 @@ CumulativeSums cumulative_sums(const SampleHistogram& histogram) {
   return cumulative;
 }
 
-// A class's share in the variance between classes, up to a constant: (sum of its values)^2 / its size.
+// A class's contribution to the variance between classes, up to a constant: (sum of its values)^2 / its size.
 double class_score(const CumulativeSums& cumulative, std::size_t first, std::size_t last) {
   const double count = cumulative.counts[last] - cumulative.counts[first];
   const double sum = cumulative.sums[last] - cumulative.sums[first];
   return count > 0 ? sum * sum / count : 0;
 }
 
-// The edges that split the bins into `classes` (2 or 3) classes of largest variance between them.
+// The bin edges that split the bins into `classes` (2 or 3) classes with the largest variance between them.
 std::vector<std::size_t> best_edges(const SampleHistogram& histogram, int classes) {
   const CumulativeSums cumulative = cumulative_sums(histogram);
   const std::size_t bins = histogram.counts.size();
@@ -60,7 +60,7 @@ SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
     return std::is_integral_v<typename std::decay_t<decltype(samples)>::value_type>;
   });
   if (integers) {
-    // As few bins of a whole number of integers as hold them all.
+    // As few bins as possible, each with a whole number of integers.
     const double values = histogram.high - histogram.low + 1;
     const double width = std::ceil(values / bins);
     histogram.counts.resize(static_cast<std::size_t>(std::ceil(values / width)));
@@ -69,7 +69,7 @@ SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
   } else {
     histogram.counts.resize(histogram.low < histogram.high ? static_cast<std::size_t>(bins) : 1);
   }
-  // Halves, because the range of doubles may itself be beyond a double.
+  // Halves, because the difference of two doubles may overflow.
   const double half_range = histogram.high / 2 - histogram.low / 2;
   visit_samples(grid.samples(), [&](const auto& samples) {
     for (const auto sample : samples) {

@@ -1,4 +1,4 @@
-// How the samples of a volume are distributed, and isovalues worth a try.
+// The distribution of a volume's samples, and suggested isovalues.
 #pragma once
 
 #include <cstdint>

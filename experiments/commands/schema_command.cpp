@@ -1,4 +1,4 @@
-// deliso schema: what a file of parameters or an experiment may hold, from the tables that parse it.
+// deliso schema: the schema of parameter files and experiments, made from the tables that parse them.
 #include <iostream>
 #include <memory>
 

@@ -61,7 +61,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   const IsosurfaceTopology& topology = regular.topology;
   const double seconds = stopwatch.seconds();
 
-  // A certificate counts equal components; it needs no mesh for that.
+  // certify() counts equal components; an empty mesh is enough for that.
   const std::vector<TopologyCount> counts = certify(TriangleMesh(), topology.components).isosurface;
   if (!options.report.empty()) {
     const TopologySum sum = sum_of(counts);

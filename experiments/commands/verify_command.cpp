@@ -1,4 +1,4 @@
-// deliso verify: judges any mesh as an image of an isosurface, ours or another tool's.
+// deliso verify: checks any mesh as an image of an isosurface, ours or another tool's.
 #include <iostream>
 #include <memory>
 #include <string>
@@ -40,7 +40,7 @@ Json places_json(const std::vector<Vec3>& places) {
   return list;
 }
 
-// Triangles by their numbers in the mesh, and where they meet.
+// Pairs of triangles by their numbers in the mesh, and where they meet.
 Json pairs_json(const std::vector<TrianglePair>& pairs) {
   Json list = Json::array();
   for (const TrianglePair& pair : pairs) {
@@ -124,13 +124,13 @@ std::string figure_text(const Json& figure) {
   return figure.is_string() ? figure.get<std::string>() : figure.dump();
 }
 
-// A failure of these is told, but not held against the mesh.
+// The result of a check; failures of some checks are reported without counting against the mesh.
 std::string_view result_text(std::string_view check, bool pass) {
   if (pass) return "pass";
   return check == "normals" || check == "delaunay_balls" ? "noted" : "fail";
 }
 
-// One row per figure of the report; lists are left to the report.
+// One row per figure of the report; lists are left out.
 void print_checks(const Json& report) {
   TextTable table;
   table.row({"check", "figure", "value", "result"});
@@ -149,7 +149,7 @@ void print_checks(const Json& report) {
   table.print(std::cout, true);
 }
 
-// The mesh and its volume with sample (i, j, k) at (i, j, k).
+// Converts the mesh and its volume to units of samples: sample (i, j, k) lies at (i, j, k).
 void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
   const Vec3& s = grid.spacing();
   for (Vec3& p : mesh.points) p = scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z});

@@ -26,8 +26,8 @@ const ParameterField* find_field(std::string_view path) {
   return nullptr;
 }
 
-// The known key that was probably meant: one of the same group that is spelt nearly so, else one that ends in the same
-// word, else the one with the nearest spelling.
+// The known key that was probably meant: one in the same group with nearly the same spelling, else one that ends in the
+// same word, else the one with the nearest spelling.
 std::string nearest_key(std::string_view path) {
   constexpr std::size_t kNearly = 2;  // letters
   std::vector<std::string> paths;
@@ -55,7 +55,7 @@ std::string nearest_key(std::string_view path) {
                    std::string(key_of(path)) + "\": " + short_json(value) + "}}, found the key '" + path + "'");
 }
 
-// Whether a number is the same as a double, as far as integers go.
+// Whether the number's magnitude is at most 2^53: up to there doubles hold all integers exactly.
 bool has_exact_double(const Json& value) {
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   if (value.is_number_unsigned()) return value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kMost);
@@ -63,7 +63,7 @@ bool has_exact_double(const Json& value) {
   return std::abs(value.get<double>()) <= static_cast<double>(kMost);
 }
 
-// The value if it has the field's type and lies in its range. The view of a choice is one of the table's.
+// The value if it has the field's type and lies in its range. A choice is returned as a view of the table's text.
 std::optional<ParameterValue> convert(const ParameterField& field, const Json& value) {
   if (value.is_null() && field.nullable) return ParameterValue();
   switch (field.type) {
@@ -76,7 +76,7 @@ std::optional<ParameterValue> convert(const ParameterField& field, const Json& v
       }
       break;
     case ParameterType::kInteger: {
-      // 8.0 and 8e0 are integers too. Beyond 2^53 a double does not tell integers apart.
+      // 8.0 and 8e0 count as integers, too. Beyond 2^53 doubles cannot distinguish integers.
       if (!value.is_number() || !has_exact_double(value)) break;
       const auto number = value.get<double>();
       if (number != std::floor(number) || number < field.range.low || number > field.range.high) break;
@@ -165,7 +165,7 @@ void set_parameter(std::string_view assignment, Parameters& parameters) {
   if (equals == std::string_view::npos || equals == 0) throw InputError(source + ": expected key.path=value");
   const std::string_view path = assignment.substr(0, equals);
   const std::string text(assignment.substr(equals + 1));
-  // What is not JSON is taken as a string, so that a choice needs no quotes.
+  // Text that is not JSON is taken as a string, so that a choice needs no quotes.
   Json value = Json::parse(text, nullptr, false);
   if (value.is_discarded()) value = text;
   set_parameter(path, value, source, parameters);

@@ -22,7 +22,7 @@ Parameters read_parameters(const std::filesystem::path& path);
 
 Json value_to_json(const ParameterValue& value);
 
-// Every parameter, whether it has its default or not.
+// Every parameter, also those that have their default.
 Json parameters_to_json(const Parameters& parameters);
 
 // Throws InputError unless the key path names a parameter.

@@ -1,4 +1,4 @@
-// How the parameters are described: schema, help text and Markdown.
+// Descriptions of the parameters: schema, help text and Markdown.
 #include <cmath>
 
 #include "experiments/config/config.h"

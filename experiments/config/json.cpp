@@ -11,14 +11,14 @@
 namespace deliso {
 namespace {
 
-// What the parser says, without its own name for the error: "[json.exception.parse_error.101] parse error at ...".
+// The parser's message without its name for the error: "[json.exception.parse_error.101] parse error at ...".
 std::string explanation(const nlohmann::json::exception& error) {
   const std::string text = error.what();
   const std::size_t end = text.find("] ");
   return end == std::string::npos ? text : text.substr(end + 2);
 }
 
-// "line 3: the number 1e999 is too large": the parser gives the number in quotes, but not its place.
+// "line 3: the number 1e999 is too large": the parser gives the number in quotes, but not its line.
 std::string too_large(const nlohmann::json::out_of_range& error, const std::string& text) {
   const std::string message = explanation(error);
   const std::size_t begin = message.find('\'') + 1;

@@ -1,4 +1,4 @@
-// JSON as the program reads and writes it: strict on the way in, without NaN or infinity on the way out.
+// JSON as the program reads and writes it: strict when reading, without NaN or infinity when writing.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace deliso {
 // Keys keep the order they were written in.
 using Json = nlohmann::ordered_json;
 
-// Strict JSON: no comments, no trailing text, no key twice in one object, no number that overflows a double. Throws
+// Strict JSON: no comments, no trailing text, no duplicate key in an object, no number that overflows a double. Throws
 // InputError naming `source` (a file, say) with line and column.
 Json parse_json(const std::string& text, const std::string& source);
 

@@ -44,7 +44,7 @@ struct OptionalTraits<std::optional<T>> {
   using Inner = T;
 };
 
-// How one type of member looks in the table. A number from a file may come as an integer.
+// The table's type for each type of member. A number in a file may be written as an integer.
 template <class T>
 struct Codec {
   static constexpr ParameterType type() {
@@ -75,13 +75,13 @@ struct Codec {
   }
 };
 
-// The member at the end of a path of member pointers.
+// The member that a path of member pointers leads to.
 template <auto... Path, class Object>
 constexpr auto& follow(Object& object) {
   return (object.*....*Path);
 }
 
-// A row of the table: the key path, then what a reader wants to know. Type, access and choices come from the members.
+// A row of the table: the key path, then its description. Type, access and choices follow from the members.
 template <auto... Path>
 constexpr ParameterField row(std::string_view path, ParameterRange range, std::string_view unit,
                              std::string_view effect) {
@@ -97,7 +97,7 @@ constexpr ParameterField row(std::string_view path, ParameterRange range, std::s
   field.effect = effect;
   if constexpr (std::is_enum_v<Value>) field.choices = names_of(Value{});
   if constexpr (std::is_same_v<Value, std::int32_t>) field.range.high = std::numeric_limits<std::int32_t>::max();
-  // Beyond 2^53 the doubles of JSON do not tell integers apart.
+  // Beyond 2^53 the doubles of JSON cannot distinguish integers.
   if constexpr (std::is_same_v<Value, std::int64_t>) field.range.high = 0x1p53;
   field.get = [](const Parameters& parameters) -> ParameterValue {
     const Member& member = follow<Path...>(parameters);

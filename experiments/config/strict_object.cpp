@@ -29,7 +29,7 @@ std::string_view type_name(KeyType type) {
   return "";
 }
 
-// Beyond 2^53 a double does not tell integers apart.
+// Beyond 2^53 doubles cannot distinguish integers.
 constexpr double kLargestInteger = 0x1p53;
 
 bool in_range(const KeyInfo& key, const Json& value) {
@@ -95,7 +95,7 @@ std::string short_json(const Json& value) {
 StrictObject::StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys)
     : value_(value), place_(std::move(place)) {
   if (!value.is_object()) throw InputError(own_place() + " must be an object, found " + short_json(value));
-  // Every key that is there must be known and hold what the table allows ...
+  // Every key of the object must be known and have a value that the table allows ...
   std::vector<std::string> known;
   for (const KeyInfo& key : keys) known.emplace_back(key.name);
   for (const auto& [name, held] : value.items()) {

@@ -1,4 +1,4 @@
-// One JSON object, read strictly: a table of its keys decides what it may hold, and makes its schema.
+// One JSON object, read strictly: a table of its keys says what it may hold, and gives its schema.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ class StrictObject {
   // a required one, or has a value of the wrong type or out of range.
   StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys);
 
-  // Where the value of a key stands.
+  // The position of a key's value in the file.
   [[nodiscard]] std::string place_of(std::string_view key) const;
   [[nodiscard]] bool has(std::string_view key) const { return value_.contains(key); }
   // The value of a key. Precondition: has(key).
@@ -55,7 +55,7 @@ class StrictObject {
   [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
 
  private:
-  // Where the object itself stands: of a whole file its name alone.
+  // The position of the object itself; for a whole file its name alone.
   [[nodiscard]] std::string own_place() const;
 
   const Json& value_;
@@ -65,7 +65,7 @@ class StrictObject {
 // JSON text for a message: on one line, cut off when long.
 std::string short_json(const Json& value);
 
-// The schema of an object with these keys; a key's own schema may be put in its place afterwards.
+// The schema of an object with these keys; the caller may replace the schema of a key afterwards.
 Json keys_schema(std::span<const KeyInfo> keys);
 
 }  // namespace deliso

@@ -21,7 +21,7 @@ Camera::Camera(const View& view, std::span<const Vec3> framed, std::int32_t widt
   right_ = {-std::sin(azimuth), std::cos(azimuth), 0};
   toward_eye_ = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
   up_ = cross(toward_eye_, right_);
-  // The framed points and their middle, turned as they are seen.
+  // The framed points and their middle, in the camera's orientation.
   Box3 extent;
   for (const Vec3& p : framed) extent.extend(turned(p));
   const Vec3 middle = 0.5 * (extent.low + extent.high);
@@ -38,7 +38,7 @@ Camera::Camera(const View& view, std::span<const Vec3> framed, std::int32_t widt
     pixel_ = 2 * across(extent.high - middle) / (smaller * view.zoom);
     return;
   }
-  // As far away as the point that needs it most.
+  // The distance of the point that needs the largest one.
   const double tangent = std::tan(radians(0.5 * view.field_of_view));
   double distance = 0;
   for (const Vec3& p : framed) {

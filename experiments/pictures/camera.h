@@ -1,5 +1,4 @@
-// Where a picture is seen from: which ray belongs to a point of the picture, and which point of the picture to a point
-// in space.
+// The camera of a picture: it maps points of the picture to rays, and points in space to points of the picture.
 #pragma once
 
 #include <array>
@@ -25,19 +24,19 @@ struct View {
 
 class Camera {
  public:
-  // A picture of width x height pixels in which all framed points are seen at zoom 1, when it does not look elsewhere.
-  // Precondition: there are at least two different points.
+  // A picture of width x height pixels. All framed points are visible at zoom 1, unless look_at is given. Precondition:
+  // there are at least two different points.
   Camera(const View& view, std::span<const Vec3> framed, std::int32_t width, std::int32_t height);
 
   // The ray through the point (x, y) of the picture, in pixels from its top left corner. The direction has unit length.
   [[nodiscard]] Line ray(double x, double y) const;
-  // The ray parameter where things begin to be seen: 0 at the eye, minus infinity for parallel rays.
+  // The ray parameter from which on things are visible: 0 at the eye, minus infinity for parallel rays.
   [[nodiscard]] double first_t() const;
-  // Where `p` is seen; nothing when it is not before the eye.
+  // Where `p` appears in the picture; nothing when it is behind the eye.
   [[nodiscard]] std::optional<std::array<double, 2>> project(const Vec3& p) const;
   // A direction in the camera's frame: to the right, upwards, towards the eye.
   [[nodiscard]] Vec3 turned(const Vec3& v) const { return {dot(v, right_), dot(v, up_), dot(v, toward_eye_)}; }
-  // A point in that frame; its origin is the eye (for parallel rays: somewhere before all that is framed).
+  // A point in that frame; its origin is the eye (for parallel rays: some point in front of everything framed).
   [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return turned(p - eye_); }
   // The size of a pixel in space at a point of the camera's frame.
   [[nodiscard]] double pixel_size(const Vec3& in_frame) const { return perspective_ ? pixel_ * -in_frame.z : pixel_; }

@@ -5,7 +5,7 @@
 
 namespace deliso {
 
-// From brick to brick along a ray.
+// Walks from brick to brick along a ray.
 class IsosurfaceShape::BrickWalk {
  public:
   // Starts in the brick that holds the ray's point at t.
@@ -65,7 +65,7 @@ void IsosurfaceShape::find_active_bricks() {
                         static_cast<std::size_t>(brick_dims_[2]),
                     0);
   visit_samples(grid_.samples(), [&](const auto& samples) {
-    // Neighbouring bricks share the samples between them.
+    // Neighbouring bricks share the samples on their common face.
     const auto is_active = [&](const Brick& brick) {
       bool above = false;
       bool below = false;
@@ -97,8 +97,8 @@ std::optional<SurfacePoint> IsosurfaceShape::first_hit(const Line& ray, double t
   if (!(first < last)) return std::nullopt;
   // The same ray in mesh space, with the same parameter.
   const Line line{(ray.origin - box_.low) / unit_, ray.direction / unit_};
-  // Brick by brick: what lies behind the first hit need not be solved. Parts of the ray share their ends, and the ends
-  // of a skipped part lie on one side, so no hit is lost.
+  // Solved brick by brick, so that nothing behind the first hit is solved. Consecutive parts of the ray share their
+  // ends, and both ends of a skipped part lie on one side of the surface, so no hit is lost.
   std::vector<Hit> hits;
   SearchCounters counters;
   BrickWalk walk(grid_, brick_dims_, ray, first);
@@ -124,7 +124,7 @@ std::vector<Vec3> IsosurfaceShape::outermost_points() const {
     std::array<std::int32_t, 3> s{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t stride = axis == 0 ? 1 : axis == 1 ? grid_.index(0, 1, 0) : grid_.index(0, 0, 1);
-      // Where the edge from sample s along the axis is crossed, if it is.
+      // The crossing on the edge from sample s along the axis, if there is one.
       const auto crossing = [&]() -> std::optional<Vec3> {
         const std::size_t at = grid_.index(s[0], s[1], s[2]);
         const double from = static_cast<double>(samples[at]) - isovalue_;

@@ -1,4 +1,4 @@
-// The isosurface of the trilinear interpolant as a thing to be seen: rays are solved against it, no mesh is made.
+// The isosurface of the trilinear interpolant as a shape: rays are intersected with it directly, without a mesh.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ class IsosurfaceShape : public Shape {
   // Keeps a reference to the grid. Precondition: no sample equals `isovalue`.
   IsosurfaceShape(const ScalarGrid& grid, double isovalue);
 
-  // The surface inside the volume's box. The normal is the gradient's direction at the point, so creases between voxel
-  // cells are seen as they are.
+  // The surface inside the volume's box. The normal is the direction of the gradient at the point, so the creases
+  // between voxel cells are visible.
   [[nodiscard]] std::optional<SurfacePoint> first_hit(const Line& ray, double t0, double t1) const override;
   [[nodiscard]] const Box3& box() const override { return box_; }
-  // Where the surface crosses edges of the grid: of each row of parallel edges along x its first and last crossing,
-  // for edges of each direction. Whatever the view, the outermost crossings are among them.
+  // Grid-edge crossings: for edges of each direction, the first and last crossing of each row of parallel edges along
+  // x. For every view the outermost crossings are among them.
   [[nodiscard]] std::vector<Vec3> outermost_points() const;
 
  private:
-  // A block of voxel cells: bricks that do not hold the isovalue are left in one step.
+  // A block of voxel cells; a brick that does not hold the isovalue is skipped in one step.
   using Brick = std::array<std::int32_t, 3>;
   class BrickWalk;
   static constexpr std::int32_t kBrickSide = 8;

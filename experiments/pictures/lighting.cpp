@@ -36,7 +36,7 @@ double fortieth_power(double x) {
 Colour lit(const LitPoint& point) {
   const double eye = std::max(0.0, point.normal.z);
   const double shoulder = std::max(0.0, dot(point.normal, kShoulder));
-  // Narrow places get less of every light, though less so of those that shine into them.
+  // Enclosed places get less of every light, but lose less of the light that shines into them.
   const double inward = 0.35 + 0.65 * point.openness;
   const double light = kEverywhere * point.openness + inward * (kFromEye * eye + kFromShoulder * shoulder);
   const double highlight = inward * kHighlight * fortieth_power(std::max(0.0, dot(point.normal, kHalfWay)));

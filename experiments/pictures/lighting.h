@@ -1,4 +1,4 @@
-// How bright and of what colour a point of a surface is.
+// The brightness and colour of a point of a surface.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@ namespace deliso {
 // Linear red, green, blue; 0 to 1.
 using Colour = Vec3;
 
-// What is known of a surface point when it gets its colour.
+// The data of a surface point that determine its colour.
 struct LitPoint {
   Vec3 normal;          // of unit length, towards the eye, in the camera's frame: x right, y up, z towards the eye
   bool outside = true;  // seen from the side of lower values: the two sides have two colours
-  double openness = 1;  // how much of its surroundings is free, 0 to 1: light from everywhere
-  double line = 0;      // how much of it a line covers, 0 to 1
+  double openness = 1;  // fraction of its surroundings that is free, 0 to 1: weights the ambient light
+  double line = 0;      // fraction of it that a line covers, 0 to 1
 };
 
-// Two lights and some of it from everywhere: one light over the left shoulder, a weaker one from the eye.
+// Ambient light and two lights: one from over the viewer's left shoulder, and a weaker one from the eye.
 Colour lit(const LitPoint& point);
 
 // The eight-bit sRGB values of a linear colour.

@@ -17,7 +17,7 @@ std::vector<Box3> triangle_boxes(const TriangleMesh& mesh) {
   return boxes;
 }
 
-// A ray in a frame where it runs along the last axis: a triangle is then judged by its shadow.
+// A ray in a sheared frame where it runs along the last axis: triangles are then tested by their projection along it.
 class ShearedRay {
  public:
   explicit ShearedRay(const Line& ray) : origin_(ray.origin) {
@@ -33,7 +33,7 @@ class ShearedRay {
   }
 
   // The parameter where the ray meets the triangle; infinity when it does not. A point on an edge belongs to both
-  // triangles there: the shadow of an edge is computed alike for both.
+  // triangles there, because the projected edge is computed alike for both.
   [[nodiscard]] double meets(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Vec3 sa = sheared(a), sb = sheared(b), sc = sheared(c);
     const double u = sc.x * sb.y - sc.y * sb.x;
@@ -44,7 +44,7 @@ class ShearedRay {
     return sum == 0 ? kInfinity : (u * sa.z + v * sb.z + w * sc.z) / sum;
   }
 
-  // No point of the box has a smaller parameter; infinity when the ray misses it by more than `slack`.
+  // A lower bound of the parameters of the box's points; infinity when the ray misses the box by more than `slack`.
   [[nodiscard]] double enters(const Box3& box, double slack) const {
     double first = -kInfinity;
     double last = kInfinity;

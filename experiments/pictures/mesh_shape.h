@@ -1,4 +1,4 @@
-// A triangle mesh as a thing to be seen, with its edges.
+// A triangle mesh as a shape, drawn with its edges.
 #pragma once
 
 #include "experiments/pictures/shape.h"

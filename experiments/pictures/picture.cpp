@@ -72,8 +72,8 @@ class SamplePlane {
     return sample;
   }
 
-  // How much of the sample's own little square a line covers. Where triangles are hardly larger than the line is wide,
-  // lines get lighter, so that a fine mesh is grey and not black.
+  // The fraction of the sample's own square that a line covers. Where triangles are hardly larger than the line is
+  // wide, lines get lighter, so that a fine mesh is grey and not black.
   [[nodiscard]] double line_cover(const SurfacePoint& point, std::int32_t column, std::int32_t row) const {
     constexpr double kWellSeen = 9;  // widths of the line in a mean edge
     const double samples = options_.samples;
@@ -93,14 +93,14 @@ class SamplePlane {
   std::vector<Sample> samples_;
 };
 
-// How open the surroundings of a sample are, judged from the samples around it (screen-space ambient occlusion; the
+// How free the surroundings of a sample are, estimated from the samples around it (screen-space ambient occlusion; the
 // estimator is that of M. McGuire, B. Osman, M. Bukowski, P. Hennessy, The Alchemy Screen-Space Ambient Obscurance
-// Algorithm, HPG 2011). The samples of a pixel look at different places, so that its mean is smooth without any noise.
+// Algorithm, HPG 2011). The samples of a pixel probe different places, so their mean is smooth without noise.
 class Surroundings {
  public:
   Surroundings(const Camera& camera, std::int32_t samples)
       : camera_(camera), samples_(samples), radius_(kRadius * std::min(camera.width(), camera.height())) {
-    // A sunflower's pattern over the disk, every next sample of a pixel taking every next seed.
+    // A sunflower (golden-angle) pattern over the disk; the samples of a pixel take its seeds in turn.
     const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
     const std::int32_t places = samples * samples;
     places_.resize(static_cast<std::size_t>(places));
@@ -128,7 +128,7 @@ class Surroundings {
       const double squared = squared_norm(to) / (reach * reach);
       const double rise = dot(to, normal) / reach - kBias;
       if (rise <= 0) continue;
-      // Things far before this point hide nothing of its own surroundings.
+      // Things far in front of this point do not occlude its own surroundings.
       const double near = 1 / (1 + squared * squared);
       hidden += near * rise / (squared + 0.01);
     }
@@ -137,7 +137,7 @@ class Surroundings {
 
  private:
   static constexpr double kRadius = 0.06;  // of the picture's smaller side
-  static constexpr double kBias = 0.03;    // a surface's own unevenness does not hide it
+  static constexpr double kBias = 0.03;    // small unevenness of the surface itself does not occlude it
   static constexpr double kStrength = 1.3;
   static constexpr std::int32_t kLooks = 10;  // per sample
 

@@ -1,4 +1,4 @@
-// What a picture can show: surfaces that rays find, and the part of space in which they are shown.
+// Shapes that a picture can show, as surfaces that rays intersect; and the part of space that is shown.
 #pragma once
 
 #include <cstdint>
@@ -32,12 +32,13 @@ class Shape {
 
   // The first point of the surface on the ray between t0 and t1 (finite). Precondition: ray.direction has unit length.
   [[nodiscard]] virtual std::optional<SurfacePoint> first_hit(const Line& ray, double t0, double t1) const = 0;
-  // How far from the picture's point (x, y) the nearest edge of an element is seen, in pixels; infinity without edges.
+  // The distance from the picture's point (x, y) to the nearest edge of an element as projected, in pixels; infinity
+  // without edges.
   [[nodiscard]] virtual double edge_distance(std::uint32_t /*element*/, const Camera& /*camera*/, double /*x*/,
                                              double /*y*/) const {
     return std::numeric_limits<double>::infinity();
   }
-  // How large an element is seen: its mean edge in pixels; infinity without edges.
+  // The projected size of an element: its mean edge in pixels; infinity without edges.
   [[nodiscard]] virtual double element_size(std::uint32_t /*element*/, const Camera& /*camera*/) const {
     return std::numeric_limits<double>::infinity();
   }
@@ -54,9 +55,9 @@ struct ClipPlane {
 // "z=12.5". Throws InputError naming `option`.
 ClipPlane parse_clip_plane(const std::string& text, const std::string& option);
 
-// What the planes leave of `whole`, with a little air around it so that triangles in its faces are inside, for an eye
-// in the direction `toward_eye` (of a plane along that direction, the part at lower coordinates). Throws InputError
-// naming `option` and the range when nothing is left.
+// The part of `whole` that the planes leave, slightly enlarged so that triangles in its faces are inside. `toward_eye`
+// is the direction of the eye (for a plane along that direction, the part at lower coordinates is kept). Throws
+// InputError naming `option` and the range when nothing is left.
 Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec3& toward_eye,
               const std::string& option);
 

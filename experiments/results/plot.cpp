@@ -17,7 +17,7 @@ class PlotMaker {
   PlotMaker(const Experiment& experiment, const Table& table, const std::vector<Json>& records)
       : experiment_(experiment), table_(table), records_(records) {}
 
-  // Nothing when there is no figure to draw.
+  // The plot as SVG; nothing when there is no figure to draw.
   [[nodiscard]] std::optional<std::string> draw(const Plot& plot) const {
     switch (plot.kind) {
       case PlotKind::kCurve:
@@ -67,7 +67,7 @@ class PlotMaker {
     grid.y_scale = plot.log_y ? AxisScale::kLog : AxisScale::kLinear;
     grid.y_labels = plot.y;
     for (const PlotSeries& series : plot.series) grid.legend.push_back(series.name);
-    // A panel for each data set or variant that has figures, absent ones are told of in the table.
+    // One panel for each data set or variant that has figures; the table names the absent ones.
     for (const std::string& panel : panels_of(plot)) {
       const bool has_points = std::any_of(plot.series.begin(), plot.series.end(), [&](const PlotSeries& series) {
         return std::any_of(plot.y.begin(), plot.y.end(),
@@ -116,7 +116,8 @@ class PlotMaker {
         has_figures = has_figures || !part.numbers.empty();
         bar.parts.push_back(part.numbers.empty() ? 0 : std::max(0.0, part.median()));
       }
-      if (!has_figures) bar.parts.clear();  // marching cubes has no stages, say: no bar, and not one of length 0
+      // For example, marching cubes has no stages: then there is no bar, instead of one of length 0.
+      if (!has_figures) bar.parts.clear();
       any_figures = any_figures || has_figures;
       bars.bars.push_back(std::move(bar));
     }
@@ -124,7 +125,7 @@ class PlotMaker {
     return draw_bars(bars);
   }
 
-  // The counts of all repeats together, as shares in per cent.
+  // The counts of all repeats added up, in per cent.
   [[nodiscard]] std::vector<double> shares_of(const std::string& dataset, const std::string& variant,
                                               const std::string& path) const {
     std::vector<double> counts;
@@ -162,7 +163,7 @@ class PlotMaker {
     return draw_panels(grid);
   }
 
-  // The steps over the bins, from the axis and back to it.
+  // The outline of a histogram as steps over the bins, beginning and ending on the axis.
   static std::vector<PlotPoint> outline_of(const std::vector<double>& heights, double bin_width) {
     const auto at = [](double x, double y) { return PlotPoint{x, y, y, y}; };
     std::vector<PlotPoint> outline = {at(0, 0)};

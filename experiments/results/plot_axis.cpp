@@ -9,7 +9,7 @@ namespace deliso {
 namespace {
 
 constexpr double kWantedTicks = 5;
-constexpr double kManyDecades = 200;  // the factor from which on powers of ten are ticks enough
+constexpr double kManyDecades = 200;  // from this factor on, powers of ten alone are enough ticks
 constexpr std::array<double, 3> kRoundDigits = {1, 2, 5};
 constexpr std::array<double, 9> kAllDigits = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
@@ -37,7 +37,8 @@ std::vector<double> Axis::ticks() const {
     for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push_back(i * step);
     return ticks;
   }
-  // Powers of ten; their double and fivefold where these are few; all their multiples where even those are.
+  // The digits at which ticks are placed: powers of ten; if these are few, also 2 and 5 times them; if these are few,
+  // all multiples.
   constexpr std::array<std::span<const double>, 3> kDigits = {std::span(kAllDigits).first(1), kRoundDigits, kAllDigits};
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::ceil(std::log10(high)));

@@ -1,4 +1,4 @@
-// An axis of a plot: from values to places, and the values that are labelled.
+// An axis of a plot: the map from values to positions, and the values that are labelled.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ struct Axis {
 // A linear axis over the values, ending at round ones; with zero on it when `from_zero`.
 Axis linear_axis(std::span<const double> values, bool from_zero);
 
-// A logarithmic axis over those of the values that are above zero, with a little room at both ends.
+// A logarithmic axis over the positive ones among the values, with some room at both ends.
 Axis log_axis(std::span<const double> values);
 
 // "0.05", "20k", "3M".

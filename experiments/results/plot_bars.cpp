@@ -23,7 +23,7 @@ double whole(const Bar& bar) { return std::accumulate(bar.parts.begin(), bar.par
 }  // namespace
 
 std::string draw_bars(const BarPlot& plot) {
-  // The axis and the room for names, legend and all.
+  // The axis, and the room for names, legend and margins.
   std::vector<double> ends = {0};
   double left = 60;
   for (const Bar& bar : plot.bars) {

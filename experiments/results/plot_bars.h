@@ -1,4 +1,4 @@
-// Lying bars made of parts, one below the other.
+// Horizontal bars made of parts, one below the other.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace deliso {
 
 struct Bar {
   std::string name;
-  std::vector<double> parts;  // one for each entry of the legend; >= 0; empty: there are no figures, as a dash tells
+  std::vector<double> parts;  // one for each entry of the legend; >= 0; empty if there are no figures (drawn as a dash)
 };
 
 struct BarPlot {

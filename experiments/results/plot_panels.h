@@ -1,5 +1,5 @@
-// A grid of panels with lines in them: curves and histograms. Panels above each other share the axis of x, panels
-// beside each other that of y, so that they can be compared.
+// A grid of panels with lines in them: curves and histograms. Panels of a column share the x axis, and panels of a row
+// the y axis, so that they can be compared.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace deliso {
 
-// A place on a line with the spread of its value.
+// A point of a line, with the spread of its value.
 struct PlotPoint {
   double x = 0;
   double y = 0;
@@ -37,7 +37,7 @@ struct PanelGrid {
   std::vector<std::vector<PlotLine>> panels;  // row by row: panels[row * columns.size() + column]
 };
 
-// As SVG. On logarithmic axes what is not above zero is left out.
+// As SVG. On logarithmic axes values that are not positive are left out.
 std::string draw_panels(const PanelGrid& grid);
 
 }  // namespace deliso

@@ -34,7 +34,7 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
                      (named ? "its key 'name'" : "that of the file, for it has no key 'name'") + "), theirs is '" +
                      recorded.name + "'");
   }
-  // What shows and what is only shown may differ, what was run may not.
+  // Titles, metrics, plots and published figures may differ; what was run may not.
   Json now = experiment_to_json(experiment);
   Json then = experiment_to_json(recorded);
   for (const char* key : {"title", "question", "notes", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {

@@ -13,12 +13,12 @@ namespace deliso {
 // another experiment's.
 Experiment experiment_of(const std::vector<std::filesystem::path>& folders);
 
-// The experiment in `file`, for records of `recorded`: with other words, metrics, plots and published figures. Throws
-// InputError when its runs are others.
+// The experiment in `file`, applied to the records of `recorded`. It may have other texts, metrics, plots and published
+// figures; throws InputError when it has other runs.
 Experiment experiment_for_records(const std::filesystem::path& file, const Experiment& recorded);
 
 // Merges the records of the folders, writes table.md, table.csv, table.json and the plots (SVG) into `target` and
-// returns the Markdown. What a reader should know about the merging is added to `notes`.
+// returns the Markdown. Adds remarks about the merging to `notes`.
 std::string write_tables(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
                          const std::filesystem::path& target, std::vector<std::string>& notes);
 

@@ -74,7 +74,7 @@ TableCell cell_of(const Experiment& experiment, const Metric& metric, const Reco
   return cell;
 }
 
-// What became of a row's runs: the best of their states.
+// The state of a row's runs: the best of their states.
 RowState state_of(const std::vector<const Json*>& records) {
   RowState state = RowState::kNotRun;
   for (const Json* record : records) {
@@ -128,7 +128,7 @@ class TableMaker {
 
   void add_row(const Dataset& dataset, const std::string& variant) {
     TableRow row{dataset.name, variant, state_of(row_records(dataset.name, variant)), {}};
-    // Where a row is a data set and a metric names no variant there is only one.
+    // If a row is a data set and a metric names no variant, there is only one variant.
     const std::string& own = variant.empty() ? experiment_.variants.front().name : variant;
     for (const Metric& metric : experiment_.metrics) {
       row.cells.push_back(cell_of(experiment_, metric, done_, dataset.name, own));

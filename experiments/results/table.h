@@ -14,7 +14,8 @@ namespace deliso {
 // One figure over the repeats of a run: numbers, or texts.
 struct Figure {
   std::vector<double> numbers;  // ascending
-  std::string text;             // of figures that are no numbers: the text, or each with how often it came
+  // Of figures that are not numbers: the text, or each text with its number of occurrences.
+  std::string text;
 
   [[nodiscard]] bool empty() const { return numbers.empty() && text.empty(); }
   // The middle one, or the mean of the two in the middle. Precondition: numbers is not empty.
@@ -39,13 +40,13 @@ struct TableRow {
 
 struct Table {
   std::vector<TableRow> rows;
-  // What a reader must know: absent data sets and the way to get them, failed runs, missing runs.
+  // What a reader must know: absent data sets and how to get them, failed runs, missing runs.
   std::vector<std::string> remarks;
   // Of the programs and machines that made the records, each once.
   std::vector<std::string> programs;
 };
 
-// The records must be of this experiment (other ones are an InputError), at most one for each run, in any order.
+// The records must be of this experiment (otherwise InputError), at most one for each run, in any order.
 Table make_table(const Experiment& experiment, const std::vector<Json>& records);
 
 // With title, question, how to read it, remarks.
@@ -59,7 +60,7 @@ Json table_json(const Experiment& experiment, const Table& table);
 // "done", "failed", "absent", "not run".
 std::string state_name(RowState state);
 
-// Stands where there is no figure.
+// Shown where there is no figure.
 inline constexpr std::string_view kNoFigure = "–";
 
 // Integers and numbers from 1000 on without a fraction, others with four significant digits, small ones as "1.54e-3".

@@ -30,12 +30,12 @@ std::string reference_text(const Json& value) {
   if (value.is_null()) return std::string(kNoFigure);
   if (value.is_string()) return value.get<std::string>();
   const auto number = value.get<double>();
-  // As it was published: all its digits.
+  // A published value is shown with all its digits.
   const bool in_full = number == std::floor(number) || std::abs(number) < kSmall;
   return in_full ? figure_text(number) : exact_text(number);
 }
 
-// A cell of Markdown: a bar would end it, a line break the row.
+// A cell of Markdown, escaped: a bar would end the cell, a line break the row.
 std::string markdown_cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -107,7 +107,7 @@ std::string variant_line(const Experiment& experiment, const Variant& variant) {
   return text + changes_text(experiment.base.parameters, variant.parameters) + "\n";
 }
 
-// What every variant was made from, told from the program's own defaults, and what each changes of it.
+// The base of all variants, as changes of the program's defaults, and what each variant changes of the base.
 std::string variants_text(const Experiment& experiment) {
   std::string text = "\nThe parameters '" + experiment.base.name + "' are the program's defaults" +
                      changes_text(Parameters(), experiment.base.parameters) + ".\n\nVariants:\n\n";
@@ -121,7 +121,7 @@ std::string repeats_line(const Experiment& experiment) {
          std::to_string(experiment.seed) + " to " + std::to_string(seed_of(experiment, experiment.repeats)) + ".";
 }
 
-// Quoted where it must be (RFC 4180).
+// Quoted where necessary (RFC 4180).
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -36,7 +36,7 @@ std::vector<PlannedRun> runs_of(const Experiment& experiment, const Shard& shard
 
 namespace {
 
-// Lines through data sets that are gone lose these; lines of nothing go, and so do plots without a line.
+// Removes data sets that are gone from the lines of plots, then lines without data sets, then plots without lines.
 void prune_plots(Experiment& experiment) {
   const auto is_gone = [&experiment](const std::string& name) {
     return std::none_of(experiment.datasets.begin(), experiment.datasets.end(),
@@ -50,7 +50,7 @@ void prune_plots(Experiment& experiment) {
   std::erase_if(experiment.plots, [](const Plot& plot) { return plot.across_datasets && plot.series.empty(); });
 }
 
-// Published figures are of other data sets than those left.
+// Drops the published figures, which are of other data sets than the remaining ones.
 void forget_reference(Experiment& experiment) {
   for (const Dataset& dataset : experiment.datasets) {
     if (experiment.reference.rows.contains(dataset.name)) return;

@@ -33,7 +33,7 @@ enum class Mesher { kDelIso, kMarchingCubes };
 // One setting of the parameters.
 struct Variant {
   std::string name;
-  Parameters parameters;  // marching cubes heeds `boundary` and `certify` alone
+  Parameters parameters;  // marching cubes uses only `boundary` and `certify`
   Mesher mesher = Mesher::kDelIso;
 };
 
@@ -50,7 +50,7 @@ struct Metric {
 
 enum class PlotKind { kCurve, kBars, kHistogram };
 
-// A line of a plot: the variants (or data sets) it goes through. One alone is a mark.
+// A line of a plot: the variants (or data sets) through which it goes. A line with only one is drawn as a mark.
 struct PlotSeries {
   std::string name;
   std::vector<std::string> members;
@@ -61,11 +61,12 @@ struct Plot {
   std::string name;  // of its file, without ".svg"
   std::string title;
   PlotKind kind = PlotKind::kCurve;
-  std::vector<std::string> y;    // metrics: of a curve a row of panels each, of bars the parts
-  std::string x;                 // metric; of a curve
-  bool log_x = false;            // of a curve
-  bool log_y = false;            // of a curve
-  bool across_datasets = false;  // lines go through data sets, with a panel for each variant; else the other way round
+  std::vector<std::string> y;  // metrics: of a curve a row of panels each, of bars the parts
+  std::string x;               // metric; of a curve
+  bool log_x = false;          // of a curve
+  bool log_y = false;          // of a curve
+  // Lines go through data sets, with a panel for each variant; otherwise lines go through variants.
+  bool across_datasets = false;
   std::vector<PlotSeries> series;  // of a curve; of a histogram with one member each
   bool share = false;              // of bars: in per cent of the whole
   std::string value;               // of a histogram: where the record holds the counts
@@ -131,8 +132,8 @@ inline std::uint64_t seed_of(const Experiment& experiment, std::int32_t repeat) 
   return experiment.seed + static_cast<std::uint64_t>(repeat) - 1;
 }
 
-// The same experiment on its built-in fields; as it is, where it has no others. Throws InputError when it has files and
-// names no fields instead.
+// The same experiment on its built-in fields; unchanged if it has no files. Throws InputError when it has files and
+// names no fields to replace them.
 Experiment builtin_form(Experiment experiment);
 
 // The same experiment small enough for a test: all its variants once, on one tiny built-in field.

@@ -26,7 +26,7 @@ void apply_set(const StrictObject& object, Parameters& parameters) {
   }
 }
 
-// The name of the experiment, which becomes that of a folder within the one for results.
+// The name of the experiment, which is also the name of its folder of results.
 std::string folder_name(const StrictObject& object, const fs::path& path) {
   auto name = object.get("name", path.stem().string());
   if (name.find('/') != std::string::npos || name.starts_with('.')) {
@@ -79,14 +79,14 @@ std::vector<Variant> parse_variants(const StrictObject& experiment, const Varian
     }
     apply_set(object, variant.parameters);
     variants.push_back(variant);
-    // A variant may bear the base's name; what extends that name extends the later one.
+    // A variant may have the base's name; variants that extend this name then extend the variant.
     std::erase_if(known, [&name](const Variant& other) { return other.name == name; });
     known.push_back(variant);
   }
   return variants;
 }
 
-// Every variant with every value of one more key.
+// Every variant combined with every value of one more key.
 std::vector<Variant> swept(const std::vector<Variant>& variants, const std::string& path, const Json& values,
                            const std::string& place) {
   check_parameter_path(path, place);

@@ -1,6 +1,6 @@
 // Experiments as JSON: strict parsing, writing, schema.
 //
-// Messages give the place as file and JSON pointer (RFC 6901): "table3.json#/metrics/2/value". Paths in a file are
+// Messages give the position as file and JSON pointer (RFC 6901): "table3.json#/metrics/2/value". Paths in a file are
 // relative to its folder.
 #pragma once
 
@@ -21,7 +21,7 @@ Experiment read_experiment(const std::filesystem::path& path);
 // The experiment with everything it refers to written out, for parse_experiment to read back.
 Json experiment_to_json(const Experiment& experiment);
 
-// What `variant` changes of `base`, by key path.
+// The parameters in which `variant` differs from `base`, by key path.
 Json parameter_changes(const Parameters& base, const Parameters& variant);
 
 // JSON Schema (draft 2020-12) of an experiment; it refers to the parameters as "#/$defs/parameters".

@@ -23,11 +23,11 @@ std::filesystem::path default_data_folder(const std::filesystem::path& experimen
 // Whether the data set is a built-in field or its file lies in the folder.
 bool is_present(const Dataset& dataset, const std::filesystem::path& data_folder);
 
-// The file, or what stands for it in a record ("field:sphere").
+// The file, or its substitute in a record ("field:sphere").
 std::filesystem::path dataset_path(const Dataset& dataset, const std::filesystem::path& data_folder);
 
-// Precondition: is_present. Throws InputError when the file is bad, its samples have another hash than the experiment
-// says, or the isosurface has no point.
+// Precondition: is_present. Throws InputError when the file is invalid, the hash of its samples differs from the
+// experiment's, or the isosurface has no point.
 ScalarGrid load_dataset(const Dataset& dataset, const std::filesystem::path& data_folder);
 
 }  // namespace deliso

@@ -27,7 +27,7 @@ Json by_path(bool lists) {
   return Json{{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
 }
 
-// Puts the schema of a part in the place of a key, under the key's description.
+// Replaces the schema of a key by `part`, and keeps the key's description.
 void refine_key(Json& schema, const char* key, Json part) {
   Json& property = schema["properties"][key];
   part["description"] = property["description"];

@@ -7,7 +7,7 @@
 namespace deliso {
 namespace {
 
-// Where along the middle line of a cell, from 0 to 1, the isosurface is met.
+// Where the isosurface crosses the middle line of a cell, from 0 to 1.
 std::optional<double> crossing(const CellCorners& corners, unsigned axis, double isovalue) {
   std::array<double, 2> ends = {0, 0};  // means of opposite faces
   for (unsigned corner = 0; corner < 8; ++corner) ends[corner >> axis & 1u] += corners[corner] / 4;

@@ -1,5 +1,5 @@
-// Points of an isosurface that favour no mesher: they lie inside voxel cells, away from the grid edges that hold the
-// vertices of marching cubes.
+// Points of an isosurface that favour no mesher: they lie inside voxel cells, away from the grid edges, on which the
+// vertices of marching cubes lie.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace deliso {
 
-// Where the isosurface meets the lines through the middles of voxel cells along x, y and z, in world coordinates: there
-// the interpolant is linear between opposite faces, so the points are exact but for rounding.
+// The points where the isosurface meets the lines through the middles of voxel cells along x, y and z, in world
+// coordinates. The interpolant is linear along such a line within a cell, so the points are exact but for rounding.
 std::vector<Vec3> isosurface_samples(const ScalarGrid& grid, double isovalue);
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-// What a column of a table takes from a record.
+// The values that table columns take from records.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
-// What a plot of each kind may and must say beside name, title and kind.
+// The keys that a plot of each kind may and must have, beside name, title and kind.
 struct KindKeys {
   std::vector<std::string_view> required;
   std::vector<std::string_view> optional;

@@ -8,8 +8,8 @@
 
 namespace deliso {
 
-// The plots that an experiment names; its other members must be there. Throws InputError like parse_experiment, also
-// when a plot of one kind has a key of another.
+// The plots that an experiment names. The other members of `experiment` must be set already. Throws InputError like
+// parse_experiment, also when a plot of one kind has a key of another.
 std::vector<Plot> parse_plots(const StrictObject& object, const Experiment& experiment);
 
 // For parse_plots to read back.

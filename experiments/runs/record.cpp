@@ -15,7 +15,7 @@ Json quotient(double numerator, std::int64_t denominator) {
 
 Json stage_json(const StageStats& stage) { return Json{{"seconds", stage.seconds}}; }
 
-// What the two stages that insert points have in common.
+// The fields common to the two stages that insert points.
 template <class Stats>
 Json insertion_stage_json(const Stats& stage) {
   return Json{{"seconds", stage.seconds},
@@ -90,7 +90,7 @@ Json stages_json(const MeshingResult& result) {
               {"refine", refine_json(result.refine)},    {"certify", certify_json(result)}};
 }
 
-// As the paper and the report call them.
+// The stage's name in the paper and in the report.
 std::string stage_text(std::string_view stage) {
   if (stage == "recover") return "stage 1 (recover)";
   return stage == "refine" ? "stage 2 (refine)" : "the stage '" + std::string(stage) + "'";
@@ -179,7 +179,7 @@ std::vector<TopologyCount> mesh_topology(const MeshingResult& result) {
 
 std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result) {
   if (!result.stopped_early()) return {};
-  // Which limit it was: a signal is known, and so are the numbers the budgets speak of.
+  // Which limit stopped the run: a signal is known, and so are the values of the budgets.
   const BudgetParameters& budget = run.options.parameters.budget;
   std::string cause = "the budget";
   if (run.options.stop != nullptr && run.options.stop->load()) {

@@ -1,4 +1,4 @@
-// The record of one run (`--report`): everything needed to repeat it and what came out of it, as one JSON object.
+// The record of one run (`--report`): everything needed to repeat it, and its results, as one JSON object.
 //
 // Times are wall-clock seconds on the steady clock. `total_seconds` is the mesher's own time, from the volume in memory
 // to the certified mesh; reading the volume, hashing it and writing files is outside it. `stages.*.seconds` add up to
@@ -19,7 +19,7 @@
 
 namespace deliso {
 
-// The layout of the report; a new name whenever a key changes its meaning.
+// The layout of the report; it gets a new name whenever a key changes its meaning.
 inline constexpr const char* kReportSchema = "deliso-report-1";
 
 // version, commit, compiler, flags, cpu.
@@ -51,7 +51,7 @@ TopologySum sum_of(const std::vector<TopologyCount>& counts);
 // The topology of the mesh of a result, certified or not. (The mesher's meshes are manifold.)
 std::vector<TopologyCount> mesh_topology(const MeshingResult& result);
 
-// What a run of the mesher was given.
+// The input of a run of the mesher.
 struct MeshRun {
   std::filesystem::path volume_path;
   const ScalarGrid& grid;
@@ -59,7 +59,7 @@ struct MeshRun {
   const MeshingOptions& options;
 };
 
-// What a run that stopped early left undone, one sentence each; empty when it ran to its end.
+// What a run that stopped early left undone, one sentence each; empty when it was not stopped.
 std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result);
 
 // The report of `deliso mesh`.

@@ -39,7 +39,7 @@ Json parse_record(const std::string& line, const std::string& place) {
   return record;
 }
 
-// A record and where it stands: "out/records.jsonl line 3".
+// A record and its position: "out/records.jsonl line 3".
 struct PlacedRecord {
   Json record;
   std::string place;
@@ -64,7 +64,7 @@ std::vector<PlacedRecord> placed_records(const fs::path& path, std::vector<std::
 
 bool is_done(const Json& record) { return record["status"] == kStatusDone; }
 
-// What two records of the same run must agree on: what is not measured in seconds or bytes.
+// The part of a record on which two records of the same run must agree: all that is not measured in seconds or bytes.
 Json outcome(const Json& record) {
   Json json = Json::object();
   for (const char* key : {"vertices", "triangles", "components", "euler_characteristic", "boundary_loops", "quality"}) {
@@ -94,7 +94,7 @@ void RecordFile::append(const Json& record) {
   if (!written || std::fflush(file_) != 0) {
     throw InputError(path_.string() + ": writing failed: " + std::strerror(errno));
   }
-  fsync(fileno(file_));  // where the file system cannot, the flush has to do
+  fsync(fileno(file_));  // some file systems do not support this; there the flush alone must suffice
 }
 
 std::string record_file_name(const Shard& shard) {
@@ -130,7 +130,7 @@ std::vector<Json> merge_records(const Experiment& experiment, const std::vector<
         if (!foreign.empty()) throw InputError(std::string(place).append(": does not belong here: ").append(foreign));
         const auto [found, is_new] = by_run.try_emplace(run_key(record), record);
         if (is_new) continue;
-        // A finished run goes before a failed or absent one; two finished ones must agree.
+        // A finished run takes precedence over a failed or absent one; two finished ones must agree.
         if (is_done(found->second) && is_done(record)) {
           if (outcome(found->second) != outcome(record)) {
             throw InputError(place + ": has another result for " + run_name(record) +

@@ -10,7 +10,7 @@
 namespace deliso {
 
 RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs) {
-  // A folder that cannot be written into is refused when the records are.
+  // If the folder is not writable this fails silently; it is reported when the records are opened.
   file_ = open((folder / ".run.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) return;
   try {
@@ -26,7 +26,7 @@ RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::s
 }
 
 RunLock::~RunLock() {
-  if (file_ >= 0) close(file_);  // which takes the lock away
+  if (file_ >= 0) close(file_);  // releases the lock
 }
 
 void RunLock::lock_bytes(const std::filesystem::path& folder, std::size_t first, std::size_t count) {
@@ -35,7 +35,7 @@ void RunLock::lock_bytes(const std::filesystem::path& folder, std::size_t first,
   range.l_whence = SEEK_SET;
   range.l_start = static_cast<off_t>(first);
   range.l_len = static_cast<off_t>(count);
-  // A lock of the open file, not of the process: reading records elsewhere in the program cannot undo it.
+  // The lock belongs to the open file, not to the process: reading records elsewhere in the program cannot release it.
   if (fcntl(file_, F_OFD_SETLK, &range) == 0 || (errno != EAGAIN && errno != EACCES)) return;
   throw InputError("--out: another process is making these runs in " + folder.string() +
                    " at this moment; wait for its end or name another folder");

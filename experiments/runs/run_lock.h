@@ -1,4 +1,4 @@
-// Keeps two processes from making the same runs in one folder at the same time.
+// Prevents two processes from making the same runs in one folder at the same time.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace deliso {
 
-// Holds the runs of a shard for its lifetime. The lock is one of the kernel on the bytes of an empty file in the
-// folder, a byte for each run: it vanishes with the process, however that ends, shards of any counts get into each
-// other's way only where they share a run, and the file that stays tells nothing. A file system that cannot lock is
-// taken without.
+// Holds a lock on the runs of a shard for its lifetime. It is a kernel lock on the bytes of an empty file in the
+// folder, one byte for each run. So it vanishes when the process ends, in whatever way; two shards conflict only if
+// they share a run, whatever their counts; and the remaining file means nothing. If the file system cannot lock, no
+// lock is taken.
 class RunLock {
  public:
   // `runs`: how many the whole experiment has. Throws InputError when another process holds one of the shard's.

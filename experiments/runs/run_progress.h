@@ -1,4 +1,4 @@
-// How far an experiment is, and how long it will still take.
+// The progress of an experiment, and an estimate of the time left.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace deliso {
 // "45 s", "12 min", "3 h 20 min".
 std::string duration_text(double seconds);
 
-// The seconds that the runs still to come will take, from those that have ended: a run of the same data set takes as
-// long as those before it on average, one of another data set as long as all on average. Negative: no run has ended.
+// The estimated seconds of the remaining runs, from the runs that have ended: a run takes the mean time of the runs of
+// its data set or, if there are none yet, the mean time of all runs. Negative while no run has ended.
 class RemainingTime {
  public:
   // `datasets` is the data set of each run, in their order.
@@ -37,7 +37,7 @@ class RemainingTime {
   std::size_t next_ = 0;
 };
 
-// One line that is drawn over and over on a terminal; elsewhere, when asked for, one line for every run that ends.
+// On a terminal one line that is redrawn; elsewhere, if asked for, one line for every run that ends.
 class RunProgress {
  public:
   enum class Style { kSilent, kBar, kLines };

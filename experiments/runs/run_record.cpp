@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kRecordSchema = "deliso-record-1";
 
-// `samples`: points of the isosurface within cells to the mesh. The verification takes grid-edge crossings, which are
-// the vertices of marching cubes.
+// `samples`: the distances to the mesh from points of the isosurface inside cells. The verification uses grid-edge
+// crossings instead, which are the vertices of marching cubes.
 Json distances_json(const Verification& check, const DistanceFigure& samples) {
   return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
               {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
@@ -67,13 +67,13 @@ Json topology_report(const RunInput& input, double isovalue) {
               {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-// The volume whose isosurface is meshed: padded, where the surface shall close; `closed` holds it then.
+// The volume whose isosurface is meshed. If the surface is to be closed, it is padded and stored in `closed`.
 const ScalarGrid& meshed_grid(const RunInput& input, const Parameters& parameters, std::optional<ScalarGrid>& closed) {
   if (parameters.boundary == Boundary::kOpen) return input.grid;
   return closed.emplace(padded(input.grid, input.grid.range().first));
 }
 
-// The part of the mesher's report that marching cubes has too.
+// The part of the mesher's report that also applies to marching cubes.
 Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
   const Stopwatch stopwatch;
   std::optional<ScalarGrid> closed;
@@ -101,7 +101,7 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
               {"quality", quality_json(measure_quality(mesh))}};
 }
 
-// The report's own schema is not the record's.
+// The record has a schema of its own, so the report's is left out.
 void append_report(const Json& report, Json& record) {
   for (const auto& [key, value] : report.items()) {
     if (key != "schema") record[key] = value;
@@ -151,7 +151,7 @@ std::string foreign_part(const Experiment& experiment, const Json& record) {
 
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input) {
   Json record = run_header(experiment, run, kStatusDone);
-  reset_peak_memory();  // of the run, not of those before it
+  reset_peak_memory();  // so that the peak is that of this run
   const double isovalue = experiment.datasets[run.dataset].isovalue;
   if (experiment.task == Task::kTopology) {
     append_report(topology_report(input, isovalue), record);

@@ -1,4 +1,4 @@
-// The record of one run of an experiment: the report of the mesher, and which run it was.
+// The record of one run of an experiment: the mesher's report, and which run it was.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace deliso {
 
-// How a run went; the key "status" of its record.
+// The outcome of a run; the key "status" of its record.
 inline constexpr const char* kStatusDone = "done";
 inline constexpr const char* kStatusFailed = "failed";  // "error" says why
 inline constexpr const char* kStatusAbsent = "absent";  // the file of the data set is missing; "get" says how to get it
@@ -22,11 +22,12 @@ inline constexpr const char* kStatusAbsent = "absent";  // the file of the data 
 // The beginning of a run's record: schema, experiment, dataset, variant, repeat, status.
 Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status);
 
-// Tells runs of one experiment apart.
+// A key that identifies a run within its experiment.
 std::string run_key(const Experiment& experiment, const PlannedRun& run);
 std::string run_key(const Json& record);
 
-// What makes a record one of another experiment: "its repeat 99 is none of ..."; empty when it is of this one.
+// The part of a record that shows it is of another experiment: "its repeat 99 is none of ..."; empty when it is of this
+// one.
 std::string foreign_part(const Experiment& experiment, const Json& record);
 
 struct RunInput {
@@ -37,10 +38,10 @@ struct RunInput {
   std::function<void(const Progress&)> progress;
 };
 
-// Does the run. Nothing when it was stopped from outside. Throws what the mesher throws.
+// Does the run. Returns nothing when it was stopped from outside. Throws what the mesher throws.
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input);
 
-// A record with all its keys and no run behind it.
+// A record with all its keys and no values of a run.
 Json empty_record(Task task, bool distances);
 
 }  // namespace deliso

@@ -33,7 +33,7 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError("--out: cannot make the folder " + folder.string() + ": " + error.message());
 }
 
-// Puts the experiment into the out folder, unless it is there already.
+// Writes the experiment into the out folder, unless it is there already.
 void prepare_folder(const Experiment& experiment, const RunnerOptions& options) {
   std::error_code error;
   const bool has_records = holds_records(options.out_folder);
@@ -41,7 +41,7 @@ void prepare_folder(const Experiment& experiment, const RunnerOptions& options) 
   const std::string text = json_text(experiment_to_json(experiment));
   if (fs::exists(file, error)) {
     if (read_text(file) == text) {
-      // Shards may share a folder: records of other shards are not in the way of this one.
+      // Shards may share a folder: existing records of other shards do no harm.
       const fs::path own = options.out_folder / record_file_name(options.shard);
       const bool has_own = fs::exists(own, error) && fs::file_size(own, error) > 0;
       if (!options.resume && (has_own || (has_records && options.shard.count == 1))) {
@@ -51,7 +51,7 @@ void prepare_folder(const Experiment& experiment, const RunnerOptions& options) 
       return;
     }
     if (has_records) {
-      read_json(file);  // a damaged file is told of as one
+      read_json(file);  // a damaged file is reported as such
       throw InputError("--out: " + options.out_folder.string() +
                        " holds records of another experiment, or of another state of this one; name another folder");
     }
@@ -61,7 +61,7 @@ void prepare_folder(const Experiment& experiment, const RunnerOptions& options) 
   write_text(text, file);
 }
 
-// The volume of the run before is kept, or what was wrong with it: runs of one data set follow each other.
+// Keeps the volume of the previous run, or its error: runs of one data set follow each other.
 class VolumeCache {
  public:
   explicit VolumeCache(fs::path data_folder) : data_folder_(std::move(data_folder)) {}
@@ -71,7 +71,7 @@ class VolumeCache {
     if (name_ != dataset.name) {
       name_ = dataset.name;
       fault_ = nullptr;
-      grid_.reset();  // first: two large volumes need not fit at once
+      grid_.reset();  // freed first: two large volumes need not fit into memory at once
       try {
         grid_.emplace(load_dataset(dataset, data_folder_));
       } catch (...) {
@@ -95,8 +95,7 @@ Json failed_record(const Experiment& experiment, const PlannedRun& run, const st
   return record;
 }
 
-// A record for the run: done or failed, the latter also where its volume is not what it should be; nothing when it was
-// stopped.
+// A record of the run: done or failed (also when its volume is not the expected one); nothing when it was stopped.
 std::optional<Json> attempt(const Experiment& experiment, const PlannedRun& run, const RunnerOptions& options,
                             VolumeCache& volumes, RunProgress& progress) {
   const Dataset& dataset = experiment.datasets[run.dataset];
@@ -136,7 +135,7 @@ std::vector<PlannedRun> pending_runs(const Experiment& experiment, const RunnerO
 }
 
 RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& options, RunProgress& progress) {
-  // Find out what is left to do, which nobody else may be doing.
+  // Find the runs that are left to do, and make sure that no other process is doing them.
   make_folder(options.out_folder);
   const RunLock lock(options.out_folder, options.shard, planned_runs(experiment).size());
   prepare_folder(experiment, options);
@@ -153,7 +152,7 @@ RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& 
       summary.stopped = true;
       break;
     }
-    // A data set that is not there is recorded as absent, with the way to get it.
+    // A missing data set is recorded as absent, with the way to get it.
     const Dataset& dataset = experiment.datasets[run.dataset];
     if (!is_present(dataset, options.data_folder)) {
       Json record = run_header(experiment, run, kStatusAbsent);

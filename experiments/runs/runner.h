@@ -14,9 +14,9 @@ namespace deliso {
 
 struct RunnerOptions {
   std::filesystem::path data_folder;
-  std::filesystem::path out_folder;  // made when it is not there
+  std::filesystem::path out_folder;  // created if necessary
   Shard shard;
-  bool resume = false;  // go on where an interrupted run ended
+  bool resume = false;  // continue an interrupted experiment
   std::int32_t threads = 1;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -31,9 +31,9 @@ struct RunnerSummary {
 };
 
 // Throws InputError when the out folder holds another experiment, holds records although `resume` is off, or cannot be
-// written, or when another process is making these runs in it. A run that fails, be it that its file is not the data
-// set it should be, is recorded as failed and the next begins; `resume` tries it again, and the runs of data sets that
-// were absent.
+// written, or when another process is making these runs in it. A run that fails (also because its file is not the
+// expected data set) is recorded as failed, and the next run begins. `resume` repeats failed runs, and runs whose data
+// sets were absent.
 RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& options, RunProgress& progress);
 
 // The runs of the shard that `resume` would still make: those without a finished record in the out folder.

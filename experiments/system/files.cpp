@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Opens for writing; a pipe that nobody reads is refused, where waiting for a reader could take forever.
+// Opens for writing. A pipe without a reader is refused, because waiting for a reader could take forever.
 int open_special(const fs::path& path) {
   const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) {
@@ -77,7 +77,7 @@ void check_writable(const fs::path& path, const std::string& option) {
   }
   if (is_special(path)) {
     try {
-      // A pipe stays open to the end of the program: closing it would tell its reader that nothing more comes.
+      // A pipe stays open to the end of the program: closing it would signal the end of the data to its reader.
       const int file = open_special(path);
       if (!fs::is_fifo(path, error)) close(file);
     } catch (const InputError& refusal) {

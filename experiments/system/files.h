@@ -12,11 +12,11 @@ std::string read_text(const std::filesystem::path& path);
 // A device, a pipe or a stream that is already open (/dev/stdout): there is no file to replace.
 bool is_special(const std::filesystem::path& path);
 
-// Writes whole or not at all. Something that exists and is no regular file (/dev/stdout, a pipe) is written into
-// directly; a pipe without a reader is refused. Throws InputError.
+// Writes the whole file or nothing. An existing path that is no regular file (/dev/stdout, a pipe) is written directly;
+// a pipe without a reader is refused. Throws InputError.
 void write_text(const std::string& text, const std::filesystem::path& path);
 
-// Throws InputError unless write_text could write there now. Leaves nothing behind. `option` is what the message names.
+// Throws InputError unless write_text could write there now. Leaves nothing behind. Messages call the path `option`.
 void check_writable(const std::filesystem::path& path, const std::string& option);
 
 // The same for a file that is written whole and moved into place, which needs a regular file or a new one.

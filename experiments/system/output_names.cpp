@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
-  // At least one of them is not there yet.
+  // At least one of them does not exist yet.
   const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
   const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
   return !error && whole_a == whole_b;

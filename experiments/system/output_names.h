@@ -1,4 +1,4 @@
-// No output of a command may take the place of another one, or of what the command reads.
+// Checks that no output of a command overwrites another output, or an input.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Values of options as typed: numbers, and what may not be empty.
+// Parsing and checks of option values.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ double parse_number(const std::string& text, const std::string& option);
 // A whole number from `low` to `high`. Throws InputError naming the option and the range.
 std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high);
 
-// For CommandOption::check of an option that names a file or folder: what is wrong with the name, or nothing. An empty
-// name would pass for an option that is not there.
+// For CommandOption::check of an option that names a file or folder: an error text when the name is empty, else
+// nothing. An empty name would be treated like a missing option.
 std::string refuse_empty_name(const std::string& name);
 
 // The same for an option that takes a value.

@@ -26,7 +26,7 @@ std::string cpu_name() {
 
 ProgramInfo program_info() { return {DELISO_VERSION, kCommit, DELISO_COMPILER, DELISO_FLAGS, cpu_name()}; }
 
-// Not what getrusage tells: that includes the peak of the process that started this one.
+// getrusage is not used: its value includes the peak of the process that started this one.
 std::int64_t peak_memory_bytes() {
   std::ifstream stream("/proc/self/status");
   for (std::string line; std::getline(stream, line);) {

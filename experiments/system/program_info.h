@@ -16,11 +16,11 @@ struct ProgramInfo {
 
 ProgramInfo program_info();
 
-// The most memory this process has held so far, in bytes, but for some pages that the system has not added up yet.
+// The peak memory of this process so far, in bytes, except for pages that the system has not counted yet.
 std::int64_t peak_memory_bytes();
 
-// Lets the peak begin anew from what is in use now, freed memory given back first. Does nothing where the system
-// cannot.
+// Resets the peak to the memory in use now, after giving freed memory back. Does nothing where the system does not
+// support it.
 void reset_peak_memory();
 
 }  // namespace deliso

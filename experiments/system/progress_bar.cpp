@@ -15,8 +15,9 @@ constexpr std::array<std::string_view, 7> kStages = {"index", "initial", "recove
                                                      "build", "refine",  "certify"};
 constexpr int kWidth = 28;
 
-// The stages share the bar evenly; within one, vertices done over vertices done and violations waiting. How many
-// violations are still to come is not known, so the bar may slow down but shows where the work is.
+// The stages share the bar evenly. Within a stage, the fraction is vertices done over vertices done plus violations
+// waiting. The number of violations still to come is unknown, so the bar may slow down, but it shows which stage is
+// running.
 double filled_share(const Progress& progress) {
   const auto stage = std::find(kStages.begin(), kStages.end(), progress.stage) - kStages.begin();
   const auto done = static_cast<double>(progress.vertices);

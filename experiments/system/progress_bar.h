@@ -1,4 +1,4 @@
-// One line on a terminal that tells how far the mesher is.
+// One line on a terminal that shows the mesher's progress.
 #pragma once
 
 #include <ostream>

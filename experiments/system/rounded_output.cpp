@@ -30,7 +30,7 @@ std::int64_t coinciding(std::vector<Vec3> points) {
 void judge_rounding(const TriangleMesh& mesh, double voxel, const std::filesystem::path& path,
                     Certificate& certificate) {
   if (!keeps_floats(path)) return;
-  // Verification wants vertices within 1e-3 voxel of the isosurface; before rounding ours are within 3e-4.
+  // The verification allows vertices within 1e-3 voxel of the isosurface; before rounding ours are within 3e-4.
   constexpr double kFarthest = 5e-4;
   TriangleMesh rounded = mesh;
   double moved = 0;

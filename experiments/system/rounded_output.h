@@ -1,4 +1,4 @@
-// What is left of a certificate in a file that cannot hold the mesh's coordinates.
+// The certificate of a mesh whose coordinates a file format rounds.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace deliso {
 
-// STL keeps coordinates as floats. When rounding them makes vertices coincide, or triangles cross, which did not
-// before, or takes a vertex farther off the isosurface than verification allows (`voxel`: the smallest spacing), the
-// certificate's verdict becomes kDifferent, with a sentence that says so. Nothing happens for other formats, nor where
-// a coordinate is beyond the range of floats: such a file is not written.
+// STL stores coordinates as floats. This rounding may make vertices coincide, or triangles cross, or move a vertex
+// farther off the isosurface than the verification allows (`voxel`: the smallest spacing). If it does so where it was
+// not so before, the certificate's verdict becomes kDifferent, with a sentence that says why. Nothing happens for other
+// formats, nor if a coordinate is beyond the range of floats: such a file is not written.
 void judge_rounding(const TriangleMesh& mesh, double voxel, const std::filesystem::path& path,
                     Certificate& certificate);
 

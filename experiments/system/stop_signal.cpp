@@ -10,7 +10,7 @@
 namespace deliso {
 namespace {
 
-// The only globals of the program: a signal handler can reach nothing else.
+// The only globals of the program: a signal handler can access nothing else.
 std::atomic<bool> stop_requested{false};
 std::atomic<bool> stop_held{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
@@ -39,14 +39,14 @@ void handle_stop_signals(void (*handler)(int), int flags) {
 }  // namespace
 
 const std::atomic<bool>& catch_stop_signals() {
-  // The second signal does what it always did.
+  // The second signal has its default effect.
   handle_stop_signals(request_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
   return stop_requested;
 }
 
 void stop_at_signals() {
   handle_stop_signals(stop_now, static_cast<int>(SA_RESTART));
-  // A file that may grow no further is a failed write like any other, which gets a message and leaves nothing behind.
+  // Exceeding the file size limit is then a failed write like any other: it gives a message and leaves nothing behind.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -11,17 +11,17 @@ namespace deliso {
 const std::atomic<bool>& catch_stop_signals();
 
 // For every other command: from now on SIGINT or SIGTERM ends the program at once, with one line on stderr and
-// ExitCode::kStopped, unless a StopHold lives.
+// ExitCode::kStopped, unless a StopHold exists.
 void stop_at_signals();
 
-// A signal came while a StopHold lived: the program is to end with ExitCode::kStopped.
+// Thrown when a signal came while a StopHold existed: the program must end with ExitCode::kStopped.
 class Stopped : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override;
 };
 
-// Keeps a signal waiting while a file is half written, so that the file can be removed first. At most one lives at a
-// time. Does nothing to a flag of catch_stop_signals.
+// Delays a signal while a file is half written, so that the file can be removed first. At most one may exist at a time.
+// Does not affect a flag of catch_stop_signals.
 class StopHold {
  public:
   StopHold();
@@ -29,9 +29,9 @@ class StopHold {
   StopHold(const StopHold&) = delete;
   StopHold& operator=(const StopHold&) = delete;
 
-  // Throws Stopped when a signal waits.
+  // Throws Stopped when a signal is waiting.
   void check() const;
-  // The result is in place: the little that is left is done whatever signal comes.
+  // The result is in place: from now on a waiting signal is ignored, so that the rest is done.
   void finish() { finished_ = true; }
 
  private:

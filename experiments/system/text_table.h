@@ -7,7 +7,7 @@
 
 namespace deliso {
 
-// Rows of cells in columns of equal width; the first column is set to the left, the others to the right. With a header,
+// Rows of cells in columns of equal width; the first column is left-aligned, the others right-aligned. With a header,
 // the first row is underlined.
 class TextTable {
  public:

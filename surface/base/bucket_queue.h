@@ -1,8 +1,8 @@
-// What is left to refine, in both stages: elements of a mesh by rank.
+// The elements of a mesh that are left to refine, in both stages, in the order of their rank.
 //
-// Worst or largest first; of those of one power of two block by block of 32 voxels' side, in the order of a
-// space-filling curve (Morton), and within a block the worst first: so refinement goes on from coarse to fine
-// everywhere, and insertions that follow each other find their surroundings in the caches.
+// The worst or largest element comes first. Elements whose numbers share a power of two come block by block (32 voxels
+// on a side), blocks along a space-filling curve (Morton), and within a block the worst first. So refinement proceeds
+// from coarse to fine everywhere, and consecutive insertions find their neighbourhoods in the caches.
 #pragma once
 
 #include <algorithm>
@@ -19,16 +19,16 @@
 
 namespace deliso {
 
-// Ranks by a number that is not negative: its bits as a float, which compare as it does.
+// Ranks by a non-negative number: its bits as a float, which compare like the number.
 inline std::uint64_t plain_rank(double key) {
   constexpr double kMost = std::numeric_limits<float>::max();
   return std::bit_cast<std::uint32_t>(static_cast<float>(std::min(std::max(0.0, key), kMost)));
 }
 
-// Ranks by the number's power of two, then by the block of a point in mesh space, then by the number: of a float's bits
-// the exponent comes before the block, all of them after it.
+// Ranks by the number's power of two, then by the block of a point in mesh space, then by the number. So the rank is
+// the exponent of a float, then the block, then the other bits of the float.
 inline std::uint64_t block_rank(double key, const Vec3& where) {
-  // Eight bits of every coordinate, interleaved; what lies beyond counts with the outermost block.
+  // Eight bits of every coordinate, interleaved; points beyond count with the outermost block.
   constexpr double kSide = 32;
   constexpr double kLast = 255;
   std::uint64_t block = 0;
@@ -43,7 +43,7 @@ inline std::uint64_t block_rank(double key, const Vec3& where) {
   return ((bits >> 23) << 56) | (block << 32) | bits;
 }
 
-// An element and its generation when it was queued, which tells whether it is still what it was.
+// An element and its generation when it was queued. If the generation has changed, the entry is stale.
 struct QueuedElement {
   std::uint32_t element = 0;
   std::uint32_t generation = 0;
@@ -54,10 +54,10 @@ struct RankedElement {
   QueuedElement queued;
 };
 
-// Highest rank first; or first in, first out.
+// Pops the highest rank first; or, if so constructed, first in, first out.
 //
-// Ranks that agree in their upper half share a bucket, which becomes a heap when its turn comes: of block_rank() that
-// is a block's part of one power of two, small enough to stay in the cache.
+// Ranks with equal upper halves share a bucket, which becomes a heap when its turn comes. For block_rank() a bucket is
+// the part of one block with one power of two, which is small enough for the cache.
 class BucketQueue {
  public:
   void push(std::uint64_t rank, const QueuedElement& queued) {
@@ -67,7 +67,7 @@ class BucketQueue {
     ++size_;
   }
   void push_by_age(const QueuedElement& queued) { push(--next_age_, queued); }
-  // What pop() or take_all() gave, of this queue or another one: it keeps its rank, and its age.
+  // Puts back what pop() or take_all() gave, of this queue or another one. The element keeps its rank and its age.
   void put_back(const RankedElement& element) {
     next_age_ = std::min(next_age_, element.rank);
     push(element.rank, element.queued);
@@ -85,7 +85,7 @@ class BucketQueue {
     if (bucket.entries.empty()) drop_first_bucket();
     return top;
   }
-  // Empties the queue, in no order that means anything.
+  // Empties the queue, in unspecified order.
   template <class Visit>
   void take_all(Visit&& visit) {
     for (const Bucket& bucket : buckets_) {
@@ -99,7 +99,7 @@ class BucketQueue {
     size_ = 0;
   }
   [[nodiscard]] std::size_t size() const { return size_; }
-  // What pop() would give next, where that is known without work: something to fetch ahead.
+  // What pop() would give next, if that is known without work; for prefetching.
   [[nodiscard]] std::optional<std::uint32_t> next() const {
     if (size_ == 0) return std::nullopt;
     const Bucket& bucket = buckets_[places_.front().place];
@@ -111,7 +111,7 @@ class BucketQueue {
   struct Entry {
     std::uint32_t rank;  // the lower half
     QueuedElement queued;
-    // The standard heap pops the greatest. A total order, so that every library pops the same.
+    // The standard heap pops the greatest. This is a total order, so every standard library pops in the same order.
     bool operator<(const Entry& b) const {
       if (rank != b.rank) return rank < b.rank;
       if (queued.element != b.queued.element) return queued.element > b.queued.element;
@@ -126,7 +126,7 @@ class BucketQueue {
   struct Bucket {
     std::uint32_t key = 0;  // the upper half of the ranks
     bool is_heap = false;
-    std::vector<Entry> entries;  // some, unless the bucket is free
+    std::vector<Entry> entries;  // entries; empty only while the bucket is free
   };
 
   static constexpr std::size_t kMostKept = 16;  // entries
@@ -158,7 +158,8 @@ class BucketQueue {
     const auto [key, place] = places_.front();
     Bucket& bucket = buckets_[place];
     bucket.is_heap = false;
-    if (bucket.entries.capacity() > kMostKept) bucket.entries = std::vector<Entry>();  // else it serves the next one
+    // Otherwise the next bucket reuses the memory.
+    if (bucket.entries.capacity() > kMostKept) bucket.entries = std::vector<Entry>();
     free_.push_back(place);
     place_of_.erase(key);
     std::pop_heap(places_.begin(), places_.end());
@@ -167,9 +168,9 @@ class BucketQueue {
 
   std::vector<Bucket> buckets_;
   std::vector<std::uint32_t> free_;                            // buckets
-  std::unordered_map<std::uint32_t, std::uint32_t> place_of_;  // of the others, by key
-  std::vector<Place> places_;                                  // theirs, a heap
-  std::array<std::uint32_t, 256> latest_{};                    // the bucket last asked for, by the power of two
+  std::unordered_map<std::uint32_t, std::uint32_t> place_of_;  // of the used buckets, by key
+  std::vector<Place> places_;                                  // the keys of the used buckets, a heap
+  std::array<std::uint32_t, 256> latest_{};                    // for each power of two: the bucket accessed last
   std::size_t size_ = 0;
   std::uint64_t next_age_ = std::numeric_limits<std::uint64_t>::max();
 };

@@ -27,15 +27,15 @@ class Controls {
   Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
       : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
 
-  // A stage begins.
+  // Announces that a stage begins.
   void enter(std::string_view stage) {
     stage_ = stage;
     report(stage, 0, 0);
   }
-  // The stage in which the run had to stop; empty when it had not.
+  // The stage in which the run had to stop; empty if it did not have to.
   [[nodiscard]] std::string_view stopped_in() const { return stopped_in_; }
 
-  // To be called before each insertion that is tried. True when the run must end now; it stays true.
+  // Call before each attempted insertion. True when the run must end now; once true, it stays true.
   bool must_stop(std::string_view stage, std::size_t vertices, std::size_t queued) {
     if (stopped_) return true;
     if (budget_.max_vertices && static_cast<std::int64_t>(vertices) >= *budget_.max_vertices) return stop();
@@ -44,7 +44,7 @@ class Controls {
     report(stage, vertices, queued);
     return false;
   }
-  // The same between larger pieces of work, which insert nothing: looks at the clock and the stop flag.
+  // The same between larger pieces of work without insertions: checks the clock and the stop flag.
   bool poll() {
     if (stopped_) return true;
     const bool is_over = (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
@@ -56,8 +56,9 @@ class Controls {
   }
   [[nodiscard]] bool stopped() const { return stopped_; }
 
-  // For a part of the work, on any thread: the same limits, but `share` of the vertices left beyond `vertices`; the
-  // part tells how many it begins with. Reports only from the thread this is called on.
+  // Controls for a part of the work, on any thread. They have the same limits, but only the fraction `share` of the
+  // vertices still allowed beyond `vertices`; the part says with how many vertices it begins. They report progress only
+  // from the thread that calls this.
   [[nodiscard]] Controls for_part(double share, std::size_t vertices) const {
     Controls part = *this;
     part.calls_ = 0;
@@ -72,7 +73,7 @@ class Controls {
     }
     return part;
   }
-  // To be called once, of what for_part gave.
+  // Call once on the result of for_part.
   void part_begins_with(std::size_t vertices) {
     if (budget_.max_vertices) *budget_.max_vertices += static_cast<std::int64_t>(vertices);
   }

@@ -1,4 +1,4 @@
-// The isosurface as all stages know it: what rays find of it, and its exact topology.
+// The isosurface as all stages use it: its ray search, and its exact topology.
 #pragma once
 
 #include "delaunay/base/vec3.h"
@@ -8,11 +8,11 @@
 
 namespace deliso {
 
-// Refers to what its maker keeps; to be handed on by reference.
+// Holds references to objects that the maker must keep alive; passed on by reference.
 struct ExactSurface {
   const Isosurface& isosurface;
-  const IsosurfaceTopology& topology;  // empty where a run does not ask for it
-  int threads = 1;                     // to work with: nothing but the time depends on them
+  const IsosurfaceTopology& topology;  // empty if the run does not use it
+  int threads = 1;                     // only the time depends on it
 
   [[nodiscard]] const ScalarGrid& grid() const { return isosurface.grid(); }
   // Where a crossing lies, in mesh space.

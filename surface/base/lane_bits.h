@@ -1,5 +1,5 @@
-// Conditions on things side by side, as bits of a number: masks instead of truth values, so that compilers take several
-// things at once and nothing is branched on.
+// Conditions on several things side by side, as bits of a number. They are computed as masks instead of truth values,
+// so that compilers can vectorize them and need no branches.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Long rows of elements in blocks of one size, for several threads. The size never depends on how many threads there
-// are, and blocks are joined in order; so results do not depend on it either.
+// Rows of elements in blocks of a fixed size, for several threads. The size does not depend on the number of threads,
+// and blocks are joined in order; so results do not depend on the number of threads either.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,15 @@ namespace deliso {
 
 inline constexpr std::size_t kBlockSize = 16384;
 
-// Calls body(first, last) for each block of the elements below `count`. A body writes to the places of its elements
-// only.
+// Calls body(first, last) for each block of the elements below `count`. A body writes only to data of its own elements.
 template <class Body>
 void for_each_block(std::size_t count, int threads, Body&& body, std::size_t block_size = kBlockSize) {
   run_tasks((count + block_size - 1) / block_size, threads,
             [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
 }
 
-// One share of a row of elements per thread, of so many elements at least: for work whose cost depends on where the row
-// is cut, but whose result does not.
+// Cuts a row of elements into one share per thread, each of at least so many elements. For work whose cost depends on
+// the cuts, but whose result does not.
 class Shares {
  public:
   Shares(std::size_t elements, int threads, std::size_t fewest = kBlockSize)
@@ -33,7 +32,7 @@ class Shares {
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t begin(std::size_t share) const { return share * elements_ / count_; }  // share <= count()
 
-  // Calls body(share, first, last) for each share. A body writes to the places of its elements only.
+  // Calls body(share, first, last) for each share. A body writes only to data of its own elements.
   template <class Body>
   void for_each(int threads, Body&& body) const {
     run_tasks(count_, threads, [&](std::size_t share) { body(share, begin(share), begin(share + 1)); });
@@ -44,10 +43,10 @@ class Shares {
   std::size_t count_;
 };
 
-// Tasks that take their turn at a step, in the order of their numbers.
+// Lets tasks do one of their steps one after the other, in the order of their numbers.
 class Turns {
  public:
-  // Waits for the turn of a task, does its step, and passes the turn on, whatever happens.
+  // Waits for the turn of a task, does its step, and passes the turn on, even if the step throws.
   template <class Step>
   void take(std::size_t task, const Step& step) {
     for (std::size_t now = turn_; now != task; now = turn_) turn_.wait(now);
@@ -65,9 +64,9 @@ class Turns {
   std::atomic<std::size_t> turn_{0};
 };
 
-// Tasks of three steps, first(i), second(i) and last(i) one after the other: first steps in the order of the tasks, and
-// second steps, too, each beside any other steps of other tasks. When a step throws, its task ends; the others go on,
-// and the exception of the lowest number is thrown on after all.
+// Tasks of three steps, first(i), second(i) and last(i), in this order. All first steps run one after the other in the
+// order of the tasks, and so do all second steps; apart from that, steps of different tasks run at the same time. When
+// a step throws, its task ends. The other tasks go on, and then the exception of the lowest task is rethrown.
 template <class First, class Second, class Last>
 void run_in_turn(std::size_t count, int threads, First&& first, Second&& second, Last&& last) {
   Turns first_turns, second_turns;
@@ -88,7 +87,7 @@ void run_in_turn(std::size_t count, int threads, First&& first, Second&& second,
   });
 }
 
-// What append(element, items) appends for the elements below `count`, in their order.
+// Collects what append(element, items) appends for the elements below `count`, in their order.
 template <class Item, class Append>
 std::vector<Item> collect_in_blocks(std::size_t count, int threads, Append&& append,
                                     std::size_t block_size = kBlockSize) {

@@ -1,5 +1,5 @@
-// The parameters of the mesher. Defaults are the paper's where it gives them. experiments/config/config.h holds the
-// table that makes JSON, help text and schema out of these structs.
+// The parameters of the mesher. Defaults are the paper's where it gives them. The table in experiments/config/config.h
+// makes JSON, help text and schema of these structs.
 #pragma once
 
 #include <cstdint>
@@ -68,14 +68,14 @@ struct Parameters {
   BudgetParameters budget;
 };
 
-// Whether a mesh that differs from the exact topology is mended.
+// Whether a mesh that differs from the exact topology is repaired.
 inline bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
 
 // Throws InputError when some parameters contradict each other.
 void check_parameters(const Parameters& parameters);
 
-// The distances of samples to mesh with: those of the volume, or 1. Throws InputError when they differ by a factor
-// above 1000: a mesh adapted to the smallest grows with the square of that factor.
+// The sample spacing to mesh with: that of the volume, or 1. Throws InputError when its components differ by a factor
+// above 1000: a mesh adapted to the smallest one grows with the square of that factor.
 Vec3 spacing_to_use(const Parameters& parameters, const Vec3& of_volume);
 
 }  // namespace deliso

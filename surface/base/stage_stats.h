@@ -1,4 +1,4 @@
-// What stages tell of their work.
+// What the stages report of their work.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,14 @@ auto timed(StageStats& stage, Body body) {
 }
 
 struct RepairStats : StageStats {
-  std::int64_t rounds = 0;                      // resamplings made
-  std::int64_t components_before = 0;           // exact components that the mesh of stage 1 did not agree with
-  std::int64_t components_mixed = 0;            // taken with vertices of another component at last
-  std::int64_t components_stray = 0;            // done after stray pieces were dropped
-  std::int64_t components_polygonized = 0;      // taken from marching cubes at last
-  std::int64_t foreign_vertices_removed = 0;    // vertices taken out of such components (foreign_vertices.h)
-  std::int64_t inverted_umbrellas_removed = 0;  // vertices taken out of the mesh at last (inverted_umbrellas.h)
+  std::int64_t rounds = 0;             // rounds of resampling
+  std::int64_t components_before = 0;  // exact components that disagreed with the mesh of stage 1
+  // Accepted at the end although their piece has vertices of another component.
+  std::int64_t components_mixed = 0;
+  std::int64_t components_stray = 0;            // right after stray pieces were dropped
+  std::int64_t components_polygonized = 0;      // taken from marching cubes at the end
+  std::int64_t foreign_vertices_removed = 0;    // vertices removed from such components (foreign_vertices.h)
+  std::int64_t inverted_umbrellas_removed = 0;  // vertices removed from the mesh at the end (inverted_umbrellas.h)
   std::int64_t vertices_before = 0;             // of the mesh of stage 1
   std::int64_t vertices_after = 0;
 };

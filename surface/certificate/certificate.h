@@ -30,9 +30,9 @@ struct Certificate {
 std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh);
 
 // kHomeomorphic when the mesh is an oriented manifold and its components match the isosurface's one to one: orientable
-// surfaces with equal Euler characteristics and equal numbers of boundary loops are homeomorphic. Else kDifferent, and
-// `differences` says why. The counts of a mesh that is no manifold are V - E + F all the same; those of a mesh with an
-// index out of range are left empty. The same for any number of threads.
+// surfaces with equal Euler characteristics and equal numbers of boundary loops are homeomorphic. Otherwise kDifferent,
+// and `differences` says why. If the mesh is no manifold, its counts are V - E + F all the same. If an index is out of
+// range, the counts are left empty. The same for any number of threads.
 Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads = 1);
 
 // The same; kSingularIsovalue when the isosurface has singular points (IsosurfaceTopology::singular_cells).

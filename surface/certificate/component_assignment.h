@@ -1,6 +1,7 @@
-// Whether every exact component has a piece of the mesh of its own, in its place.
+// Whether every exact component has a piece of the mesh of its own at its own position.
 //
-// Counts do not tell: a piece that has swallowed two components, beside one of them made a second time, counts right.
+// Counts alone cannot tell: they are right, too, for a mesh in which one piece covers two components and one of these
+// components is meshed a second time.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +17,21 @@
 
 namespace deliso {
 
-// A mesh in pieces, and where these lie.
+// The pieces of a mesh, and the exact components on which their vertices lie.
 struct AssignedPieces {
-  std::span<const std::uint32_t> piece_of;      // of each vertex; beyond the number of pieces for one without triangles
-  std::span<const std::uint32_t> component_of;  // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
-  std::span<const ComponentTopology> topology;  // of each piece
+  std::span<const std::uint32_t> piece_of;  // of each vertex; a number beyond the pieces for one without triangles
+  // Of each vertex; a number beyond the components for one that lies on none.
+  std::span<const std::uint32_t> component_of;    // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
+  std::span<const ComponentTopology> topology;    // of each piece
   std::span<const ComponentTopology> components;  // the exact ones
 };
 
-// A piece counts for the component that most of its vertices lie on.
+// A piece is assigned to the component that most of its vertices lie on.
 struct AssignmentFaults {
-  std::vector<std::uint32_t> without;   // components for which no piece counts
-  std::vector<std::uint32_t> repeated;  // those for which several do
-  std::vector<std::uint32_t> unlike;    // those whose piece has another topology
-  // Those whose piece has as many vertices on some other component as that one's own piece has, or more.
+  std::vector<std::uint32_t> without;   // components without an assigned piece
+  std::vector<std::uint32_t> repeated;  // components with several pieces
+  std::vector<std::uint32_t> unlike;    // components whose piece has another topology
+  // Components whose piece has at least as many vertices on some other component as that component's own piece has.
   std::vector<std::uint32_t> overrunning;
 
   [[nodiscard]] bool is_empty() const {
@@ -38,14 +40,16 @@ struct AssignmentFaults {
 };
 AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 
-// A certificate whose counts are right is right no more where places are not: a sentence for each kind of fault.
+// Turns a certificate whose counts are right into kDifferent if there are assignment faults; adds a sentence for each
+// kind of fault.
 void add_assignment_faults(const AssignmentFaults& faults, Certificate& certificate);
 
-// The exact component of each point, given in index space; kNoComponent for one that lies on none.
+// The exact component of each point, given in index space; a number beyond all components for a point that lies on
+// none.
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 
-// Of a mesh in mesh space (raycast/isosurface.h).
+// For a mesh in mesh space (raycast/isosurface.h).
 AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface);
 
 }  // namespace deliso

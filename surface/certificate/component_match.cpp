@@ -23,7 +23,8 @@ std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t
   return pieces;
 }
 
-// Boundary loops of each piece: on a manifold every boundary vertex is left by one boundary edge, so loops are cycles.
+// Counts the boundary loops of each piece: on a manifold exactly one boundary edge leaves every boundary vertex, so
+// loops are cycles.
 void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
   const auto is_open = [](const auto& sides) { return std::find(sides.begin(), sides.end(), kNoSide) != sides.end(); };
   if (std::none_of(mesh.neighbours.begin(), mesh.neighbours.end(), is_open)) return;

@@ -19,13 +19,13 @@ struct MeshPiece {
   bool mixed = false;           // it has vertices of other components, too
 };
 
-// How a component and its main piece, the largest that lies on it, agree. kPartial is for callers that know the
-// surface; match_components never says so.
+// How a component agrees with its main piece, the largest piece that lies on it. kPartial is set by callers that know
+// the surface; match_components never sets it.
 enum class Agreement {
   kNone,        // no piece, or one of another topology
-  kPartial,     // the same (Euler characteristic, boundary loops), but a part of the component lies far from it
-  kMixed,       // the same, but vertices are mixed with another component's
-  kWithStrays,  // the same, and there are smaller pieces on the component beside it
+  kPartial,     // the same (Euler characteristic, boundary loops), but the piece is far from a part of the component
+  kMixed,       // the same, but the piece also has vertices of other components
+  kWithStrays,  // the same, and there are smaller pieces on the component
   kExact,       // the same, and there is no other piece
 };
 
@@ -34,8 +34,8 @@ struct ComponentMatch {
   std::vector<std::uint32_t> piece_of;    // of each mesh vertex; kNoPiece for one without triangles
   std::vector<std::uint32_t> main_piece;  // of each exact component; kNoPiece when it has none
   std::vector<Agreement> agreement;       // of each exact component
-  // Components that do not agree exactly + strays + pieces on no component + what their main pieces lack or have too
-  // much in Euler characteristic: the smaller the better, 0 when the mesh is right.
+  // The number of components that do not agree exactly, plus the number of stray pieces, plus the differences in Euler
+  // characteristic of the main pieces. Smaller is better; 0 when the mesh is right.
   std::int64_t error = 0;
 
   // Whether a piece is the main piece of the component that it lies on.
@@ -45,7 +45,7 @@ struct ComponentMatch {
   }
 };
 
-// The pieces and their topology alone: which components they lie on is left open.
+// The pieces and their topology only; their components are not set.
 ComponentMatch find_pieces(const SurfaceMesh& mesh);
 
 // `component_of`: the exact component of each mesh vertex; kNoComponent for one that lies on none and does not count.

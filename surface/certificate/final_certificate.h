@@ -1,5 +1,5 @@
-// The certificate that a run ends with: counts, places, and what rounding to the volume's own coordinates leaves of
-// them.
+// The certificate at the end of a run: it checks the counts, the assignment of pieces to components, and whether
+// rounding to the volume's own coordinates made triangles cross.
 #pragma once
 
 #include "surface/base/exact_surface.h"
@@ -11,14 +11,14 @@
 
 namespace deliso {
 
-// Of a mesh whose pieces are placed with these faults. Facets that bound no set of tetrahedra are no isosurface,
-// whatever their counts.
+// For a mesh with these assignment faults. If the facets bound no set of tetrahedra, the certificate is kDifferent,
+// whatever the counts.
 Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
                               const AssignmentFaults& faults, bool bounds_a_solid, int threads = 1);
 
-// For a mesh in world coordinates whose triangles do not cross in mesh space: sheets that all
-// but touch may cross when an origin or a spacing rounds them, and then the certificate holds no more. Where
-// coordinates stay as they are, but for powers of two, there is nothing to look for.
+// For a mesh in world coordinates whose triangles do not cross in mesh space. Sheets that nearly touch may cross when
+// origin or spacing round their coordinates; then the certificate is withdrawn. If the coordinates change by powers of
+// two alone, nothing needs to be checked.
 void refute_crossing(const TriangleMesh& mesh, const ExactSurface& surface, Certificate& certificate);
 
 }  // namespace deliso

@@ -7,7 +7,7 @@ namespace deliso {
 
 namespace {
 
-// Vertices of fewer triangles than one for so many vertices of the mesh are sorted, not marked.
+// For fewer triangles than one per so many vertices of the mesh, their vertices are sorted instead of marked.
 constexpr std::size_t kFewTriangles = 64;
 
 }  // namespace

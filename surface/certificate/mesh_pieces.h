@@ -12,7 +12,7 @@
 
 namespace deliso {
 
-// Marks all triangles that hang together with one across their sides; returns them. Precondition: none is marked.
+// Marks and returns all triangles connected with `seed` across sides. Precondition: none of them is marked.
 std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked);
 
 // Each vertex of some triangles once, ascending.
@@ -24,18 +24,18 @@ inline constexpr std::uint32_t kNoComponent = 0xFFFFFFFFu;
 std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<const std::uint32_t> vertices,
                                          const ExactSurface& surface);
 
-// How many vertices of a piece lie on a component.
+// The number of vertices of a piece that lie on a component.
 struct ComponentShare {
   std::uint32_t piece = 0;
   std::uint32_t component = 0;
   std::int64_t vertices = 0;
 };
-// All shares that are not zero, by piece and component. Of each vertex: `piece_of`, beyond `pieces` for one without
-// triangles, and `component_of`, kNoComponent for one that counts for none.
+// All nonzero shares, by piece and component. `piece_of` and `component_of` are per vertex: a number beyond `pieces`
+// means no triangles, kNoComponent means no component.
 std::vector<ComponentShare> component_shares(std::span<const std::uint32_t> piece_of,
                                              std::span<const std::uint32_t> component_of, std::size_t pieces);
-// For each number below `count` the largest of the shares that have it, the first of equals; one of no vertices where
-// none has it. The largest share of a piece tells the component that the piece counts for.
+// For each number below `count`: the largest of the shares with that number (the first of equals), or a share of no
+// vertices if there is none. A piece is assigned to the component of its largest share.
 template <class NumberOf>
 std::vector<ComponentShare> largest_shares(std::span<const ComponentShare> shares, std::size_t count,
                                            const NumberOf& number_of) {
@@ -50,7 +50,7 @@ inline std::vector<ComponentShare> largest_shares_of_pieces(std::span<const Comp
                                                             std::size_t pieces) {
   return largest_shares(shares, pieces, [](const ComponentShare& share) { return share.piece; });
 }
-// The component that a single piece counts for; nothing when none of its vertices lies on one.
+// The component of most vertices, the first of equals; nothing when no vertex has one.
 std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> component_of);
 
 }  // namespace deliso

@@ -60,16 +60,16 @@ class MeshBuilder {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;  // (triangle split, new part)
 };
 
-// Corners that paired edges join are one vertex; every other class of corners at the same point is a copy of its own.
-// Named in order of (vertex of the triangulation, first corner).
+// Corners joined across paired edges form one vertex; every other class of corners at the same point is a copy of its
+// own. Vertices are numbered in order of (vertex of the triangulation, first corner).
 void MeshBuilder::name_vertices() {
-  // Step 1: how many vertices there are at each of the triangulation, and which of them a corner has if not the first.
-  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // one further on
+  // Step 1: count the mesh vertices at each vertex of the triangulation, and number the fans at those with several.
+  std::vector<std::uint32_t> first(delaunay_.vertex_count() + 1, 0);  // entry v + 1 counts for v
   const std::vector<SplitCorner> split_corners = number_fans(first);
   const std::size_t count = std::accumulate(first.begin(), first.end(), std::size_t{0});
   mesh_.points.reserve(count);
   built_.vertex_of.reserve(count);
-  // Step 2: points and names; first[v] becomes the name of the first vertex at v.
+  // Step 2: points and numbers; first[v] becomes the number of the first mesh vertex at v.
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
     const bool is_split = first[v + 1] > 1;
     first[v + 1] += first[v];
@@ -89,8 +89,8 @@ void MeshBuilder::name_vertices() {
   }
 }
 
-// Counts the fans at each vertex, and numbers them where there are more than one: a number for each corner at such a
-// vertex, ascending by corner.
+// Counts the fans at each vertex. Where there are several, it numbers them, and returns the number for each corner at
+// such a vertex, ascending by corner.
 std::vector<SplitCorner> MeshBuilder::number_fans(std::vector<std::uint32_t>& fans_before) const {
   std::vector<SplitCorner> split_corners;
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -118,7 +118,8 @@ std::vector<SplitCorner> MeshBuilder::number_fans(std::vector<std::uint32_t>& fa
   return split_corners;
 }
 
-// Contested edges whose two ends were not both split leave two pairs on the same two vertices.
+// A contested edge may be shared by two pairs of facets even after its ends are split. Such an edge is subdivided in
+// each pair.
 void MeshBuilder::subdivide_shared_edges() {
   using Use = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // two vertices, a triangle
   std::vector<Use> uses;
@@ -147,7 +148,8 @@ void MeshBuilder::subdivide_shared_edges() {
   }
 }
 
-// For the vertices and triangles of a few subdivided edges: arrays that grow by themselves would double.
+// Reserves memory for the vertices and triangles of a few subdivided edges: arrays that grow by themselves would
+// double.
 void MeshBuilder::make_room(std::size_t edges) {
   mesh_.points.reserve(mesh_.points.size() + edges);
   built_.vertex_of.reserve(built_.vertex_of.size() + edges);
@@ -155,7 +157,7 @@ void MeshBuilder::make_room(std::size_t edges) {
   mesh_.neighbours.reserve(mesh_.neighbours.size() + 2 * edges);
 }
 
-// The side between two vertices of a triangle or of the parts it was split into.
+// The side between two vertices, in a triangle or in the parts into which it was split.
 TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const {
   for (unsigned i = 0; i < 3; ++i) {
     const std::uint32_t from = mesh_.triangles[triangle][(i + 1) % 3];
@@ -169,9 +171,9 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
   return kNoSide;
 }
 
-// Places for a vertex on an edge, where the surface is not far: hits along the triangles' common normal or down the
-// gradient, from the middle of the edge to near its ends; then where the surface faces the other way; at last the
-// middle itself.
+// Candidate positions for a vertex on an edge, near the surface. First the hits along the triangles' common normal or
+// down the gradient, from the middle of the edge to near its ends; then hits where the surface has the opposite
+// orientation; last the midpoint itself.
 std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const {
   const Isosurface& isosurface = restricted_.isosurface();
   const Box3& box = isosurface.box();
@@ -181,7 +183,7 @@ std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec
     for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
       const Vec3 from = a + weight * (b - a);
       for (Vec3 direction : {facing * normal, -facing * isosurface.gradient(from)}) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {  // an edge on a face of the box keeps its vertices there
+        for (std::size_t axis = 0; axis < 3; ++axis) {  // a vertex on an edge in a face of the box stays in that face
           if (a[axis] == b[axis] && (a[axis] == box.low[axis] || a[axis] == box.high[axis])) direction[axis] = 0;
         }
         if (!(norm(direction) > 0)) continue;
@@ -215,8 +217,8 @@ Copy MeshBuilder::subdivide(TriangleSide side) {
   return {m, {places.begin() + 1, places.end()}, true};
 }
 
-// Splits the triangle (c, a, b) at m on its side ab into (c, a, m) in place and (c, m, b) behind the others. Returns
-// the sides am and mb, without neighbours yet.
+// Splits the triangle (c, a, b) at m on its side ab into (c, a, m), which takes its slot, and (c, m, b), which is
+// appended. Returns the sides am and mb, whose neighbours are not set yet.
 std::pair<TriangleSide, TriangleSide> MeshBuilder::split_triangle(TriangleSide side, std::uint32_t m) {
   const std::uint32_t t = side >> 2;
   const unsigned i = side & 3u;

@@ -12,17 +12,17 @@ namespace deliso {
 
 struct BuiltMesh {
   SurfaceMesh mesh;                   // without balls and pole heights
-  std::vector<VertexId> vertex_of;    // of each mesh vertex; for a vertex put on a subdivided edge, an end of that edge
+  std::vector<VertexId> vertex_of;    // of each mesh vertex; for a vertex on a subdivided edge, an end of that edge
   std::vector<std::uint32_t> copies;  // mesh vertices that share their vertex with another one, ascending
   std::vector<PinchGroup> groups;     // of copies, and of vertices on the same subdivided edge
 };
 
-// From the paired facets (facet_pairing.h). A vertex is given once for each fan of paired triangles. An edge that two
-// pairs still share afterwards is subdivided in each of them. The result is a manifold with boundary, oriented, by
-// construction. Vertices without triangles are left out. It touches itself at the copies until separate_pinches has
-// moved them apart.
+// Builds the mesh from the paired facets (facet_pairing.h). A vertex of the triangulation becomes one mesh vertex for
+// each fan of paired triangles. An edge that two pairs of facets still share afterwards is subdivided in each pair. So
+// the result is an oriented manifold with boundary, by construction. Vertices without triangles are left out. The mesh
+// touches itself at the copies until separate_pinches moves them apart.
 BuiltMesh build_triangle_mesh(const FacetPairing& pairing);
-// The same from triangles taken before; whatever signs `restricted` has by now.
+// The same from triangles that were paired before; the present signs of `restricted` do not matter.
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, PairedTriangles paired);
 BuiltMesh build_triangle_mesh(const SignedDelaunay& restricted, int threads = 1);
 

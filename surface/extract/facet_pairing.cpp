@@ -11,13 +11,13 @@ namespace deliso {
 
 namespace {
 
-// Counts of ways around edges, per facet; a facet has one edge and a half.
+// Counters per facet for the number of restricted facets around edges; a facet has one edge and a half.
 constexpr std::size_t kCountsPerFacet = 8;
-// A thread is worth its start for so many facets.
+// With fewer facets per thread, a thread costs more than it saves.
 constexpr std::size_t kFewestFacets = 2048;
 
-// From a restricted facet, rotate about its edge opposite `third` through the tetrahedra of one sign, f's own, to the
-// next restricted facet; both are seen from inside that sector.
+// Rotates from a restricted facet f about its edge opposite `third`, through the tetrahedra with the sign of f's own,
+// to the next restricted facet. Both facets are seen from inside that sector.
 template <class IsAbove>
 FacetId next_restricted_facet(const Tetrahedralization& delaunay, const IsAbove& is_above, FacetId f, VertexId third) {
   const bool here = is_above(f.tet());
@@ -58,7 +58,7 @@ FacetPairing::FacetPairing(const SignedDelaunay& restricted, TetSigns signs, int
       delaunay_.tet_slots(), threads,
       [&](std::size_t i, std::vector<PairedFacet>& facets) { append_facets_of(TetId(i), facets); });
   find_places();
-  // Guards may share an edge with two facets that are not ours.
+  // A facet with a guard is not ours, but may share an edge with two facets that are.
   if (!restricted_.is_virtual(VertexId(delaunay_.vertex_count() - 1))) pair_uncontested_sides(threads);
   pair_sides(threads);
   is_split_.resize(delaunay_.vertex_count());
@@ -83,9 +83,9 @@ PairedTriangles FacetPairing::triangles() const {
   return all;
 }
 
-// Of those around which something has changed: a walk around a vertex from its first corner, one way and, if the fan is
-// open, the other. A vertex with more corners than the walk meets has another fan. Corner 3 t + i is that of facet t at
-// its vertex i.
+// Finds split vertices among those around which something has changed. It walks around a vertex from its first corner,
+// one way and, if the fan is open, then the other. A vertex with more corners than the walk meets has another fan.
+// Corner 3 t + i is that of facet t at its vertex i.
 void FacetPairing::find_split_vertices(const std::vector<bool>& has_changed, int threads) {
   struct Corners {
     std::uint32_t first = 0, count = 0;
@@ -131,15 +131,15 @@ void FacetPairing::find_places() {
     first_of_[facets_[i].facet.tet().index()] = static_cast<std::uint32_t>(i);
 }
 
-// Around an edge with two restricted facets both ways lead from one to the other, so the walk through the tetrahedra
-// above will do. It is taken for all edges; those that seem to have more than one way are left for pair_sides. Edges
-// are counted by a hash: where two of them share it the only loss is time. Between the shares of two threads each takes
-// the walk from its own side.
+// Around an edge with two restricted facets both directions lead from one to the other, so the walk through the
+// tetrahedra above is enough. It is done for all edges; those that seem to have more than one pair of facets are left
+// for pair_sides. Pairs are counted by a hash of the edge: if two edges share a counter, this only costs time. When the
+// two facets of an edge are in different shares, each share walks from its own side.
 void FacetPairing::pair_uncontested_sides(int threads) {
   const std::size_t least = kCountsPerFacet * facets_.size() + 2;
   const unsigned shift = 64u - static_cast<unsigned>(std::bit_width(least));
   constexpr std::uint8_t kOne = 1, kMore = 2;
-  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // found around each edge, as flags
+  std::vector<std::uint8_t> ways(std::size_t{1} << (64u - shift), 0);  // pairs found around each edge, as flags
   const auto ways_around = [&](const PairedFacet& facet, unsigned side) -> std::uint8_t& {
     const auto [low, high] = std::minmax(facet.vertices[(side + 1) % 3].value, facet.vertices[(side + 2) % 3].value);
     const std::uint64_t edge = std::uint64_t{high} << 32 | low;
@@ -174,7 +174,7 @@ void FacetPairing::pair_sides(int threads) {
   });
 }
 
-// Calls visit(facet, side, share) for the sides that are not known, share by share.
+// Calls visit(facet, side, share) for the sides not paired yet, share by share.
 template <class Visit>
 void FacetPairing::for_each_unknown_side(const Shares& shares, int threads, Visit&& visit) {
   shares.for_each(threads, [&](std::size_t, std::size_t first, std::size_t last) {
@@ -186,8 +186,8 @@ void FacetPairing::for_each_unknown_side(const Shares& shares, int threads, Visi
   });
 }
 
-// Pairs a side with that of its partner, which thereby is paired, too, where it is in the same share. Returns the
-// partner's place.
+// Pairs a side with the side across. If the partner is in the same share, its side is paired, too. Returns the
+// partner's index.
 std::uint32_t FacetPairing::join(PairedFacet& facet, unsigned side, const PairingAcross& across, const Share& share) {
   const std::uint32_t place = place_of(across.partner);
   facet.contested[side] = across.is_contested;
@@ -203,7 +203,7 @@ std::uint32_t FacetPairing::join(PairedFacet& facet, unsigned side, const Pairin
   return place;
 }
 
-// The side of another facet that has the same edge; it runs the other way over there.
+// The side of another facet at the same edge; its edge is directed the other way.
 TriangleSide FacetPairing::side_across(const PairedFacet& facet, unsigned side, std::uint32_t place) const {
   const VertexId a = facet.vertices[(side + 1) % 3];
   const VertexId b = facet.vertices[(side + 2) % 3];

@@ -1,4 +1,4 @@
-// FacetPairing: what changes of it when signs change or points are exchanged.
+// FacetPairing: the update after signs have changed or points were exchanged.
 #include <algorithm>
 #include <utility>
 
@@ -6,7 +6,7 @@
 
 namespace deliso {
 
-// A facet may come or go at a tetrahedron that has another sign or is new, and at its neighbours.
+// A facet may appear or vanish at a tetrahedron that is new or has changed its sign, and at its neighbours.
 void FacetPairing::touch(TetId t) {
   touched_.push_back(t);
   if (!delaunay_.is_live(t)) return;
@@ -19,7 +19,7 @@ void FacetPairing::touch(TetId t) {
 void FacetPairing::renew(const ExchangedPoints& exchanged) {
   signs_.resize(delaunay_.tet_slots(), 0);
   for (PairedFacet& facet : facets_) {
-    for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only where the facet has gone
+    for (VertexId& v : facet.vertices) v = exchanged.renamed[v.index()];  // none only if the facet is gone
   }
   std::size_t kept = 0;
   for (std::size_t v = 0; v < exchanged.renamed.size(); ++v) {
@@ -27,7 +27,7 @@ void FacetPairing::renew(const ExchangedPoints& exchanged) {
   }
   is_split_.resize(kept);
   is_split_.resize(delaunay_.vertex_count(), false);
-  // The vertices of a tetrahedron that has gone are those of new ones, if they are left.
+  // The remaining vertices of a destroyed tetrahedron are vertices of new ones.
   for (const TetId t : exchanged.renewed) {
     signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
     touch(t);
@@ -43,18 +43,19 @@ bool FacetPairing::update(const TetSigns& signs) {
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   renew_facets(touched_);
-  std::vector<bool> has_changed(delaunay_.vertex_count(), false);  // of each vertex: the sign of a tetrahedron at it
+  // Of each vertex: whether a tetrahedron at it has changed.
+  std::vector<bool> has_changed(delaunay_.vertex_count(), false);
   for (const VertexId v : touched_vertices_) has_changed[v.index()] = true;
   touched_.clear();
   touched_vertices_.clear();
   forget_sides_between(has_changed);
-  constexpr int kThread = 1;  // few sides are left
+  constexpr int kThread = 1;  // few sides are left to pair
   pair_sides(kThread);
   find_split_vertices(has_changed, kThread);
   return true;
 }
 
-// The tetrahedra around an edge are at both its ends.
+// Every tetrahedron around an edge has both ends as vertices.
 void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
   for (PairedFacet& facet : facets_) {
     std::array<bool, 3> changed{};
@@ -63,12 +64,12 @@ void FacetPairing::forget_sides_between(const std::vector<bool>& has_changed) {
   }
 }
 
-// The facets of some tetrahedra (ascending) anew, the others as they are.
+// Computes the facets of some tetrahedra (ascending) anew and keeps the others.
 void FacetPairing::renew_facets(std::span<const TetId> tets) {
   std::vector<PairedFacet> facets = std::move(spare_);
   facets.clear();
   facets.reserve(facets_.size() + tets.size());
-  std::vector<std::uint32_t> place(facets_.size(), kNoPlace);  // of each old facet that stays: its new place
+  std::vector<std::uint32_t> place(facets_.size(), kNoPlace);  // of each old facet that stays: its new index
   std::uint32_t old = 0;
   const auto keep_those_before = [&](TetId t) {
     for (; old < facets_.size() && facets_[old].facet.tet() < t; ++old) {
@@ -82,7 +83,7 @@ void FacetPairing::renew_facets(std::span<const TetId> tets) {
     append_facets_of(t, facets);
   }
   keep_those_before(TetId(delaunay_.tet_slots()));
-  // What was paired with a facet that has gone, or come anew, is going to be paired again.
+  // A side that was paired with a facet that is gone or new will be paired again.
   for (PairedFacet& facet : facets) {
     for (unsigned side = 0; side < 3; ++side) {
       TriangleSide& across = facet.across[side];

@@ -31,7 +31,8 @@ std::vector<Vec3> unit_normals(const SurfaceMesh& mesh, const PinchNeighbourhood
   return normals;
 }
 
-// Towards one side of triangles with these normals (perceptron steps towards the triangle that sees it least).
+// A direction towards one side of all triangles with these normals. Perceptron: step towards the normal with the least
+// sine.
 std::optional<Vec3> direction(std::span<const Vec3> normals, double side, const Box3& box, const Vec3& at) {
   Vec3 sum;
   for (const Vec3& n : normals) sum += side * n;

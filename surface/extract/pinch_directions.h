@@ -1,4 +1,4 @@
-// In which directions a copy of a vertex may move apart from the others (pinch_separation.h).
+// In which directions a copy of a vertex may move away from the other copies (pinch_separation.h).
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace deliso {
 
-// Unit vectors for a copy, which is at home, the most promising first: towards either side of all its triangles; then,
-// when no direction sees them all from a side, or when these did not help (`is_stubborn`), a few all around. A copy on
-// the box stays on its face.
+// Unit vectors for a copy at its own position, the most promising first. First come directions towards either side of
+// all its triangles. When there is none for a side, or these did not help (`is_stubborn`), 26 directions all around
+// follow. A copy on the box stays on its face.
 std::vector<Vec3> pinch_directions(const SurfaceMesh& mesh, const PinchNeighbourhoods& around, const Box3& box,
                                    std::uint32_t copy, bool is_stubborn);
 

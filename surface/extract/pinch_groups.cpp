@@ -13,7 +13,7 @@ std::vector<std::size_t> groups_that_matter(std::span<const PinchGroup> groups,
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
     for (const Copy& copy : groups[i]) group_of[copy.vertex] = i;
   }
-  // Sets of groups that hang together.
+  // Sets of groups that depend on each other.
   DisjointSets sets(groups.size());
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
     visit_around(i, [&](std::uint32_t v) {

@@ -1,4 +1,4 @@
-// Groups of vertices that stand at one place in a mesh that touches itself there.
+// Groups of vertices at one position, where a mesh touches itself.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,22 @@
 
 namespace deliso {
 
-// Copies move less than this from their homes (mesh-space units).
+// Copies move less than this from their own position (mesh-space units).
 inline constexpr double kPinchSeparation = 9e-4;
 
-// A mesh vertex that shares its place, or nearly, with others; and where else it may start from, best first. The last
-// of all its homes may be none on the surface, for want of a better one.
+// A mesh vertex that shares its position, or nearly, with others; and other positions that it may start from, best
+// first. With has_position_off_surface the last of these may lie off the surface, because no better one was found.
 struct Copy {
   std::uint32_t vertex = 0;
-  std::vector<Vec3> other_homes;
-  bool has_false_home = false;
+  std::vector<Vec3> other_positions;
+  bool has_position_off_surface = false;
 };
 using PinchGroup = std::vector<Copy>;
 
-// When what becomes of a group depends on some vertices around it, groups with copies among these hang together, and
-// each set of groups that do fares as it would without the others. The groups, ascending, that hang together with one
-// that has a wanted copy. visit_around(group, visit) calls visit(vertex) for the vertices around a group.
+// The groups that must be separated for the sake of the wanted copies. The result for a group depends on the vertices
+// around it. So two groups depend on each other when one has a copy among the vertices around the other; sets of groups
+// without such a relation do not influence each other. Returns, ascending, all groups that depend, directly or not, on
+// a group with a wanted copy. visit_around(group, visit) calls visit(vertex) for the vertices around a group.
 using VertexVisit = std::function<void(std::uint32_t)>;
 std::vector<std::size_t> groups_that_matter(std::span<const PinchGroup> groups,
                                             const std::function<void(std::size_t, const VertexVisit&)>& visit_around,

@@ -9,10 +9,10 @@ PinchNeighbourhoods::PinchNeighbourhoods(const SurfaceMesh& mesh, std::span<cons
     : mesh_(mesh), groups_(groups), origin_of_(origin_of) {
   if (groups_.empty()) return;
   find_fans();
-  find_those_near_homes();
+  find_those_near_other_positions();
 }
 
-// The triangles at all vertices that stand beside a copy.
+// Finds the triangles at all vertices that share a triangle with a copy.
 void PinchNeighbourhoods::find_fans() {
   std::vector<bool> is_copy(mesh_.points.size(), false);
   for (const PinchGroup& group : groups_) {
@@ -33,22 +33,22 @@ void PinchNeighbourhoods::find_fans() {
   }
 }
 
-void PinchNeighbourhoods::find_those_near_homes() {
+void PinchNeighbourhoods::find_those_near_other_positions() {
   std::vector<std::size_t> groups;
   std::vector<Box3> boxes;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Box3 box;
-    bool has_homes = false;
+    bool has_other_positions = false;
     for (const Copy& copy : groups_[i]) {
-      if (copy.other_homes.empty()) continue;
-      has_homes = true;
-      for (const Vec3& home : copy.other_homes) box.extend(home);
+      if (copy.other_positions.empty()) continue;
+      has_other_positions = true;
+      for (const Vec3& position : copy.other_positions) box.extend(position);
       for (const std::uint32_t t : fan(copy.vertex)) {
         if (!is_at(t, copy.vertex)) continue;
         for (const std::uint32_t v : mesh_.triangles[t]) box.extend(mesh_.points[v]);
       }
     }
-    if (!has_homes) continue;
+    if (!has_other_positions) continue;
     const Vec3 around{kPinchSeparation, kPinchSeparation, kPinchSeparation};
     groups.push_back(i);
     boxes.push_back({box.low - around, box.high + around});
@@ -56,7 +56,8 @@ void PinchNeighbourhoods::find_those_near_homes() {
   if (groups.empty()) return;
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    tree.for_each_meeting(box_of(mesh_, t), [&](std::uint32_t near) { near_homes_[groups[near]].push_back(t); });
+    tree.for_each_meeting(box_of(mesh_, t),
+                          [&](std::uint32_t near) { near_other_positions_[groups[near]].push_back(t); });
   }
 }
 
@@ -68,7 +69,7 @@ std::vector<std::uint32_t> PinchNeighbourhoods::triangles(std::size_t group) con
       for (const std::uint32_t v : mesh_.triangles[t]) triangles.insert(triangles.end(), fan(v).begin(), fan(v).end());
     }
   }
-  if (const auto near = near_homes_.find(group); near != near_homes_.end()) {
+  if (const auto near = near_other_positions_.find(group); near != near_other_positions_.end()) {
     triangles.insert(triangles.end(), near->second.begin(), near->second.end());
   }
   std::sort(triangles.begin(), triangles.end());

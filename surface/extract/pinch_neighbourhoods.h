@@ -1,4 +1,4 @@
-// The triangles around groups of vertices that stand at one place: what their copies may come to meet when they move.
+// The triangles around groups of vertices at one position: those that copies may meet when they move.
 #pragma once
 
 #include <algorithm>
@@ -16,29 +16,32 @@ namespace deliso {
 
 class PinchNeighbourhoods {
  public:
-  // Of a mesh whose points may move a hair's breadth from where they are, and copies to their other homes. `origin_of`
-  // names, for each mesh vertex, what it is a copy of. Keeps references.
+  // For a mesh whose points may move by less than kPinchSeparation, and whose copies may also move to their other
+  // positions. `origin_of` gives, for each mesh vertex, the vertex that it is a copy of. Keeps references.
   PinchNeighbourhoods(const SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of);
 
-  // Of a copy, or a vertex of a triangle at one: the triangles at all that have its origin, ascending.
+  // Precondition: v is a vertex of a triangle at a copy. The triangles at v and at all vertices with the same origin,
+  // ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& fan(std::uint32_t v) const { return fans_.at(origin_of_[v].index()); }
   // Whether a triangle is at a vertex itself.
   [[nodiscard]] bool is_at(std::uint32_t t, std::uint32_t v) const {
     return std::find(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v) != mesh_.triangles[t].end();
   }
-  // Those in the fans of the vertices of the triangles at the group's copies; where a copy has other homes, which may
-  // lie farther away, also those that meet a box around these homes and the triangles at the copy. Ascending.
+  // The triangles around a group: the fans of all vertices of the triangles at its copies. If a copy has other
+  // positions, which may lie farther away, also the triangles that meet a box around these positions and the triangles
+  // at the copy. Ascending.
   [[nodiscard]] std::vector<std::uint32_t> triangles(std::size_t group) const;
 
  private:
   void find_fans();
-  void find_those_near_homes();
+  void find_those_near_other_positions();
 
   const SurfaceMesh& mesh_;
   std::span<const PinchGroup> groups_;
   std::span<const VertexId> origin_of_;
-  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;        // by origin
-  std::unordered_map<std::size_t, std::vector<std::uint32_t>> near_homes_;  // by group, for those with other homes
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> fans_;  // by origin
+  // By group, for those with other positions.
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> near_other_positions_;
 };
 
 }  // namespace deliso

@@ -14,15 +14,15 @@ namespace deliso {
 
 namespace {
 
-// Distances tried, in mesh-space units, the last one in stubborn sweeps only; and the largest fraction of the shortest
-// edge at the copy.
+// Distances tried, in mesh-space units; the last one only in stubborn sweeps. kEdgeFraction bounds the distance, as a
+// fraction of the shortest edge at the copy.
 constexpr std::array<double, 4> kDistances = {2e-4, 4e-5, 8e-6, 8e-4};
 static_assert(kDistances.back() < kPinchSeparation);
 constexpr double kEdgeFraction = 0.05;
 constexpr int kCrossingWeight = 100;
-// Sweeps over all groups: in the first one neighbouring copies may still share their place.
+// Sweeps over all groups. During the first one neighbouring copies may still share their position.
 constexpr int kSweeps = 3;
-// Further sweeps with more directions and a larger distance, where conflicts are left.
+// Further sweeps with more directions and a larger distance, if conflicts are left.
 constexpr int kStubbornSweeps = 2;
 
 class Separation {
@@ -38,11 +38,11 @@ class Separation {
         moved_at_(groups.empty() ? 0 : mesh.points.size(), 0) {
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       chosen_.push_back(i);
-      for (const Copy& copy : groups_[i]) home_[copy.vertex] = mesh_.points[copy.vertex];
+      for (const Copy& copy : groups_[i]) own_position_[copy.vertex] = mesh_.points[copy.vertex];
     }
   }
 
-  // Leaves groups out that have no wanted copy and make no difference to one that has.
+  // Leaves out groups that neither have a wanted copy nor influence one.
   void choose(const std::function<bool(std::uint32_t)>& is_wanted);
 
   void run() {
@@ -54,7 +54,7 @@ class Separation {
   }
 
  private:
-  // A triangle as it was when last looked at.
+  // A triangle around the group, as of the last look_again_at().
   struct Surrounding {
     std::uint32_t triangle = 0;
     Box3 box;
@@ -63,7 +63,7 @@ class Separation {
 
   struct Sweep {
     bool has_moved = false;
-    bool had_conflicts = false;  // some copy had, when its turn came
+    bool had_conflicts = false;  // a copy had conflicts before it was moved
   };
   Sweep sweep_over_groups(bool all, bool is_stubborn);
   const std::vector<std::uint32_t>& triangles_around(std::size_t group);
@@ -73,7 +73,7 @@ class Separation {
   void move(const Copy& copy, int fewest, bool is_stubborn);
   [[nodiscard]] int conflicts(std::uint32_t copy, int most = std::numeric_limits<int>::max());
   [[nodiscard]] int unavoidable_conflicts(std::uint32_t copy) const;
-  [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& home) const;
+  [[nodiscard]] double shortest_edge(std::uint32_t copy, const Vec3& position) const;
 
   [[nodiscard]] bool has_area_at(std::uint32_t t) const {
     const auto& v = mesh_.triangles[t];
@@ -84,12 +84,12 @@ class Separation {
   std::span<const PinchGroup> groups_;
   PinchNeighbourhoods around_;
   const Box3& box_;
-  std::vector<Surrounding> surroundings_;         // triangles around the group at hand
-  std::unordered_map<std::uint32_t, Vec3> home_;  // where each copy came from
-  std::vector<std::size_t> chosen_;               // groups to separate, ascending
+  std::vector<Surrounding> surroundings_;                 // triangles around the group at hand
+  std::unordered_map<std::uint32_t, Vec3> own_position_;  // the own position of each copy
+  std::vector<std::size_t> chosen_;                       // groups to separate, ascending
 
   std::vector<std::vector<std::uint32_t>> triangles_;  // around each group, once they have been asked for
-  std::uint32_t turn_ = 0;                             // of a group at which something may move, counted through
+  std::uint32_t turn_ = 0;                             // counts the groups visited in all sweeps
   std::vector<std::uint32_t> settled_at_;              // of each group: the last turn that found no conflicts; or 0
   std::vector<std::uint32_t> moved_at_;                // of each vertex: the last turn that moved it; or 0
 };
@@ -118,8 +118,8 @@ Separation::Sweep Separation::sweep_over_groups(bool all, bool is_stubborn) {
   return sweep;
 }
 
-// What is done with a group depends on the vertices of the triangles around it alone, and sweeps that only others need
-// move none of its copies.
+// What happens to a group depends only on the vertices of the triangles around it. Further sweeps that only other
+// groups need do not move its copies.
 void Separation::choose(const std::function<bool(std::uint32_t)>& is_wanted) {
   const auto visit_vertices_around = [&](std::size_t group, const auto& visit) {
     for (const std::uint32_t t : triangles_around(group)) {
@@ -134,7 +134,7 @@ const std::vector<std::uint32_t>& Separation::triangles_around(std::size_t group
   return triangles_[group];
 }
 
-// Whether no copy had conflicts and nothing around has moved since.
+// Whether no copy had conflicts at the last visit and nothing around has moved since.
 bool Separation::is_settled(std::size_t group) {
   if (settled_at_[group] == 0) return false;
   const std::vector<std::uint32_t>& triangles = triangles_around(group);
@@ -149,39 +149,39 @@ void Separation::find_surroundings(std::size_t group) {
   for (const std::uint32_t t : triangles_around(group)) surroundings_.push_back({t, box_of(mesh_, t), has_area_at(t)});
 }
 
-// A copy may have moved, and the triangles at it with it.
+// Updates the triangles at a copy, which may have moved.
 void Separation::look_again_at(std::uint32_t copy) {
   for (Surrounding& t : surroundings_) {
     if (around_.is_at(t.triangle, copy)) t = {t.triangle, box_of(mesh_, t.triangle), has_area_at(t.triangle)};
   }
 }
 
-double Separation::shortest_edge(std::uint32_t copy, const Vec3& home) const {
+double Separation::shortest_edge(std::uint32_t copy, const Vec3& position) const {
   double shortest = box_.diagonal();
   for (const std::uint32_t t : around_.fan(copy)) {
     if (!around_.is_at(t, copy)) continue;
     for (const std::uint32_t v : mesh_.triangles[t]) {
-      const double length = distance(home, mesh_.points[v]);
+      const double length = distance(position, mesh_.points[v]);
       if (v != copy && length > 2 * kDistances.front()) shortest = std::min(shortest, length);
     }
   }
   return shortest;
 }
 
-// Takes the trial that leaves the fewest conflicts, the first of equals, if these are fewer than `fewest`.
+// Tries positions and takes the one with the fewest conflicts, the first of equals, if these are fewer than `fewest`.
 void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   const std::uint32_t v = copy.vertex;
   Vec3 best = mesh_.points[v];
   const int least = unavoidable_conflicts(v);
-  std::vector<Vec3> homes = copy.other_homes;
-  homes.insert(homes.begin(), home_[v]);
-  for (const Vec3& home : homes) {
-    const double farthest = kEdgeFraction * shortest_edge(v, home);
-    mesh_.points[v] = home;
+  std::vector<Vec3> positions = copy.other_positions;
+  positions.insert(positions.begin(), own_position_[v]);
+  for (const Vec3& position : positions) {
+    const double farthest = kEdgeFraction * shortest_edge(v, position);
+    mesh_.points[v] = position;
     for (const Vec3& towards : pinch_directions(mesh_, around_, box_, v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest <= least) break;
-        mesh_.points[v] = home + std::min(length, farthest) * towards;
+        mesh_.points[v] = position + std::min(length, farthest) * towards;
         const int left = conflicts(v, fewest);
         if (left >= fewest) continue;
         fewest = left;
@@ -193,8 +193,9 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
   look_again_at(v);
 }
 
-// Counts pairs of a triangle at this copy and one around its group that meet where they should not. Copies of a
-// neighbouring vertex may still share their place, so touching counts less. Counts no further than `most`.
+// Counts the pairs of a triangle at this copy and a triangle around its group that meet beyond what they share. Copies
+// of a neighbouring vertex may still share their position, so touching counts less than crossing. Stops counting at
+// `most`.
 int Separation::conflicts(std::uint32_t copy, int most) {
   look_again_at(copy);
   int count = 0;
@@ -209,7 +210,7 @@ int Separation::conflicts(std::uint32_t copy, int most) {
     for (const Surrounding& t : surroundings_) {
       if (s == t.triangle || !box.meets(t.box) || !t.has_area) continue;
       const bool is_at_copy = around_.is_at(t.triangle, copy);
-      if (is_at_copy && t.triangle < s) continue;  // counted from there
+      if (is_at_copy && t.triangle < s) continue;  // counted when t and s change roles
       const TriangleContact contact = triangle_contact(mesh_.points, mesh_.triangles[s], mesh_.triangles[t.triangle]);
       if (contact == TriangleContact::kNone) continue;
       count += (is_at_copy ? 2 : 1) * (contact == TriangleContact::kTouching ? 1 : kCrossingWeight);
@@ -218,7 +219,8 @@ int Separation::conflicts(std::uint32_t copy, int most) {
   return count;
 }
 
-// A bound of conflicts(copy) wherever the copy is: other corners of its triangles may stand where vertices around do.
+// A lower bound of conflicts(copy) for every position of the copy: other corners of its triangles may coincide with
+// vertices around it.
 int Separation::unavoidable_conflicts(std::uint32_t copy) const {
   int count = 0;
   for (const std::uint32_t s : around_.fan(copy)) {

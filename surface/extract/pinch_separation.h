@@ -1,4 +1,4 @@
-// Moves copies of a vertex apart, so that a mesh which touches itself there does so no more.
+// Moves copies of a vertex apart, so that the mesh no longer touches itself there.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace deliso {
 
-// Each copy moves a hair's breadth (at most 2e-4 mesh-space units, or 8e-4 where that does not do) towards one side of
-// its own triangles, in a direction that all of them see from that side, so that its fan shrinks away from the others;
-// vertices on the box stay on their face. Which side, and how far, is found by trial with exact tests of the triangles
-// around. `origin_of` names, for each mesh vertex, what it is a copy of: triangles that share no vertex but an origin
-// are tested, too. When only some vertices are wanted (is_wanted(vertex)), the others are of no use afterwards: copies
-// that are neither wanted nor can make a difference to wanted ones stay where they are.
+// Each copy moves by at most 2e-4 mesh-space units (8e-4 where that is not enough), to one side of all its own
+// triangles if such a direction exists, so that its fan shrinks away from the others. Vertices on the box stay on their
+// face. The side and the distance are found by trial, with exact tests of the triangles around. `origin_of` gives, for
+// each mesh vertex, the vertex that it is a copy of: triangles that share no vertex but an origin are tested, too. If
+// is_wanted is given, only the vertices with is_wanted(vertex) are used afterwards: copies that are neither wanted nor
+// influence a wanted one stay where they are.
 void separate_pinches(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
                       const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted = {});
 

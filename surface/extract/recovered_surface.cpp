@@ -10,7 +10,8 @@
 
 namespace deliso {
 
-// Without one sign per tetrahedron the tetrahedra get the signs that the restricted facets ask for, if there are any.
+// Without one sign per tetrahedron the tetrahedra get the signs that follow from the restricted facets, if these are
+// consistent.
 UnrepairedSurface::UnrepairedSurface(std::unique_ptr<RestrictedDelaunay> restricted, const Parameters& parameters)
     : restricted_(std::move(restricted)), rule_(parameters.stage2.pole_height) {
   if (parameters.stage1.one_sign_per_tetrahedron) return;

@@ -11,7 +11,7 @@
 
 namespace deliso {
 
-// To be called once each, in this order.
+// Call compute_poles, build_triangle_mesh and mend once each, in this order.
 class RecoveredSurface {
  public:
   RecoveredSurface() = default;
@@ -23,13 +23,13 @@ class RecoveredSurface {
   virtual void compute_poles() = 0;
   // BuildTriMesh: the mesh, with pole heights.
   virtual SurfaceMesh build_triangle_mesh() = 0;
-  // What is done to the mesh before RefineGeom; the paper does nothing.
+  // Changes to the mesh before RefineGeom; none in the paper.
   virtual void mend(SurfaceMesh& /*mesh*/) {}
-  // How long mending has spent on ComputePoles and BuildTriMesh of further meshes.
+  // Seconds that mend() has spent on ComputePoles and BuildTriMesh of further meshes.
   [[nodiscard]] virtual double inner_poles_seconds() const { return 0; }
   [[nodiscard]] virtual double inner_build_seconds() const { return 0; }
-  // False only without one sign per tetrahedron: the restricted facets bound no set of tetrahedra, so they are the mesh
-  // as they are, and RefineGeom is left out.
+  // False only without one sign per tetrahedron: then the restricted facets bound no set of tetrahedra, so they are
+  // output unchanged as the mesh, and RefineGeom is left out.
   [[nodiscard]] virtual bool bounds_a_solid() const { return true; }
 };
 

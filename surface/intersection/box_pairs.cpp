@@ -32,7 +32,8 @@ std::vector<typename BoxPairs<Real>::Task> BoxPairs<Real>::tasks() const {
   std::vector<Task> tasks = {{level, 0, 0}};
   while (level > 0 && levels_[level].size() < kTaskBlocks) {
     std::vector<Task> below;
-    // The pairs of parts are blocks of the level below: these stop one level earlier than those of boxes.
+    // A pair of blocks is split into pairs of their parts, which are blocks of the level below; this ends one level
+    // above the boxes.
     const auto add = [&](std::uint32_t a, std::uint32_t b) { below.push_back({level - 1, a, b}); };
     for (const Task& task : tasks) {
       const Block &of_a = levels_[level][task.a], &of_b = levels_[level][task.b];

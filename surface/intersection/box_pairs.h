@@ -1,13 +1,13 @@
 // Pairs of boxes that may meet, among many.
 //
-// Boxes near each other in space stand near each other, as in the order of halving (surface/search/kd_order.h):
-// eight in a row make a block, eight blocks one of the next level, up to a single one. A block holds the boxes of its
-// eight parts side by side, so that a box is compared with all of them at once; only blocks of the same level are
-// compared.
+// Boxes near each other in space are stored near each other, in the order of repeated halving
+// (surface/search/kd_order.h). Eight consecutive boxes form a block, eight blocks a block of the next level, up to a
+// single one. A block stores the boxes of its eight parts side by side, so that a box is compared with all of them at
+// once. Only blocks of the same level are compared.
 //
-// In floats this takes half as long as in doubles. Rounding to floats keeps the order of numbers, so boxes that have a
-// point in common still have one; but those that are apart by less than the rounding, some 2^-24 of the whole, seem to
-// have one, too: where many boxes are smaller than that, only doubles tell them apart.
+// Floats take half the time of doubles. Rounding to floats keeps the order of numbers, so boxes that have a point in
+// common still have one. But boxes whose distance is below the rounding, about 2^-24 of the whole, also seem to have
+// one. So doubles are needed where many boxes are smaller than that.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ namespace deliso {
 
 inline constexpr std::size_t kBoxesPerRow = 8;
 
-// Three labels of each of eight boxes in a row, side by side. Boxes with a label in common are no pair. A label with
-// the top bit set counts for nothing.
+// Three labels for each of eight consecutive boxes, side by side. Two boxes with a common label do not count as a pair.
+// A label with the top bit set is ignored.
 class LabelRow {
  public:
   static constexpr std::uint32_t kVoid = 1U << 31;
@@ -37,7 +37,7 @@ class LabelRow {
     for (std::size_t k = 0; k < 3; ++k) labels_[k][i] = labels[k];
   }
   [[nodiscard]] Labels of(std::size_t i) const { return {labels_[0][i], labels_[1][i], labels_[2][i]}; }
-  // Bit i: whether box i has a label in common with box k of another row.
+  // Bit i: whether box i shares a label with box k of another row.
   [[nodiscard]] std::uint32_t sharing(const LabelRow& other, std::size_t k) const {
     const std::uint32_t x = other.valid(0, k), y = other.valid(1, k), z = other.valid(2, k);
     return bits_where<kBoxesPerRow>([&](std::size_t i) {
@@ -46,7 +46,7 @@ class LabelRow {
              mask_of(c == x) | mask_of(c == y) | mask_of(c == z);
     });
   }
-  // The same for that label of box 0 which the most boxes have.
+  // The same within this row, for the label of box 0 that the most boxes share.
   [[nodiscard]] std::uint32_t sharing_one() const {
     std::uint32_t most = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -60,7 +60,7 @@ class LabelRow {
   }
 
  private:
-  // Label k of box i, or for a void one the largest number, which is none.
+  // Label k of box i; for an ignored label the largest number, which equals no label.
   [[nodiscard]] std::uint32_t valid(std::size_t k, std::size_t i) const {
     const std::uint32_t label = labels_[k][i];
     return label < kVoid ? label : ~0U;
@@ -72,8 +72,8 @@ class LabelRow {
 template <class Real>
 class BoxPairs {
  public:
-  // Of `count` boxes; box_of(i) gives the box at place i, none has a point below `low`. Empty boxes are in no pair.
-  // `labels`: rows of eight in the order of places, kept as a reference.
+  // For `count` boxes; box_of(i) gives the box at index i, none has a point below `low`. Empty boxes are in no pair.
+  // `labels`: rows of eight in the same order, kept as a reference.
   template <class BoxOf>
   BoxPairs(std::size_t count, const Vec3& low, std::span<const LabelRow> labels, BoxOf&& box_of) : labels_(labels) {
     if (count == 0) return;
@@ -82,14 +82,14 @@ class BoxPairs {
     enclose();
   }
 
-  // Pairs that can be looked for apart from all others.
+  // A set of pairs that can be searched independently of all others.
   struct Task {
     std::uint32_t level = 0, a = 0, b = 0;  // blocks; the same for pairs within one
   };
   [[nodiscard]] std::vector<Task> tasks() const;
 
-  // Calls visit(i, j) once for each pair of places of the task whose boxes have a point in common, faces included, and
-  // no label; and in floats for others that are apart by less than the rounding.
+  // Calls visit(i, j) once for each pair of the task whose boxes have a point in common, faces included, and no common
+  // label. With floats it also visits boxes whose distance is below the rounding.
   template <class Visit>
   void for_each(const Task& task, Visit&& visit) const {
     task.a == task.b ? within(task.level, task.a, visit) : between(task.level, task.a, task.b, visit);
@@ -102,7 +102,7 @@ class BoxPairs {
   struct Bounds {
     std::array<Real, 3> low{}, high{};
   };
-  // The boxes of eight parts, coordinate by coordinate; what there is none of is empty.
+  // The boxes of eight parts, coordinate by coordinate; missing parts are empty.
   struct Block {
     std::array<std::array<Real, kParts>, 3> low, high;
 
@@ -117,7 +117,7 @@ class BoxPairs {
       }
     }
     [[nodiscard]] Bounds bounds() const;
-    // Bit i: whether part i and part j of another block have a point in common.
+    // Bit i: whether part i meets part j of another block.
     [[nodiscard]] std::uint32_t meeting(const Block& other, std::size_t j) const {
       const std::array<Real, 3> other_low = {other.low[0][j], other.low[1][j], other.low[2][j]};
       const std::array<Real, 3> other_high = {other.high[0][j], other.high[1][j], other.high[2][j]};
@@ -153,7 +153,7 @@ class BoxPairs {
   void between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const;
   template <class Visit>
   void between_rows(std::uint32_t a, std::uint32_t b, Visit& visit) const;
-  // Of block a of a level, the parts that meet block b.
+  // The parts of block a of a level that meet block b.
   [[nodiscard]] std::uint32_t parts_meeting(std::uint32_t level, std::uint32_t a, std::uint32_t b) const {
     return levels_[level][a].meeting(levels_[level + 1][b / kParts], b % kParts);
   }
@@ -177,7 +177,7 @@ void BoxPairs<Real>::within(std::uint32_t level, std::uint32_t a, Visit& visit) 
   }
 }
 
-// As a rule nearly all have one label in common: only the others are looked at.
+// As a rule nearly all boxes share one label: only pairs with the others are examined.
 template <class Real>
 template <class Visit>
 void BoxPairs<Real>::within_row(std::uint32_t a, Visit& visit) const {
@@ -194,7 +194,7 @@ template <class Real>
 template <class Visit>
 void BoxPairs<Real>::between(std::uint32_t level, std::uint32_t a, std::uint32_t b, Visit& visit) const {
   if (level == 0) return between_rows(a, b, visit);
-  // Of the one block the parts that meet the other block, of the other the parts that meet these.
+  // The parts of one block that meet the other block; then the parts of the other that meet these.
   const Block &of_a = levels_[level][a], &of_b = levels_[level][b];
   for_each_bit(parts_meeting(level, a, b), [&](std::uint32_t i) {
     for_each_bit(of_b.meeting(of_a, i),

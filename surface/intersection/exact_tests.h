@@ -1,4 +1,4 @@
-// The exact predicates as volume wants them handed in.
+// The exact predicates in the form in which marching cubes takes them.
 #pragma once
 
 #include "delaunay/predicates.h"

@@ -12,23 +12,23 @@ namespace {
 
 using Triangles = VertexCorners::Triangles;
 
-constexpr std::size_t kMostTriangles = 16;  // of a vertex that is looked at
+constexpr std::size_t kMostTriangles = 16;  // vertices with more triangles are not examined
 constexpr std::size_t kMostTasks = 16, kFewestVertices = 8192;
 
-// Looks at one vertex after the other.
+// Examines one vertex after the other.
 class VertexExamination {
  public:
   VertexExamination(Triangles triangles, std::span<const ProjectedTriangle> projected, std::size_t vertices)
       : triangles_(triangles), projected_(projected), place_(vertices) {}
 
-  // Seen along an axis in which all triangles have the same sense, the edges of the link go around the vertex, each by
-  // less than half a turn. So with every full turn they change sides of a line through the vertex twice, and once
-  // around is the way of a single closed walk.
+  // In the projection along an axis in which all triangles have the same orientation, each edge of the link turns
+  // around the vertex by less than half a turn. With every full turn the edges cross a line through the vertex twice.
+  // So if they cross it twice, the link is a single closed walk around the vertex.
   bool is_laid_out(std::span<const TriangleCorner> corners) {
     constexpr std::array<std::size_t, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
     if (corners.size() < 3 || corners.size() > kMostTriangles) return false;
     std::array<std::uint32_t, kMostTriangles> begins{}, ends{};
-    std::uint32_t senses = 63, changes = 0;  // of these eight bits for each axis
+    std::uint32_t senses = 63, changes = 0;  // eight bits for each axis
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t t = corners[i] >> 2, corner = corners[i] & 3;
       const std::uint32_t straddles = projected_[t].straddles(corner);
@@ -42,7 +42,7 @@ class VertexExamination {
     const std::uint32_t once_around = (is_twice_along_x ? 6U : 0U) | (is_twice_along_y ? 1U : 0U);
     if (((senses | senses >> 3) & once_around) == 0) return false;
 
-    // The edges close up when each end of one is the beginning of one, each of another one.
+    // The edges form a closed walk when each end of an edge is the beginning of exactly one edge.
     std::uint32_t seen = 0, others = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::size_t place = place_[ends[i]];
@@ -55,13 +55,13 @@ class VertexExamination {
  private:
   Triangles triangles_;
   std::span<const ProjectedTriangle> projected_;
-  std::vector<std::uint8_t> place_;  // of the last edge that began at a vertex, below kMostTriangles
+  std::vector<std::uint8_t> place_;  // for each vertex: index of the last edge that began there, below kMostTriangles
 };
 
 }  // namespace
 
 ProjectedTriangle::ProjectedTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  // Of a determinant of rounded differences (Shewchuk 1997); the summand covers products that underflow.
+  // The error of a determinant of rounded differences (Shewchuk 1997); the summand covers products that underflow.
   constexpr double kRelative = 3.3306690738754716e-16, kUnderflow = 1e-300;
   const Vec3 p = a - c, q = b - c;
   const auto senses_along = [&](std::size_t axis) {

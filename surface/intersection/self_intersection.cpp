@@ -21,7 +21,7 @@ Box3 box_of(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& tr
   return box;
 }
 
-// Counts a pair, and keeps it when it is among the first ones by number: pairs come in the order of halving.
+// Counts pairs, and keeps those that come first by number: pairs are found in another order.
 class PairCollector {
  public:
   explicit PairCollector(std::size_t keep) : keep_(keep) {}
@@ -67,9 +67,9 @@ Vec3 middle_of_common(const Box3& a, const Box3& b) {
   return middle;
 }
 
-// The triangles that have an area in rows of eight places, umbrella by umbrella in the order of halving, and their
-// vertices in the order in which they come there: so what lies near each other in space does so in memory. Where
-// nothing can meet at a vertex its number is a label of its triangles.
+// The triangles that have an area, in rows of eight, umbrella by umbrella in the order of repeated halving; and their
+// vertices in the order in which they occur there. So neighbours in space are neighbours in memory. If no triangles can
+// meet at a vertex (injective_umbrellas.h), its number is a label of its triangles.
 class OrderedTriangles {
  public:
   using Corners = std::array<std::uint32_t, 3>;
@@ -79,7 +79,7 @@ class OrderedTriangles {
     for (const Vec3& p : points) whole_.extend(p);
     std::vector<std::uint8_t> laid_out;
     {
-      // Gone before the new arrays are made, for the peak of a whole run may lie here.
+      // Freed before the new arrays are made, because the peak memory of a whole run may be here.
       std::vector<ProjectedTriangle> projected;
       std::vector<std::uint8_t> has_area;
       look_at(points, triangles, projected, has_area);
@@ -90,13 +90,13 @@ class OrderedTriangles {
     renumber(points, triangles, laid_out);
   }
 
-  // Triangles, and places for them: there may be more places.
+  // The number of slots for triangles; some may be empty.
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t places() const { return numbers_.size(); }
   [[nodiscard]] bool is_empty(std::size_t i) const { return numbers_[i] == kNone; }
-  // In the numbers of the input.
+  // The number of a triangle in the input.
   [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
-  // In numbers of their own.
+  // In the order of occurrence.
   [[nodiscard]] Corners corners(std::size_t i) const {
     Corners corners = labels_[i / kBoxesPerRow].of(i % kBoxesPerRow);
     for (std::uint32_t& v : corners) v &= ~LabelRow::kVoid;
@@ -104,9 +104,9 @@ class OrderedTriangles {
   }
   [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }
   [[nodiscard]] const std::vector<LabelRow>& labels() const { return labels_; }
-  // All points lie in it.
+  // A box that holds all points.
   [[nodiscard]] const Box3& whole() const { return whole_; }
-  // Empty where no triangle is.
+  // Empty if there is no triangle in the slot.
   [[nodiscard]] Box3 box(std::size_t i) const { return is_empty(i) ? Box3{} : box_of(points_, corners(i)); }
 
   [[nodiscard]] TrianglePair pair(std::uint32_t i, std::uint32_t j, TriangleContact contact) const {
@@ -129,7 +129,7 @@ class OrderedTriangles {
     }
   }
 
-  // Gives the rows their order and the triangles their places. Rows that have room for the next one take it in.
+  // Orders the rows and assigns slots to the triangles. A row that has room for the next row takes it in.
   void place(const std::vector<UmbrellaBatch>& rows, std::span<const Vec3> points, int threads) {
     const CentreLattice lattice(whole_);
     std::vector<LatticePlace> centres;
@@ -137,7 +137,7 @@ class OrderedTriangles {
     for (std::size_t r = 0; r < rows.size(); ++r) centres.push_back(lattice.place(points[rows[r].vertex], r));
     const auto centre_of = [&](std::uint32_t r) { return points[rows[r].vertex]; };
     numbers_.reserve(kBoxesPerRow * rows.size());
-    std::size_t left = 0;  // in the last row
+    std::size_t left = 0;  // free slots in the last row
     for (const std::uint32_t r : kd_order(std::move(centres), centre_of, threads)) {
       const UmbrellaBatch& row = rows[r];
       if (row.count > left) {
@@ -177,9 +177,10 @@ class OrderedTriangles {
   Box3 whole_;
 };
 
-// Whether floats tell most triangles apart: asks the first ones of rows.
+// Whether floats distinguish most boxes; examines the first triangles of rows.
 bool floats_do(const OrderedTriangles& triangles) {
-  constexpr double kSmallest = 0x1p-19;  // of the whole; a rounded coordinate is off by 2^-25 of it at most
+  // As a fraction of the whole; rounding moves a coordinate by at most 2^-25 of it.
+  constexpr double kSmallest = 0x1p-19;
   constexpr std::size_t kMostSmall = 128;
   const double smallest = kSmallest * norm(triangles.whole().size());
   std::size_t small = 0;
@@ -189,7 +190,7 @@ bool floats_do(const OrderedTriangles& triangles) {
   return small <= kMostSmall;
 }
 
-// Broad phase: pairs of boxes that touch, but not pairs at a vertex around which nothing meets; narrow phase: exact
+// Broad phase: pairs of boxes that touch, except pairs at a vertex whose triangles cannot meet. Narrow phase: exact
 // tests.
 template <class Real>
 PairCollector find_pairs(std::span<const std::uint8_t> marks, const OrderedTriangles& ordered, std::size_t keep,

@@ -1,4 +1,4 @@
-// Pairs of triangles of a mesh that meet where they should not, decided exactly on the given coordinates: crossing and
+// Pairs of triangles of a mesh that meet beyond what they share, decided exactly on the given coordinates: crossing and
 // touching ones (delaunay/triangle_contact.h). Triangles of zero area have no plane; they are counted and left out.
 #pragma once
 
@@ -27,13 +27,13 @@ struct SelfIntersections {
   std::vector<TrianglePair> touching;    // the same
 };
 
-// All pairs; at most `keep` of each kind are kept, the same for any number of threads. Precondition: indices in range,
-// coordinates as orient3d wants them (delaunay/predicates.h).
+// Finds all pairs and keeps at most `keep` of each kind, the same for any number of threads. Precondition: indices in
+// range, coordinates as orient3d requires them (delaunay/predicates.h).
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
                                      int threads = 1);
-// The same of the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
-// none: then all count. A mesh that is moved in is freed before the search, where the most memory is needed.
+// The same for the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
+// none, which marks all. The mesh, if moved in, is freed before the search, which needs the most memory.
 SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep = 10,
                                         int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {

@@ -7,7 +7,7 @@ namespace deliso {
 namespace {
 
 constexpr std::uint32_t kNoRow = 0xFFFFFFFFU;
-constexpr std::size_t kMostLookedAt = 16;  // corners of a vertex
+constexpr std::size_t kMostLookedAt = 16;  // corners of a vertex examined
 
 class RowMaker {
  public:
@@ -18,7 +18,7 @@ class RowMaker {
 
   [[nodiscard]] bool is_left(std::size_t t) const { return row_of_[t] == kNoRow; }
 
-  // Makes a row of the umbrella of a vertex, if none of its triangles is in one. To be called before take_triangle().
+  // Makes a row of the umbrella of a vertex, if none of its triangles is in a row yet. Call before take_triangle().
   void take_umbrella(std::uint32_t v) {
     if (is_taken_[v] != 0) return;
     const auto corners = corners_.at(v);
@@ -30,7 +30,7 @@ class RowMaker {
     }
   }
 
-  // Puts a triangle into a row with room that has a triangle at one of its vertices, or into a new one.
+  // Puts a triangle into a row that has room and a triangle at one of its vertices, or into a new row.
   void take_triangle(std::uint32_t t) {
     for (const std::uint32_t v : triangles_[t]) {
       const auto corners = corners_.at(v);
@@ -58,7 +58,7 @@ class RowMaker {
   VertexCorners::Triangles triangles_;
   const VertexCorners& corners_;
   std::vector<std::uint32_t> row_of_;
-  std::vector<std::uint8_t> is_taken_;  // of a vertex, whether a triangle of its umbrella is in a row
+  std::vector<std::uint8_t> is_taken_;  // of each vertex: whether a triangle of its umbrella is in a row
   std::vector<UmbrellaBatch> rows_;
 };
 

@@ -1,8 +1,8 @@
-// The triangles of a mesh in rows of eight at most, each as a rule the umbrella of one vertex.
+// The triangles of a mesh in rows of at most eight, most rows being the umbrella of one vertex.
 //
-// Umbrellas of vertices that are no neighbours share no triangle, and as many as fit cover most of a mesh. What is left
-// over fills up rows beside it. So rows are small in space, there is little more of them than must be, and the
-// triangles of a row have nearly all a vertex in common.
+// Umbrellas of vertices that are no neighbours share no triangle, and a maximal set of such umbrellas covers most of a
+// mesh. The remaining triangles fill up neighbouring rows. So rows are small in space, there are few more rows than
+// necessary, and nearly all triangles of a row share a vertex.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ struct UmbrellaBatch {
   std::uint32_t vertex = 0;  // of the first triangle
 };
 
-// Rows of the triangles that takes_part[t] names (not 0), each in one of them. Precondition: `corners` are theirs.
+// Rows of the triangles with takes_part[t] not 0, each in one row. Precondition: `corners` are those of these
+// triangles.
 std::vector<UmbrellaBatch> umbrella_batches(VertexCorners::Triangles triangles,
                                             std::span<const std::uint8_t> takes_part, const VertexCorners& corners,
                                             std::size_t vertices);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
-// The angle between two vectors, by sine and cosine times their lengths: accurate for small and flat angles alike, and
-// compared without an arctangent.
+// The angle between two vectors, stored as its sine and cosine times their lengths. This is accurate for small and flat
+// angles alike, and angles compare without an arctangent.
 struct Angle {
   double across = 0;
   double along = 1;
@@ -27,7 +27,8 @@ struct Angle {
 Angle angle_between(const Vec3& u, const Vec3& v) { return {norm(cross(u, v)), dot(u, v)}; }
 bool is_larger(const Angle& a, const Angle& b) { return b.along * a.across > a.along * b.across; }
 
-// The triangle 0bc at about unit size, where its own could let products overflow or underflow. False when it has none.
+// Scales the triangle 0bc to about unit size, so that products neither overflow nor underflow. False when its corners
+// coincide.
 bool bring_to_size(Vec3& b, Vec3& c) {
   constexpr double kModest = 0x1p100;
   constexpr int kLargest = 1000;  // a power of two that still has an inverse
@@ -41,18 +42,18 @@ bool bring_to_size(Vec3& b, Vec3& c) {
   return true;
 }
 
-// A triangle from its first corner on, and its edges.
+// The edges of a triangle, seen from its first corner.
 struct Edges {
   Vec3 b, c;                           // the other two corners
-  std::array<double, 3> across{};      // the length across from each corner
-  unsigned smallest = 0, largest = 0;  // the corners across from the shortest and from the longest edge
+  std::array<double, 3> across{};      // the length of the edge opposite each corner
+  unsigned smallest = 0, largest = 0;  // the corners opposite the shortest and the longest edge
 };
 
 Edges edges_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   Edges edges{0.5 * b - 0.5 * a, 0.5 * c - 0.5 * a};  // halved terms cannot overflow
   if (!bring_to_size(edges.b, edges.c)) return edges;
   edges.across = {norm(edges.c - edges.b), norm(edges.c), norm(edges.b)};
-  // Which they are cannot be foretold, so corners are picked by number.
+  // Which edges these are is unpredictable, so corners are selected by number.
   const auto& across = edges.across;
   const auto corner_across = [&](double length) {
     return static_cast<unsigned>(length != across[0]) * (1u + static_cast<unsigned>(length != across[1]));
@@ -68,10 +69,10 @@ struct TriangleShape {
   bool is_degenerate = true;
 };
 
-// Figures of some triangles.
+// Quality figures of some triangles.
 struct Figures {
   double min_angle = 180;
-  Angle max_angle = {1, 1};  // less than that of any triangle
+  Angle max_angle = {1, 1};  // starts above the largest angle of any triangle
   double sum_of_min_angles = 0;
   std::int64_t below_30 = 0;
   std::int64_t degenerate = 0;
@@ -99,13 +100,13 @@ struct Figures {
   }
 };
 
-// Each angle from its own two edges. Counts the largest one.
+// Each angle from its own two edges. Adds the largest one to the figures.
 TriangleShape shape_of(const Edges& edges, Figures& figures) {
   const std::array<Vec3, 3> corners = {Vec3{}, edges.b, edges.c};
   const auto leaving = [&](unsigned i, unsigned turn) { return corners[(i + turn) % 3] - corners[i]; };
   const auto [smallest, largest] = std::pair(edges.smallest, edges.largest);
   if (edges.across[smallest] == 0) {
-    figures.add_largest({1, 0});  // a right one
+    figures.add_largest({1, 0});  // a right angle
     return {};
   }
   figures.add_largest(angle_between(leaving(largest, 1), leaving(largest, 2)));
@@ -115,14 +116,14 @@ TriangleShape shape_of(const Edges& edges, Figures& figures) {
   // R / l = l1 l2 / (2 |cross|) with the two longer edges l1, l2: R = l l1 l2 / (4 area).
   const double doubled_area = norm(cross(edges.b, edges.c));
   const double longer = edges.across[(smallest + 1) % 3] * edges.across[(smallest + 2) % 3];
-  // An area within rounding of zero (of products of unit numbers) says nothing.
+  // An area within rounding of zero (for products of numbers near 1) is meaningless.
   shape.is_degenerate = doubled_area <= 4e-16 * longer;
   if (!shape.is_degenerate) shape.radius_edge = std::min(longer / (2 * doubled_area), kDegenerateRadiusEdge);
   return shape;
 }
 
-// Step by step for a few triangles at a time, whose points have been fetched ahead: none waits for the roots of
-// another.
+// A few triangles at a time, step by step, with their points prefetched: so the square roots of different triangles
+// overlap.
 void measure(const TriangleMesh& mesh, std::size_t first, std::size_t last, Figures& figures,
              std::span<double> radius_edges) {
   constexpr std::size_t kTogether = 8;
@@ -149,7 +150,7 @@ void measure(const TriangleMesh& mesh, std::size_t first, std::size_t last, Figu
 
 MeshQuality measure_quality(const TriangleMesh& mesh, int threads) {
   if (mesh.triangles.empty()) return {};
-  // By blocks, which are added in order.
+  // By blocks, whose results are added in order.
   std::vector<double> radius_edges(mesh.triangles.size());
   std::vector<Figures> blocks((mesh.triangles.size() + kBlockSize - 1) / kBlockSize);
   for_each_block(mesh.triangles.size(), threads, [&](std::size_t first, std::size_t last) {

@@ -8,12 +8,12 @@
 
 namespace deliso {
 
-// The radius-edge ratio that stands for the infinite one of a degenerate triangle: finite, so that JSON can hold it,
-// and beyond every ratio of a triangle that doubles can tell from a degenerate one.
+// The radius-edge ratio reported for a degenerate triangle instead of infinity. It is finite, so that JSON can hold it,
+// and larger than that of any triangle that doubles can distinguish from a degenerate one.
 inline constexpr double kDegenerateRadiusEdge = 1e18;
 
-// Degenerate triangles take part: smallest angle 0, largest angle 180 degrees (90 when corners coincide, the limit of
-// isosceles triangles), ratio kDegenerateRadiusEdge. An empty mesh has zeros everywhere.
+// Degenerate triangles are counted, too: smallest angle 0, largest angle 180 degrees (90 when corners coincide, the
+// limit of isosceles triangles), ratio kDegenerateRadiusEdge. An empty mesh has zeros everywhere.
 struct MeshQuality {
   double min_angle_degrees = 0;
   double mean_min_angle_degrees = 0;  // mean over triangles of their smallest angle

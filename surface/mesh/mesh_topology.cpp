@@ -22,10 +22,10 @@ struct Corner {
   std::uint32_t next = 0, previous = 0;
 };
 
-// The corners at each vertex, vertex by vertex.
+// The corners at each vertex, stored vertex by vertex.
 class VertexCorners {
  public:
-  // So many places from any corner on may be read.
+  // This many elements from any corner on may be read.
   static constexpr std::size_t kReadable = 8;
 
   explicit VertexCorners(const TriangleMesh& mesh)
@@ -45,11 +45,11 @@ class VertexCorners {
   }
 
  private:
-  LargeArray<std::uint32_t> first_;  // of each vertex: the place of its first corner
+  LargeArray<std::uint32_t> first_;  // of each vertex: the index of its first corner
   LargeArray<Corner> corners_;
 };
 
-// Looks at vertices one by one: at the half-edges that leave and reach them, and at the umbrellas these make.
+// Examines vertices one by one: the half-edges that leave and enter them, and the umbrellas these form.
 class StarCensus {
  public:
   StarCensus(const VertexCorners& corners, const MeshTopology& components)
@@ -64,14 +64,14 @@ class StarCensus {
       look_closely_at(v);
     }
   }
-  // Edges belong to their lower vertex. To be called in the order of the vertices looked at.
+  // Edges are counted at their lower vertex. Call in the order in which the vertices were examined.
   void add_to(MeshTopology& sum) const;
 
  private:
-  // A half-edge at the vertex looked at; of one from the vertex to itself, each end counts.
+  // A half-edge at the current vertex; a half-edge from the vertex to itself is counted once for each end.
   struct Spoke {
     std::uint32_t other = 0;   // end
-    std::uint32_t corner = 0;  // in at_: of its triangle at the vertex
+    std::uint32_t corner = 0;  // index in at_ of its triangle's corner at the vertex
     bool leaves = false;
     [[nodiscard]] auto rank() const { return std::tuple(other, !leaves, corner); }
   };
@@ -85,15 +85,15 @@ class StarCensus {
 
   const VertexCorners& corners_;
   const MeshTopology& components_;
-  std::span<const Corner> at_;  // the vertex looked at
+  std::span<const Corner> at_;  // the corners at the current vertex
   std::vector<Spoke> spokes_;
   DisjointSets fans_;  // of at_
   MeshTopology counts_;
   std::vector<std::int64_t> edges_;  // of each component
 };
 
-// Those whose triangles follow the edge to vertex v, by bits. Which one does cannot be foretold, so eight are always
-// compared: beyond the last of few there are others, whose bits are taken away.
+// The corners whose triangles have vertex v next after the current one, as bits. Which ones they are is unpredictable,
+// so eight are always compared; if there are fewer, the bits of those beyond are cleared.
 std::uint32_t StarCensus::corners_after(std::uint32_t v) const {
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; k < VertexCorners::kReadable; ++k) found |= std::uint32_t{at_.data()[k].previous == v} << k;
@@ -102,9 +102,9 @@ std::uint32_t StarCensus::corners_after(std::uint32_t v) const {
   return found & ((1u << at_.size()) - 1);
 }
 
-// The rule: the triangles form one closed umbrella, all turned the same way. Then a walk around the vertex visits each
-// of them once. Of two that come after the same edge the first is always found, so the walk cannot visit both. A long
-// fan may be denied.
+// The common case: the triangles form one closed umbrella, all with the same orientation. Then a walk around the vertex
+// visits each of them once. If two triangles follow the same edge, the walk always takes the first of them, so it
+// cannot visit both. For a long fan this may return false although it is closed.
 bool StarCensus::is_closed_fan(std::uint32_t v) const {
   if (at_.size() > kMostOfShortFan) return false;
   std::uint32_t visited = 1, next = at_[0].next;
@@ -118,7 +118,7 @@ bool StarCensus::is_closed_fan(std::uint32_t v) const {
          std::none_of(at_.begin(), at_.end(), [&](const Corner& corner) { return corner.next == v; });
 }
 
-// Half-edges to the same vertex form an edge, and their triangles belong to one umbrella.
+// Half-edges with the same other end form an edge, and their triangles belong to one umbrella.
 void StarCensus::look_closely_at(std::uint32_t v) {
   spokes_.clear();
   fans_.reset(at_.size());
@@ -134,7 +134,7 @@ void StarCensus::look_closely_at(std::uint32_t v) {
          ++last) {
       fans_.unite(first->corner, last->corner);
     }
-    // The ends of loops that reach v have been counted with those that leave it.
+    // Of a loop at v, the end that enters has been counted with the end that leaves.
     if (first->other > v || (is_loop && first->leaves)) count_edge(v, first, last - first);
     first = last;
   }
@@ -177,7 +177,7 @@ void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
       ++topology.unreferenced_vertices;
       continue;
     }
-    // The representative is the lowest vertex, so it has been numbered before the others of its piece.
+    // The representative is the lowest vertex, so it is numbered before the others of its piece.
     const std::uint32_t lowest = sets.find(v);
     if (lowest == v) {
       topology.component_of_vertex[v] = static_cast<std::uint32_t>(topology.components.size());
@@ -214,7 +214,7 @@ MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
     if (task == 0) return find_components(mesh, topology);
     corners.emplace(mesh);
   });
-  constexpr int kSharesPerThread = 4;  // some take longer than others: the oldest vertices are far from each other
+  constexpr int kSharesPerThread = 4;  // some shares take longer: the vertices inserted first are far from each other
   const Shares vertices(mesh.points.size(), kSharesPerThread * threads);
   std::vector<StarCensus> parts(vertices.count(), StarCensus(*corners, topology));
   vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {

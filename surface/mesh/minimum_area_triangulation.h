@@ -11,15 +11,17 @@ namespace deliso {
 
 class MinimumAreaTriangulation {
  public:
-  // Of a polygon with so many corners, 3 at least. area(i, k, j), for i < k < j, is what a triangle of its corners
-  // costs; it may be infinite. is_free(i, j) says whether a diagonal will do. Time grows with the cube of the corners.
+  // For a polygon with so many corners, at least 3. area(i, k, j), for i < k < j, is the cost of the triangle with
+  // these corners; it may be infinite. is_free(i, j) says whether a diagonal is allowed. Time grows with the cube of
+  // the number of corners.
   template <class Area, class IsFree>
   MinimumAreaTriangulation(std::size_t corners, Area&& area, IsFree&& is_free);
 
   [[nodiscard]] bool exists() const { return area() < kInfinity; }
   // Infinite when there is none.
   [[nodiscard]] double area() const { return least_[at(0, corners_ - 1)]; }
-  // The third corner of the triangle at the side or diagonal ij, between i and j. Precondition: that is part of it.
+  // The third corner of the triangle at the side or diagonal ij, between i and j. Precondition: ij belongs to the
+  // triangulation.
   [[nodiscard]] std::size_t apex(std::size_t i, std::size_t j) const { return apex_[at(i, j)]; }
   // All triangles, with ascending corners. Precondition: exists().
   [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangles() const;

@@ -8,7 +8,7 @@
 
 namespace deliso {
 
-// Sides are put in buckets by their lower end.
+// Sides are put into buckets by their lower end vertex.
 void set_side_adjacency(SurfaceMesh& mesh) {
   const auto ends = [&](TriangleSide side) {
     const auto& v = mesh.triangles[side >> 2];
@@ -19,7 +19,7 @@ void set_side_adjacency(SurfaceMesh& mesh) {
       for (unsigned i = 0; i < 3; ++i) visit(4 * t + i);
     }
   };
-  std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // of each bucket, moved on as it is filled
+  std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // where each bucket begins, advanced as it is filled
   for_each_side([&](TriangleSide side) { ++first[ends(side).first + 2]; });
   for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
   std::vector<TriangleSide> sides(3 * mesh.triangles.size());

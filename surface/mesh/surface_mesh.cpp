@@ -8,7 +8,7 @@ namespace deliso {
 
 namespace {
 
-// For so many elements, and little more: an array that grows by itself may have twice the room it needs.
+// Reserves little more than so many elements: an array that grows by itself may take twice the room it needs.
 template <class Element>
 void make_room(std::vector<Element>& array, std::size_t count) {
   if (count > array.capacity()) array.reserve(std::max(count, array.size() + array.size() / 4));
@@ -49,7 +49,7 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
 }
 
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
-  // Where each triangle goes; and the vertices that are used.
+  // The new index of each triangle; and the vertices that are used.
   std::vector<std::uint32_t> place(mesh.triangles.size(), 0);
   std::vector<bool> is_used(mesh.points.size(), false);
   std::uint32_t triangles = 0;

@@ -1,4 +1,4 @@
-// The mesh between the stages and after them: triangles that know their neighbours. No tetrahedra any more.
+// The mesh between the stages and after them: triangles that know their neighbours, without tetrahedra.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace deliso {
 // The side of a triangle across from one of its corners, encoded as 4 * triangle + corner. kNoSide: a boundary edge.
 using TriangleSide = std::uint32_t;
 inline constexpr TriangleSide kNoSide = 0xFFFFFFFFu;
-// So many triangles have sides that can be told apart.
+// The largest number of triangles whose sides this encoding can tell apart.
 inline constexpr std::size_t kMostTriangles = (std::size_t{1} << 30) - 1;
 inline void check_triangle_count(std::size_t count) {
   if (count <= kMostTriangles) return;
@@ -27,8 +27,8 @@ inline void check_triangle_count(std::size_t count) {
                    " triangles, expected no more: coarser thresholds or budget.max_vertices bound them");
 }
 
-// A manifold, oriented triangle mesh in mesh space (raycast/isosurface.h): side i of a triangle runs from corner i + 1
-// to corner i + 2, and neighbours[t][i] is that same edge as the triangle across knows it.
+// A manifold, oriented triangle mesh in mesh space (raycast/isosurface.h). Side i of a triangle runs from corner i + 1
+// to corner i + 2. neighbours[t][i] is the same edge as a side of the triangle across it.
 struct SurfaceMesh {
   std::vector<Vec3> points;          // of each vertex
   std::vector<double> pole_heights;  // of each vertex
@@ -36,7 +36,7 @@ struct SurfaceMesh {
   std::vector<std::array<TriangleSide, 3>> neighbours;
 };
 
-// Around a triangle.
+// The bounding box of a triangle.
 inline Box3 box_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
   Box3 box;
   for (const std::uint32_t v : mesh.triangles[triangle]) box.extend(mesh.points[v]);
@@ -48,10 +48,10 @@ inline double squared_longest_edge(const SurfaceMesh& mesh, std::uint32_t triang
   return std::max({squared_distance(p, q), squared_distance(q, r), squared_distance(r, p)});
 }
 
-// The corners that sides joined by `across` (which names the side across a side, or kNoSide) make one vertex with a
-// corner; corner 3 t + i is that of triangle t at its vertex i. Walks around the vertex one way and, if the fan is
-// open, the other. visit(corner) marks it and tells whether that is news; each corner is named once, and the first one
-// once more at the end of a closed fan.
+// Visits the corners that form one vertex with a given corner when sides are joined by `across` (which gives the side
+// across a side, or kNoSide). Corner 3 t + i is the corner of triangle t at its vertex i. The walk goes around the
+// vertex one way and, if the fan is open, then the other way. visit(corner) marks the corner and returns whether it was
+// unmarked. Each corner is visited once, but the first corner of a closed fan again at the end.
 template <class Across, class Visit>
 void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Visit& visit) {
   visit(corner);
@@ -65,12 +65,13 @@ void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Vi
   }
 }
 
-// Appends the wanted pieces of a mesh to another, with their pole heights if it has any; `piece_of`: of each vertex of
-// `from`.
+// Appends the wanted pieces of a mesh to another, with their pole heights if it has any. `piece_of` gives the piece of
+// each vertex of `from`.
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 
-// Takes triangles out of a mesh, and vertices that have none then. No triangle that stays may have one as neighbour.
+// Removes triangles from a mesh, and the vertices that are then unused. No remaining triangle may be a neighbour of a
+// removed one.
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
 
 // A point of the grid's world coordinates in mesh space.

@@ -18,7 +18,7 @@ class VertexCorners {
  public:
   using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-  // Of the triangles that takes_part(t) names. Precondition: indices below `vertices`, fewer than 2^30 triangles.
+  // For the triangles t with takes_part(t). Precondition: indices below `vertices`, fewer than 2^30 triangles.
   template <class TakesPart>
   VertexCorners(std::size_t vertices, Triangles triangles, const TakesPart& takes_part) : begin_(vertices + 2) {
     DELISO_CHECK(triangles.size() < std::size_t{1} << 30, "numbers of corners fit into 32 bits");

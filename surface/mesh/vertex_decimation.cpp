@@ -66,7 +66,7 @@ void VertexDecimation::replace(std::uint32_t vertex, const VertexFan& fan, const
 }
 
 void VertexDecimation::take_out(std::span<const std::uint32_t> vertices) {
-  // What was in the way of one may be gone the next time.
+  // Repeat: what prevented the removal of one vertex may be gone after the removal of others.
   for (bool any = true; any;) {
     any = false;
     for (const std::uint32_t v : vertices) any |= has(v) && take_out(v);
@@ -82,8 +82,8 @@ bool VertexDecimation::take_out(std::uint32_t vertex) {
   return true;
 }
 
-// Builds the part of the filling between two corners of the link in the slots from `next` on; returns the side that the
-// rest is to be joined to.
+// Builds the part of the filling between two corners of the link, in the slots from `next` on. Returns the side to
+// which the rest is to be joined.
 TriangleSide VertexDecimation::build(const VertexFan& fan, const MinimumAreaTriangulation& filling, std::size_t i,
                                      std::size_t j, std::size_t& next) {
   if (j == i + 1) return fan.outer[i];

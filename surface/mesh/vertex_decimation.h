@@ -1,4 +1,4 @@
-// The triangles around the vertices of a mesh from which vertices are taken.
+// Removal of vertices from a mesh: each vertex goes, and its link is filled with triangles.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace deliso {
 
-// The triangles around an inner vertex, in order; for each the vertex that comes first in the link and the side beyond
-// the link.
+// The triangles around an inner vertex, in order. For each triangle: its first vertex in the link, and the side on the
+// other side of its link edge.
 struct VertexFan {
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> link;
@@ -26,31 +26,31 @@ class VertexDecimation {
 
   [[nodiscard]] bool has(std::uint32_t vertex) const { return corner_of_[vertex] != kNoCorner; }
   [[nodiscard]] bool has_triangle(std::uint32_t t) const { return !is_gone_[t]; }
-  // Of a vertex that is there; false when it is on the boundary.
+  // The fan of an existing vertex; false when it is on the boundary.
   bool find(std::uint32_t vertex, VertexFan& fan) const;
   // Whether an edge joins two vertices.
   [[nodiscard]] bool are_joined(std::uint32_t v, std::uint32_t w) const;
 
   // Whether the link of an inner vertex can be filled: it is not too long, passes no vertex twice and, if it is a
-  // triangle, is not one of the mesh.
+  // triangle, that triangle is not in the mesh.
   [[nodiscard]] bool can_be_filled(const VertexFan& fan) const;
-  // Its filling of the least area, if there is one: by triangles that have an area and edges that the mesh does not
-  // have elsewhere.
+  // The filling of least area, if there is one. Its triangles have an area, and its edges are not in the mesh
+  // elsewhere.
   [[nodiscard]] MinimumAreaTriangulation least_filling(const VertexFan& fan) const;
-  // Takes an inner vertex away and fills its link, which can be filled. Two slots of triangles are free then,
+  // Removes an inner vertex and fills its link. Precondition: the link can be filled. Two triangle slots become free,
   // the others hold the filling.
   void replace(std::uint32_t vertex, const VertexFan& fan, const MinimumAreaTriangulation& filling);
-  // Does so with all of some vertices for which it can be done; those that the mesh still has() stay.
+  // Removes all of the given vertices for which this is possible; a vertex that the mesh still has() was left in place.
   void take_out(std::span<const std::uint32_t> vertices);
-  // All triangles that came so, gone or not.
+  // All triangles made by removals, whether they still exist or not.
   [[nodiscard]] const std::vector<std::uint32_t>& renewed() const { return renewed_; }
-  // Closes the gaps in the mesh's arrays. Nothing can be asked afterwards.
+  // Closes the gaps in the mesh's arrays. Nothing else may be called afterwards.
   void drop_free_slots() { drop_triangles(mesh_, is_gone_); }
 
  private:
   bool take_out(std::uint32_t vertex);
   static constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
-  // Links of more vertices are left as they are.
+  // A vertex with a longer link is not removed.
   static constexpr std::size_t kLongestLink = 32;
 
   TriangleSide build(const VertexFan& fan, const MinimumAreaTriangulation& filling, std::size_t i, std::size_t j,

@@ -27,7 +27,7 @@ struct Face {
     const auto s = sample(i, j);
     return grid.at(s[0], s[1], s[2]);
   }
-  // Where the edge between two samples of the face is crossed, as a fraction of the edge.
+  // The position of the sign change on the edge between two samples of the face, as a fraction of the edge.
   [[nodiscard]] double crossing(double from, double to) const { return edge_parameter(from, to, isovalue); }
   // Index-space point at (x, y) in the face.
   [[nodiscard]] Vec3 at(double x, double y) const {
@@ -54,7 +54,7 @@ void add_arc_points(const Face& face, std::int32_t i, std::int32_t j, std::vecto
   // k (x - cx)(y - cy) = -saddle: one branch right of cx, one left of it.
   const double side = -saddle / k > 0 ? 1 : -1;
   for (const double direction : {-1.0, 1.0}) {
-    // Between the branch's two ends x runs from the vertical side to where the horizontal side is crossed.
+    // Between the ends of a branch, x runs from the vertical side to the crossing of the horizontal side.
     const bool right = direction > 0;
     const bool top = right == (side > 0);
     const double x_end = top ? face.crossing(f01, f11) : face.crossing(f00, f10);
@@ -67,7 +67,7 @@ void add_arc_points(const Face& face, std::int32_t i, std::int32_t j, std::vecto
 void add_face(const Face& face, std::vector<Vec3>& points) {
   const std::int32_t nu = face.grid.dims()[face.u];
   const std::int32_t nv = face.grid.dims()[face.v];
-  // An edge of the box belongs to that of its two faces whose normal axis comes first.
+  // A box edge belongs to two faces; its crossings are added by the face whose normal axis comes first.
   const auto owns_along_u = [&](std::int32_t j) { return face.w < face.v || (j > 0 && j + 1 < nv); };
   const auto owns_along_v = [&](std::int32_t i) { return face.w < face.u || (i > 0 && i + 1 < nu); };
   for (std::int32_t j = 0; j < nv; ++j) {

@@ -29,7 +29,7 @@ struct Extremes {
       offer(2 * i + 1, -along, p);
     }
   }
-  // By those of points that come later.
+  // Takes in the extremes of later points; of equals the earlier point stays.
   void extend(const Extremes& later) {
     for (std::size_t i = 0; i < reach.size(); ++i) offer(i, later.reach[i], later.point[i]);
   }
@@ -42,7 +42,7 @@ struct Extremes {
   }
 };
 
-// What a share of the crossings gives: those of small components, and the extremes of each large one.
+// The seeds found in a share of the crossings: the crossings of small components, and the extremes of each large one.
 struct FoundSeeds {
   std::vector<Vec3> of_small;
   std::vector<Extremes> of_large;
@@ -50,7 +50,7 @@ struct FoundSeeds {
 
 constexpr std::uint32_t kIsSmall = 0xFFFFFFFFu;
 
-// The number of each large component among them, and kIsSmall for the others.
+// For each component: its number among the large components, or kIsSmall.
 std::vector<std::uint32_t> numbers_of_large(const IsosurfaceTopology& topology, std::uint32_t& count) {
   std::vector<std::uint32_t> crossings(topology.components.size(), 0);
   for (const EdgeCrossing& c : topology.crossings) ++crossings[c.component];
@@ -92,7 +92,7 @@ std::vector<Vec3> component_seeds(const ExactSurface& surface) {
 
 std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
                                     SearchCounters& counters, Controls* controls) {
-  constexpr std::size_t kFewestPoints = 1000;  // that a run begins with in any case
+  constexpr std::size_t kFewestPoints = 1000;  // inserted whatever `controls` say
   std::vector<Vec3> points;
   std::vector<Hit> hits;
   const Vec3 size = isosurface.box().size();

@@ -19,8 +19,8 @@ inline constexpr std::size_t kSmallComponent = 12;
 std::vector<Vec3> component_seeds(const ExactSurface& surface);
 
 // `count` points of the isosurface hit by random lines through the box, in mesh space (InitTriangulation of the paper).
-// Fewer when 1000 lines in a row miss, or when `controls` say stop, which are asked from the 1000th point on: so there
-// is always something to start from.
+// Fewer when 1000 lines in a row miss, or when `controls` say stop. `controls` are asked from the 1000th point on, so
+// there is always something to start from.
 std::vector<Vec3> random_ray_points(const Isosurface& isosurface, std::int32_t count, Rng& rng,
                                     SearchCounters& counters, Controls* controls = nullptr);
 

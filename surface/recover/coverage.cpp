@@ -16,12 +16,12 @@ namespace deliso {
 
 namespace {
 
-constexpr int kRounds = 4;               // of looking for what the mesh misses
-constexpr std::size_t kFewSuspects = 4;  // fewer crossings than the triangles by so many times
-// Crossings are asked about brick by brick of so many samples.
+constexpr int kRounds = 4;               // of searches for parts that the mesh misses
+constexpr std::size_t kFewSuspects = 4;  // few suspects: fewer than the triangles divided by this
+// Crossings are queried brick by brick, with this many samples along each side of a brick.
 constexpr std::int32_t kBrick = 8;
 
-// Of crossings those that a triangle covers by themselves.
+// Drops the crossings that some triangle covers.
 void drop_covered(std::vector<std::uint32_t>& crossings, const std::vector<Vec3>& points, const SurfaceMesh& mesh,
                   int threads) {
   const auto any = [](std::uint32_t) { return true; };
@@ -43,10 +43,10 @@ std::vector<std::uint32_t> all_crossings(const ExactSurface& surface) {
   std::vector<std::uint32_t> brick_of(all.size());
   const auto brick = [](std::int32_t place) { return static_cast<std::size_t>(place / kBrick); };
   for_each_block(all.size(), surface.threads, [&](std::size_t first, std::size_t last) {
-    // They come row by row of samples, so where a row lies is found once.
+    // Crossings come row by row of samples, so the brick row is computed once per row.
     const auto length = static_cast<std::uint64_t>(grid.dims()[0]);
-    std::uint64_t row = 0, row_end = 0;  // its samples
-    std::size_t row_brick = 0;           // the first one that it passes
+    std::uint64_t row = 0, row_end = 0;  // the row's first sample, and the end of its samples
+    std::size_t row_brick = 0;           // the row's first brick
     for (std::size_t i = first; i < last; ++i) {
       const std::uint64_t sample = all[i].sample;
       if (sample >= row_end) {
@@ -58,8 +58,8 @@ std::vector<std::uint32_t> all_crossings(const ExactSurface& surface) {
       brick_of[i] = static_cast<std::uint32_t>((sample - row) / kBrick + row_brick);
     }
   });
-  // Sorted by counting; those of one brick stay in order.
-  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // place of each brick's next crossing
+  // A counting sort by brick, which keeps the order within a brick.
+  std::vector<std::uint32_t> next(bricks[0] * bricks[1] * bricks[2] + 1, 0);  // index of each brick's next crossing
   for (const std::uint32_t own : brick_of) ++next[own + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<std::uint32_t> crossings(all.size());
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> all_crossings(const ExactSurface& surface) {
 std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ExactSurface& surface,
                                    std::vector<std::uint32_t>& suspects, std::vector<Vec3>* coverage_targets) {
   const int threads = surface.threads;
-  // The facets as they are: how they make up a manifold does not matter here.
+  // Restricted facets as they are; they need not form a manifold here.
   const SurfaceMesh mesh = facets_alone(restricted, threads);
   const auto position = [&](std::uint32_t crossing) { return surface.position(surface.topology.crossings[crossing]); };
   const auto positions = [&](std::span<const std::uint32_t> crossings) {
@@ -79,8 +79,8 @@ std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const E
     for (const std::uint32_t crossing : crossings) points.push_back(position(crossing));
     return points;
   };
-  // Where few are asked about most have a triangle near by now, and a tree of all triangles is worth it for others
-  // only.
+  // If there are few suspects, most have a triangle near by now. Then the covered ones are dropped first, because a
+  // tree of all triangles is worth its cost only for the others.
   const bool are_few = suspects.size() <= mesh.triangles.size() / kFewSuspects;
   if (coverage_targets == nullptr && are_few) drop_covered(suspects, positions(suspects), mesh, threads);
   if (suspects.empty()) return {};

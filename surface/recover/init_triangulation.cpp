@@ -14,7 +14,8 @@ namespace deliso {
 
 namespace {
 
-// So many random points are triangulated at once, which nothing can stop; further ones go in one by one.
+// At most so many random points are triangulated in one batch, which cannot be stopped; further points are inserted one
+// by one.
 constexpr std::size_t kMostAtOnce = 20'000;
 
 void check_enough(const std::vector<Vec3>& points, const InitialParameters& initial) {

@@ -11,9 +11,9 @@
 
 namespace deliso {
 
-// The triangulation of random points of the isosurface, of its boundary curves and of seeds on every component, as
-// `parameters` ask for them. Random points end when `controls` say stop. Throws InputError where these points are too
-// few. Precondition: `topology` is known where seeds are wanted.
+// The triangulation of random points of the isosurface, of points of its boundary curves, and of seeds on every
+// component, as `parameters` say. No more random points are made once `controls` say stop. Throws InputError when there
+// are too few points. Precondition: `topology` is known if seeds are wanted.
 std::unique_ptr<RestrictedDelaunay> init_triangulation(const ExactSurface& surface, const Parameters& parameters,
                                                        std::uint64_t seed, Controls& controls,
                                                        SearchCounters& counters);

@@ -1,4 +1,4 @@
-// What stage 1 is asked for, and what it tells of its work.
+// The options of stage 1, and its counters.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct RecoverOptions {
   int threads = 1;  // the result is the same for any number
 };
 
-// What Recover is asked for by a run's parameters; lengths are made absolute by the volume's box (in mesh space).
+// The options of Recover from a run's parameters. Lengths become absolute by the volume's box (in mesh space).
 RecoverOptions recover_options(const Parameters& parameters, const Box3& box, int threads);
-// The same for Recover to the thresholds of stage 2, without a stage 2: the paper's 3D column of Table 2.
+// The same for Recover to the thresholds of stage 2, without a stage 2 (the "3D" column of the paper's Table 2).
 RecoverOptions full3d_options(const Parameters& parameters, const Box3& box);
 
 struct RecoverStats : StageStats {
@@ -29,15 +29,16 @@ struct RecoverStats : StageStats {
   std::int64_t multi_intersect = 0;  // insertions by each of the three steps
   std::int64_t extract_manifold = 0;
   std::int64_t approximate_geometry = 0;
-  std::int64_t uncovered = 0;              // crossings far from the mesh
-  std::int64_t boundary_splits = 0;        // points of boundary curves among the insertions
-  std::int64_t in_slabs = 0;               // insertions in parts of the volume that several threads refine
-  std::int64_t refused_by_size_bound = 0;  // violations left alone because the size bound forbids their point
-  std::int64_t hits_against_signs = 0;     // dual edges whose hits contradicted the signs at their ends
+  std::int64_t uncovered = 0;        // crossings far from the mesh
+  std::int64_t boundary_splits = 0;  // points of boundary curves among the insertions
+  std::int64_t in_slabs = 0;         // insertions in slabs of the volume that several threads refine
+  // Violations left, because the size bound forbids the point that would be inserted.
+  std::int64_t refused_by_size_bound = 0;
+  std::int64_t hits_against_signs = 0;  // dual edges whose hits contradicted the signs at their ends
   SearchCounters search;
   double restricted_seconds = 0;  // time spent deciding which facets are restricted
 
-  // Adds what a part has done.
+  // Adds the counters of a part.
   void add(const RecoverStats& part) {
     insertions += part.insertions;
     multi_intersect += part.multi_intersect;

@@ -1,8 +1,9 @@
-// Stage 1 on several threads: rounds, each in slabs of the volume.
+// Stage 1 on several threads: rounds, each of which refines slabs of the volume independently.
 //
-// A round is planned by the whole alone and worked by parts of the triangulation that do not meet (see BowyerWatson),
-// so the result does not depend on how many threads there are. What a plane is in the way of the whole mends at the end
-// of the round, or it waits for the next one, whose planes lie across another axis.
+// The whole triangulation plans a round alone; then parts of it that do not meet do the work (see BowyerWatson). So the
+// result does not depend on the number of threads. An insertion that would reach across a plane between slabs is
+// blocked. At the end of the round the whole makes blocked insertions itself, or leaves them to the next round, whose
+// planes lie across another axis.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -15,19 +16,21 @@ namespace deliso {
 
 namespace {
 
-// Slabs of a round. The more there are, the more insertions are in the way of a plane.
+// The number of slabs in a round. With more slabs, planes block more insertions.
 constexpr std::size_t kSlabs = 2;
-// From so many vertices on most conflict regions are small enough to lie within a slab: at least these, and a fourth
-// more than were on the box to begin with, which alone make tetrahedra from one face of it to another. (An eighth or a
-// half more are as good on gyroids; without any, stage 1 takes there two to four times as long.)
+// A round needs so many vertices that most conflict regions are small enough to lie within a slab: at least
+// kFewestVertices, and a fourth more than the vertices that lay on the box at the beginning, which alone make
+// tetrahedra from one face of the box to another. (An eighth or a half more are as good on gyroids. Without any margin,
+// stage 1 takes two to four times as long there.)
 constexpr std::size_t kFewestVertices = 256;
 constexpr std::size_t kApartFromBox = 4;
-// A round is worth its while when so many triangles wait for refinement, and this part of the number of vertices, and
-// when it inserts that part.
+// A round is worthwhile when at least kFewestWaiting triangles wait for refinement, and this fraction of the number of
+// vertices, and when it inserts that fraction.
 constexpr std::size_t kFewestWaiting = 128;
 constexpr double kLeastGrowth = 1.0 / 64;
-// A slab inserts at most so many points for each triangle that waits, and this part of the number of vertices: slabs
-// are to come out equally fine, and what has room and is not used has to be skipped.
+// A slab inserts at most kMostPerTriangle points for each waiting triangle, and this fraction of the number of
+// vertices. So slabs become equally fine, and little of the reserved room is left unused, which would have to be
+// skipped.
 constexpr std::size_t kMostPerTriangle = 2;
 constexpr double kMostGrowth = 0.5;
 
@@ -72,11 +75,11 @@ std::int64_t RecoverLoop::run_round(std::size_t axis, Controls& controls) {
   }
   const std::vector<Violation> between = hand_out(waiting, slabs, work);
 
-  // Step 2: the slabs, apart from each other.
+  // Step 2: refine the slabs independently.
   run_tasks(parts.size(), options_.threads, [&](std::size_t k) { work[k].run(limits[k]); });
-  controls.poll();  // what made parts stop stops the rest
+  controls.poll();  // the limit that stopped parts also stops the rest
 
-  // Step 3: what they have done, and what they left.
+  // Step 3: take in the results of the parts, and what they left.
   const std::vector<VertexId> renamed = restricted_.join(parts);
   umbrella_queued_.assign(delaunay_.vertex_count(), false);
   std::int64_t inserted = 0;
@@ -93,8 +96,8 @@ std::int64_t RecoverLoop::run_round(std::size_t axis, Controls& controls) {
   return inserted;
 }
 
-// One by one, but not what follows from it. Left alone, coarse triangles would block all that is finer around them, in
-// round after round.
+// The whole makes blocked insertions one by one, but not the insertions that follow from them. If blocked triangles
+// stayed coarse, they would block all finer insertions around them, round after round.
 void RecoverLoop::mend_blocked(std::span<const Violation> blocked, std::span<const VertexId> renamed,
                                Controls& controls) {
   ViolationQueue in_order(options_.order);
@@ -109,7 +112,7 @@ void RecoverLoop::mend_blocked(std::span<const Violation> blocked, std::span<con
   }
 }
 
-// Empties the queue; without what was mended or destroyed meanwhile.
+// Empties the queue, and drops violations that have been repaired or whose element is gone.
 std::vector<Violation> RecoverLoop::take_waiting() {
   std::vector<Violation> waiting = queue_.take_all();
   std::erase_if(waiting, [&](const Violation& violation) {
@@ -119,7 +122,8 @@ std::vector<Violation> RecoverLoop::take_waiting() {
   return waiting;
 }
 
-// Of each slab; none when a round is not worth its while. Umbrellas are many, and nearly all of them will do.
+// The limit of insertions for each slab; 0 when a round is not worthwhile. Umbrellas are not counted: they are many,
+// and nearly all of them are disks.
 std::size_t RecoverLoop::most_insertions(std::span<const Violation> waiting) const {
   const auto triangles = static_cast<std::size_t>(std::count_if(
       waiting.begin(), waiting.end(), [](const Violation& v) { return v.kind != ViolationKind::kExtractManifold; }));
@@ -128,7 +132,7 @@ std::size_t RecoverLoop::most_insertions(std::span<const Violation> waiting) con
   return std::min(kMostPerTriangle * triangles, static_cast<std::size_t>(kMostGrowth * vertices));
 }
 
-// With about as many triangles that wait each.
+// Slabs with about the same number of waiting triangles.
 std::vector<Slab> RecoverLoop::slabs_of(std::span<const Violation> waiting, std::size_t axis) const {
   std::vector<double> places;
   for (const Violation& violation : waiting) {
@@ -146,7 +150,7 @@ std::vector<Slab> RecoverLoop::slabs_of(std::span<const Violation> waiting, std:
   return slabs;
 }
 
-// Of the facet whose dual edge it is; or one vertex, three times.
+// The vertices of the facet that belongs to the dual edge; for an umbrella its vertex, three times.
 std::array<VertexId, 3> RecoverLoop::vertices_of(const Violation& violation) const {
   if (violation.kind != ViolationKind::kExtractManifold)
     return restricted_.dual_edge(DualEdgeId(violation.element)).vertices;
@@ -154,7 +158,7 @@ std::array<VertexId, 3> RecoverLoop::vertices_of(const Violation& violation) con
   return {v, v, v};
 }
 
-// To the part in whose slab it lies; returns what lies in none.
+// Gives each violation to the part whose slab it lies in; returns those that lie in no slab.
 std::vector<Violation> RecoverLoop::hand_out(std::span<const Violation> waiting, std::span<const Slab> slabs,
                                              std::span<RecoverLoop> parts) const {
   std::vector<Violation> between;

@@ -1,4 +1,4 @@
-// The violations that stage 1 still has to look at, in the order it takes them.
+// The violations that stage 1 still has to examine, in the order in which it takes them.
 #pragma once
 
 #include <array>
@@ -20,17 +20,18 @@ struct Violation {
   ViolationKind kind = ViolationKind::kMultiIntersect;
   std::uint32_t element = 0;     // a dual edge or, for kExtractManifold, a vertex
   std::uint32_t generation = 0;  // of the dual edge when it was queued
-  std::uint64_t rank = 0;        // among those of its kind; the queue gives it
+  std::uint64_t rank = 0;        // among those of its kind; set by the queue
 };
 
-// The worst or the largest first; ApproximateGeom, which makes most of the insertions, block by block. Umbrellas, which
-// are only good or bad, come first in, first out; so does everything in the order of that name.
+// The order: the worst or the largest violation first. ApproximateGeom, which makes most of the insertions, proceeds
+// block by block. Umbrellas, which are either disks or not, come first in, first out; so does everything if that order
+// is chosen.
 class ViolationQueue {
  public:
   explicit ViolationQueue(QueueOrder order) : order_(order) {}
 
-  // `badness`: how far beyond its threshold; `radius`: size of the facet: the order decides which of them counts.
-  // `where`: a point nearby, in mesh space.
+  // `badness`: by how much a threshold is exceeded; `radius`: size of the facet. The order determines which of the two
+  // is used. `where`: a point nearby, in mesh space.
   void push(const Violation& violation, double badness, double radius, const Vec3& where) {
     BucketQueue& queue = queues_[static_cast<std::size_t>(violation.kind)];
     const QueuedElement queued{violation.element, violation.generation};
@@ -52,12 +53,12 @@ class ViolationQueue {
     }
     return std::nullopt;
   }
-  // What pop() or take_all() gave, of this queue or another one of the same order.
+  // Puts back what pop() or take_all() gave, of this queue or another one of the same order.
   void put_back(const Violation& violation) {
     queues_[static_cast<std::size_t>(violation.kind)].put_back(
         {violation.rank, {violation.element, violation.generation}});
   }
-  // Empties the queue; returns what it held, in no order that means anything.
+  // Empties the queue; returns what it held, in unspecified order.
   std::vector<Violation> take_all() {
     std::vector<Violation> all;
     all.reserve(size());

@@ -1,4 +1,4 @@
-// Refinement: what it does where the mesh has missed coverage targets.
+// Refinement: insertion of coverage targets that the mesh has missed.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace deliso {
 
-// Points that no triangle has for its x_sigma: for each triangle that is nearest to coverage targets missed the
-// farthest of them that will do. True when some went in.
+// Inserts points that are x_sigma of no triangle. For each triangle that is nearest to missed coverage targets, tries
+// them from the farthest on, and inserts the first that passes the checks. Returns whether any was inserted.
 bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
   if (part_.coverage_targets.empty() || controls.poll()) return false;
   const bool is_bounded = std::isfinite(options_.max_distance);
   const double least = std::max(options_.r_min, is_bounded ? options_.max_distance : 0);
-  // Balls that are not kept are searched, and that is counted.
+  // Balls that are not stored are searched again, and these searches are counted.
   const std::vector<MissedTarget> missed = missed_targets(
       part_.coverage_targets, mesh_, [this](std::uint32_t t) { return ball_of(t); }, least,
       options_.store_hits ? threads : 1);
@@ -39,8 +39,9 @@ bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
   return stats_.coverage_targets > before;
 }
 
-// The direction that no triangle of the star may face: that of the gradient. At the tip of a finger that jumps, and the
-// disk which the finger stands on tells more of it, unless the gradients around the tip say otherwise.
+// The direction from which all triangles of the star must be seen counterclockwise: that of the gradient. At the tip of
+// a thin finger the gradient jumps. There the normal of the disk E, on which the finger stands, is more reliable,
+// unless the mean gradient around the tip contradicts it.
 Vec3 RefineLoop::upwards(const Candidate& candidate) const {
   if (!candidate.is_coverage_target) return isosurface_.gradient(candidate.point);
   Vec3 mean;

@@ -19,14 +19,16 @@ namespace deliso {
 
 namespace {
 
-// Starts again at most this often.
+// The largest number of restarts.
 constexpr std::int64_t kMostRestarts = 3;
 
-// What slabs leave behind in small pieces matters only beside nearly all of the whole: giving it back takes time.
+// Memory that slabs leave behind in small pieces matters only if they are nearly all of the mesh; giving it back takes
+// time.
 constexpr std::size_t kSlabsNearPeak = 1;
 
-// Along the planes between slabs, which renews few triangles of a part; in slabs, or in the whole where that is one,
-// which renews most; and in the whole what slabs have left coarse, which again are few.
+// kSeams: along the planes between slabs, where few triangles of a part are renewed. kSlabs: in the slabs, or in the
+// whole if it is one slab, where most are renewed. kRest: in the whole, what slabs have left coarse; again few
+// triangles.
 enum class Round { kSeams, kSlabs, kRest };
 
 // What all rounds of a refinement share.
@@ -37,12 +39,12 @@ struct Task {
   RefineStats& stats;
 };
 
-// The threads that parts share, as long as there are parts for them; the last ones have more than one each.
+// Divides the threads among the parts that are not finished. The last parts get more than one thread each.
 class SharedThreads {
  public:
   SharedThreads(int threads, std::size_t parts) : threads_(threads), parts_left_(static_cast<int>(parts)) {}
   void part_ends() { --parts_left_; }
-  // Those that a part may use.
+  // The number of threads that a part may use now.
   [[nodiscard]] int count() const { return std::max(1, threads_ / std::max(1, parts_left_.load())); }
 
  private:
@@ -58,8 +60,9 @@ void add_places(const SelfIntersections& found, std::vector<Vec3>& suspects) {
   }
 }
 
-// Refines a part; where more triangles came to meet than before, takes all back and does it again, with no trust around
-// them, and at last with none at all. What has the fewest such pairs stays.
+// Refines a part. If more triangles meet than before, it takes everything back and refines again, with clearances of 0
+// near the places where they met, and in the last restart with clearances of 0 everywhere. The result with the fewest
+// such pairs is kept.
 void refine_part(RefinementPart& part, Round round, const Task& task, Controls& controls, const SharedThreads& threads,
                  RefineStats& stats) {
   const auto meeting = [&] {
@@ -73,7 +76,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineStats counted;
     RefineLoop loop(part, task.isosurface, task.options, counted);
     loop.run(controls, threads.count());
-    if (round == Round::kRest) release_free_memory();  // the peak may lie in the check
+    if (round == Round::kRest) release_free_memory();  // the peak memory may be in the check
     if (!task.options.restart_at_crossings) {
       stats = counted;
       return;
@@ -82,7 +85,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     counted.search += stats.search;
     stats.search = counted.search;
     stats.restarts = counted.restarts = restarts;
-    // A restart that had to stop half-way is worth less than what was finished before.
+    // A restart that was stopped before its end does not replace a finished result.
     const bool is_best = restarts == 0 || (count_of(found) < fewest && !controls.stopped());
     if (is_best) {
       fewest = count_of(found);
@@ -94,16 +97,17 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
     if (restarts + 1 == kMostRestarts) {
-      distrust_all(part.mesh);
+      clear_all_clearances(part.mesh);
     } else {
       add_places(found, suspects);
-      distrust(part.mesh, suspects);
+      clear_clearances_near(part.mesh, suspects);
     }
   }
   least.redo(part.mesh);
 }
 
-// Refines disjoint slabs apart from each other: all that is coarse in them or, given a plane for each, what meets that.
+// Refines disjoint slabs independently: all coarse triangles in them or, if planes are given, those that meet the
+// slab's plane.
 void refine_apart(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::span<const double> planes,
                   std::span<const float> work, const Task& task) {
   const Round round = planes.empty() ? Round::kSlabs : Round::kSeams;
@@ -119,23 +123,23 @@ void refine_apart(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::spa
     threads.part_ends();
   };
   RefinementSlabs(mesh, slabs, work, task.options.threads).refine_each(refine);
-  task.controls.poll();  // what made parts stop stops the rest
+  task.controls.poll();  // the limit that stopped parts also stops the rest
   for (const RefineStats& part : counted) task.stats.add(part);
 }
 
-// Slabs would leave coarse what their planes meet. So that is refined before them, while the mesh is coarse.
+// Slabs cannot refine the triangles that their planes meet. So these are refined first, while the mesh is coarse.
 void refine_slabs(RefinementMesh& mesh, const std::vector<Slab>& slabs, std::vector<float> work, const Task& task) {
   std::vector<double> planes;
   for (std::size_t k = 0; k + 1 < slabs.size(); ++k) planes.push_back(slabs[k].high);
   refine_apart(mesh, seams_between(slabs, mesh, task.options.threads), planes, work, task);
   if (task.controls.stopped()) return;
-  // Estimates serve for room and for the order of the slabs: that of a slot which was taken anew stands.
+  // The estimates are used to reserve memory and to order the slabs; a reused slot keeps its old estimate.
   work.resize(mesh.triangles.size());
   refine_apart(mesh, most_work_first(slabs, mesh, work), {}, work, task);
   release_free_memory();
 }
 
-// Refines in the whole what is still coarse.
+// Refines the remaining coarse triangles in the whole mesh.
 void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
   RefinementPart whole;
   std::swap(whole.mesh, mesh);
@@ -155,7 +159,7 @@ void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const Refi
   RefinementPart whole;
   RefinementMesh& refined = whole.mesh;
   refined = RefinementMesh(mesh, options.threads);
-  mesh = {};  // not needed until all is refined; the peak of a whole run may lie in between
+  mesh = {};  // not needed until all is refined; the peak memory of a whole run may be in between
   set_clearances(refined);
   std::vector<float> work = RefineLoop(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);

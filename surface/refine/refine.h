@@ -1,9 +1,9 @@
 // RefineGeom, stage 2 (Dey and Levine, sections 2.2.2 and 3.2, Figure 9): refine the surface mesh without tetrahedra.
 //
-// A triangle that fails a criterion (surface/base/criteria.h) gives p = x_sigma. The triangles whose surface Delaunay
-// balls hold p form a disk E; it is replaced by the star of p. Every replacement is checked first (one boundary cycle,
-// no vertex lost, no triangle turned against the gradient, no triangle that crosses another), so the mesh stays
-// homeomorphic to what stage 1 gave, whatever the data.
+// A triangle that fails a criterion gives p = x_sigma. The triangles whose surface Delaunay balls hold p form a disk E,
+// which is replaced by the star of p. Every replacement is checked first (one boundary cycle, no vertex lost, no
+// triangle turned against the gradient, no triangle that crosses another). So the mesh stays homeomorphic to that of
+// stage 1, whatever the data.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@
 
 namespace deliso {
 
-// Counters are those of what stayed, but searches count whatever was done. When `balls` is given, it gets B_sigma of
+// The counters describe the final result, but searches count all work done. If `balls` is given, it receives B_sigma of
 // each triangle. After an exception the mesh is empty.
 void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
                      RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls = nullptr);

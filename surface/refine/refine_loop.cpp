@@ -9,11 +9,11 @@ namespace deliso {
 
 namespace {
 
-// A refinement point nearer to a vertex than this fraction of its ball's radius means that the ball was not empty.
+// A refinement point nearer to a vertex than this fraction of its ball's radius shows that the ball was not empty.
 constexpr double kNearestVertex = 0.5;
-// A point farther off E's triangles than this fraction of its ball's radius would raise a spike.
+// A point farther off the planes of E's triangles than this fraction of its ball's radius would make a spike.
 constexpr double kFarthestMove = 0.8;
-// Coverage targets are inserted so often, what follows from it being refined in between.
+// How often coverage targets are inserted; in between, the mesh is refined.
 constexpr int kCoverageTargetRounds = 4;
 
 }  // namespace
@@ -34,7 +34,8 @@ void RefineLoop::refine_queued(Controls& controls) {
   while (!controls.must_stop("refine", mesh_.vertices.size(), queue_.size())) {
     const auto popped = queue_.pop();
     if (!popped && !retry_crossed()) break;
-    // What pops cost is waiting for the triangle they name; its neighbours are known once it has come.
+    // The cost of a pop is the wait for its triangle's memory; that triangle's neighbours can be prefetched once it is
+    // there.
     const auto next = queue_.next();
     if (next) __builtin_prefetch(&mesh_.triangles[*next]);
     if (!popped || mesh_.triangles[popped->queued.element].state != popped->queued.generation) continue;
@@ -76,12 +77,12 @@ void RefinementChange::redo(RefinementMesh& mesh) const {
   mesh.vertices.insert(mesh.vertices.end(), new_vertices.begin(), new_vertices.end());
 }
 
-// Whether a coarse triangle is to be refined here.
+// Whether a coarse triangle is to be refined in this part.
 bool RefineLoop::is_wanted(std::uint32_t triangle) const {
   return !part_.plane || mesh_.extent_of(triangle, part_.slab.axis).holds(*part_.plane);
 }
 
-// What another part left coarse is to be tried again; frozen triangles stay as they are.
+// Triangles that another part left coarse are tried again; frozen triangles are not.
 void RefineLoop::queue_coarse_triangles() {
   for (std::uint32_t t = part_.frozen; t < mesh_.triangles.size(); ++t) {
     if (mesh_.triangles[t].is_coarse() && is_wanted(t)) requeue(t);
@@ -123,17 +124,17 @@ bool RefineLoop::treat(std::uint32_t triangle) {
     }
   }
   if (refusal) {
-    // In another part it may be refined; or else it stays as it is.
+    // In another part it may be refined; so the triangle keeps its state only here.
     start_->keep(triangle, mesh_);
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
     if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
-    guard_->distrust(triangle);
+    guard_->mark_if_far_off(triangle);
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
   }
   ++stats_.insertions;
-  // A point on the boundary may have left the triangle as it was.
+  // An insertion on the boundary may have left the triangle unchanged.
   if (mesh_.triangles[triangle].state == state) requeue(triangle);
   return true;
 }
@@ -142,7 +143,7 @@ bool RefineLoop::treat(std::uint32_t triangle) {
 // reported and nothing is inserted.
 std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
   disk_.grow(candidate, [this](std::uint32_t t) {
-    // A ball that is not kept is not searched again where it is not asked for.
+    // If balls are not stored, the balls of E's triangles are not searched again where they are not needed.
     return options_.store_hits || !disk_.holds(t) ? ball_of(t) : SurfaceDelaunayBall{};
   });
   if (disk_.is_blocked() || !part_.slab.contains(candidate.point)) {
@@ -206,7 +207,7 @@ double RefineLoop::inherited_pole_height(const Vec3& p, bool closed) const {
   return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
 }
 
-// Replaces E by the star of the new vertex: the slots of E are taken first, then new ones.
+// Replaces E by the star of the new vertex. The star's triangles take the slots of E first, then new ones.
 void RefineLoop::replace_disk(const Candidate& candidate) {
   const bool closed = candidate.split == kNoSide;
   const auto p = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -244,11 +245,11 @@ void RefineLoop::replace_disk(const Candidate& candidate) {
     if (triangle.is_coarse() && is_wanted(t)) queue(t, star_[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!star_[i].has_hit) guard_->distrust(slots_[i]);
+    if (!star_[i].has_hit) guard_->mark_if_far_off(slots_[i]);
   }
 }
 
-// The sheet in the way may be finer now. True when a triangle was queued again.
+// Triangles refused because of a crossing: the other sheet may be finer now. True when a triangle was queued again.
 bool RefineLoop::retry_crossed() {
   if (stats_.insertions == insertions_at_retry_) return false;
   insertions_at_retry_ = stats_.insertions;
@@ -269,7 +270,7 @@ void RefineLoop::requeue(std::uint32_t triangle) {
   queue(triangle, measured(triangle));
 }
 
-// Triangles around the new star that were refused before get another chance, frozen ones in the whole.
+// Queues triangles around the new star that were refused before; in the whole mesh also frozen ones.
 void RefineLoop::wake_neighbours() {
   for (const RimEdge& edge : disk_.rim()) {
     const std::uint32_t t = edge.outer >> 2;

@@ -18,20 +18,20 @@
 
 namespace deliso {
 
-// What a refinement did to a mesh.
+// The changes that a refinement made to a mesh.
 struct RefinementChange {
   std::vector<std::uint32_t> places;
-  std::vector<RefinementMesh::Triangle> triangles;  // at these places
+  std::vector<RefinementMesh::Triangle> triangles;  // of these slots
   std::vector<RefinementMesh::Triangle> new_triangles;
   std::vector<RefinementMesh::Vertex> new_vertices;
 
-  // Does it again to the mesh as it was.
+  // Applies the changes again to the mesh as it was before.
   void redo(RefinementMesh& mesh) const;
 };
 
 class RefineLoop {
  public:
-  // Of a mesh whose vertices have clearances.
+  // For a mesh whose vertices have clearances.
   RefineLoop(RefinementPart& part, const Isosurface& isosurface, const RefineOptions& options, RefineStats& stats)
       : part_(part),
         mesh_(part.mesh),
@@ -41,16 +41,17 @@ class RefineLoop {
         stats_(stats),
         disk_(part.mesh, part.frozen) {}
 
-  // Finds the balls of all triangles and which are coarse; returns an estimate of the insertions that each will need.
+  // Finds the balls of all triangles and which triangles are coarse; returns an estimate of the insertions that each
+  // needs.
   std::vector<float> measure_all(int threads);
-  // Refines the coarse triangles, as far as the part allows. Threads prepare it; it runs on this one alone.
+  // Refines the coarse triangles as far as the part allows. Only the preparation uses several threads.
   void run(Controls& controls, int threads);
-  // Takes back all that run() did, but for what it found suspect; returns what that was.
+  // Takes back all changes of run(), except which vertices are suspect; returns the changes.
   RefinementChange take_back();
 
  private:
   using Candidate = RefinementCandidate;
-  // A triangle to be, with its ball and what the criteria say.
+  // A planned triangle, with its ball and the result of the criteria.
   struct NewTriangle {
     SurfaceDelaunayBall ball;
     bool has_hit = false;
@@ -84,7 +85,7 @@ class RefineLoop {
   [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
   [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
   [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
-  // B_sigma as it is kept; or found anew, the same to the last bit.
+  // B_sigma: stored, or else searched again with the same result bit for bit.
   [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
     if (options_.store_hits) return mesh_.triangles[triangle].ball;
     return measure({mesh_.corner_points(mesh_.triangles[triangle].corners), 1}).ball;
@@ -101,9 +102,9 @@ class RefineLoop {
   std::optional<CrossingGuard> guard_;  // while it runs
   std::vector<Shape> shapes_;           // D, one for each edge of E's rim,
   std::vector<NewTriangle> star_;       // and what is measured of it
-  std::vector<std::uint32_t> slots_;    // the places of the star's triangles
+  std::vector<std::uint32_t> slots_;    // the slots of the star's triangles
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
-  // What is changed: each triangle as it was at the start, and how many vertices there were.
+  // The state at the start: each changed triangle as it was, and the number of vertices.
   class Start {
    public:
     explicit Start(const RefinementMesh& mesh)
@@ -113,13 +114,13 @@ class RefineLoop {
 
    private:
     std::vector<std::uint32_t> places_;
-    std::vector<RefinementMesh::Triangle> triangles_;  // as they were at these places
+    std::vector<RefinementMesh::Triangle> triangles_;  // as they were in these slots
     std::vector<bool> is_kept_;                        // of each triangle of the start
     std::size_t vertex_count_;
   };
   std::optional<Start> start_;
   double star_pole_height_ = 0;
-  bool is_blocked_ = false;  // the latest attempt leaves the part: refused for now, another part decides
+  bool is_blocked_ = false;  // the latest attempt would leave the part: it is refused for now, and another part decides
   std::int64_t insertions_at_retry_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What stage 2 is asked for, and what it tells of its work.
+// The options of stage 2, and its counters.
 #pragma once
 
 #include <array>
@@ -24,17 +24,19 @@ struct RefineOptions {
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
   QueueOrder order = QueueOrder::kWorstFirst;
-  bool restart_at_crossings = true;  // where triangles came to meet, begin again with more care around them
+  // If triangles came to meet, refine again with smaller clearances around them (refine.cpp).
+  bool restart_at_crossings = true;
   Criterion2 criterion2 = Criterion2::kCircumradius;
   NewPole new_pole = NewPole::kMean;
   bool store_hits = true;
-  bool keep_neighbours = true;             // and pole heights; or else the refined mesh has points and triangles alone
+  // Also keep pole heights; otherwise the refined mesh has only points and triangles.
+  bool keep_neighbours = true;
   std::span<const Vec3> coverage_targets;  // points of the surface that the mesh is to come near (coverage_targets.h)
   int threads = 1;                         // the result is the same for any number
-  std::size_t slab_triangles = 6144;       // of stage 1 in a slab (refinement_slabs.h), about
+  std::size_t slab_triangles = 6144;       // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
 };
 
-// What RefineGeom is asked for by a run's parameters; lengths are made absolute by the volume's box (in mesh space).
+// The options of RefineGeom from a run's parameters. Lengths become absolute by the volume's box (in mesh space).
 RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
                              int threads);
 
@@ -65,14 +67,14 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Refusal::
 struct RefineStats : StageStats {
   std::int64_t insertions = 0;
   std::int64_t boundary_splits = 0;   // of them on boundary edges
-  std::int64_t coverage_targets = 0;  // of them points that the mesh had missed (coverage_targets.h)
-  std::int64_t halvings = 0;          // of them on the longest edge of a coarse triangle, x_sigma having been refused
+  std::int64_t coverage_targets = 0;  // of them coverage targets that the mesh had missed (coverage_targets.h)
+  std::int64_t halvings = 0;          // of them on the longest edge of a coarse triangle whose x_sigma was refused
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
-  std::int64_t restarts = 0;          // of a slab, or of what is done in the whole
+  std::int64_t restarts = 0;          // of a slab, or of a round in the whole mesh
   SearchCounters search;
 
-  // Adds what is counted in a part of the mesh.
+  // Adds the counters of a part of the mesh.
   void add(const RefineStats& part) {
     insertions += part.insertions;
     boundary_splits += part.boundary_splits;

@@ -20,9 +20,10 @@ namespace deliso {
 
 namespace {
 
-// More rounds for what the mesh leaves out or where it crosses, though its topology is right, begin so often at most.
+// How often further rounds are started because crossings are missed, or triangles cross, although the topology is
+// right.
 constexpr int kMostReopenings = 2;
-// Crossing triangles are looked for around so many of their pairs.
+// Further rounds sample around at most this many pairs of crossing triangles.
 constexpr std::size_t kMostPairs = 256;
 
 }  // namespace
@@ -37,52 +38,52 @@ Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> r
       rounds_(cache, std::move(restricted), stats) {}
 
 void Repair::mend_topology() {
-  is_as_it_was_ = controls_.stopped();
-  if (!is_as_it_was_) mend_by_rounds();
+  is_unrepaired_ = controls_.stopped();
+  if (!is_unrepaired_) mend_by_rounds();
 }
 
 void Repair::compute_poles() {
-  if (!is_as_it_was_ && !is_assembled_) rounds_.give_poles();
+  if (!is_unrepaired_ && !is_assembled_) rounds_.give_poles();
 }
 
-// Every component as the latest mesh that agrees with it has it, so that most come from one triangulation; strays are
-// dropped. A run that was stopped takes the first mesh as it is.
+// Assembles the components, each from the latest mesh that agrees with it, so that most come from one triangulation.
+// Stray pieces are dropped. A run that was stopped takes the mesh of stage 1 unchanged.
 SurfaceMesh Repair::build_triangle_mesh() {
-  if (is_as_it_was_) return rounds_.as_it_is();
+  if (is_unrepaired_) return rounds_.unrepaired_mesh();
   build();
   return std::exchange(result_.mesh, {});
 }
 
 void Repair::mend(SurfaceMesh& mesh) {
-  if (is_as_it_was_) return;
+  if (is_unrepaired_) return;
   result_.mesh = std::move(mesh);
   mend_vertices();
   mend_crossing();
-  mend_left_out();
+  mend_missed_crossings();
   rounds_.end();
-  // Mixed pieces may have come to lie on all of another component, or on most of it.
+  // A piece with foreign vertices may lie on the whole of another component, or have most of its vertices there.
   const bool may_be_misplaced = stats_.components_mixed > 0 && !controls_.poll();
-  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_apart_ = false;
-  if (!is_apart_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
+  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_crossing_free_ = false;
+  if (!is_crossing_free_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(result_.mesh.points.size());
   mesh = std::move(result_.mesh);
 }
 
-// Rounds until every component is done, or nothing is left but what taking vertices out mends.
+// Makes rounds until every component is done, or only foreign vertices are left and can be removed.
 void Repair::mend_by_rounds() {
   is_assembled_ = rounds_.mend(
       max_rounds_, [this] { return ends_without_foreign_vertices(); }, controls_);
 }
 
-// The mesh of what has been mended. What another round would need stays, if there may be one.
+// Assembles the mesh of the rounds so far. The triangulation is kept if another round may follow.
 void Repair::build() {
   if (is_assembled_) return;
   if (!rounds_.is_done() || !rounds_.may_go_on(max_rounds_) || controls_.poll()) rounds_.end();
   if (!assemble()) polygonize_rest();
 }
 
-// Takes out vertices of other components, and inverted umbrellas.
+// Removes foreign vertices and inverted umbrellas.
 void Repair::mend_vertices() {
   if (!is_assembled_ && stats_.components_mixed > 0 && !controls_.poll()) take_foreign_vertices_out();
   stats_.inverted_umbrellas_removed = 0;
@@ -100,42 +101,43 @@ std::vector<std::uint32_t> Repair::missed(std::span<const Box3> boxes) const {
   return missed_crossings(result_.mesh, boxes, surface_);
 }
 
-// More rounds where the topology is right and yet triangles cross; unless they do not help.
+// Further rounds if the topology is right but triangles cross. If they do not help, the state before them is restored.
 void Repair::mend_crossing() {
-  if (is_apart_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
+  if (is_crossing_free_ || !rounds_.may_go_on(max_rounds_) || controls_.poll()) return;
   SelfIntersections found = crossing_triangles();
-  is_apart_ = found.crossing_pairs == 0;
+  is_crossing_free_ = found.crossing_pairs == 0;
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = rounds_.crossings_at(found.crossing, result_.mesh);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings);
+    std::optional<State> before = mend_around(crossings);
     if (!before) return;
-    if (is_apart_) return;
+    if (is_crossing_free_) return;
     SelfIntersections left = crossing_triangles();
-    if (left.crossing_pairs >= found.crossing_pairs) return return_to(*std::move(before));
+    if (left.crossing_pairs >= found.crossing_pairs) return restore(*std::move(before));
     found = std::move(left);
-    is_apart_ = found.crossing_pairs == 0;
+    is_crossing_free_ = found.crossing_pairs == 0;
   }
 }
 
-// More rounds where the topology is right and yet the mesh leaves parts of the surface out; unless they do not help.
-void Repair::mend_left_out() {
+// Further rounds if the topology is right but the mesh misses crossings. If they do not help, the state before them is
+// restored.
+void Repair::mend_missed_crossings() {
   for (int i = 0; i < kMostReopenings && rounds_.may_go_on(max_rounds_) && !controls_.poll(); ++i) {
     const std::vector<std::uint32_t> crossings = missed(inverted_);
     if (crossings.empty()) return;
-    std::optional<Ending> before = mend_around(crossings);
+    std::optional<State> before = mend_around(crossings);
     if (!before) return;
-    // Where inverted umbrellas were and where they are.
+    // Boxes around the inverted umbrellas before and after these rounds.
     std::vector<Box3> boxes = before->inverted;
     boxes.insert(boxes.end(), inverted_.begin(), inverted_.end());
-    if (missed(boxes).size() >= crossings.size()) return return_to(*std::move(before));
+    if (missed(boxes).size() >= crossings.size()) return restore(*std::move(before));
   }
 }
 
-// Rounds that begin around some crossings. What there was before, if they have led to a mesh that is right, too; else
-// nothing, and all is as it was.
-std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t> crossings) {
-  Ending before = take_ending();
+// Makes rounds that begin with new samples around some crossings. If they lead to a mesh with the right topology,
+// returns the state before them; otherwise restores that state and returns nothing.
+std::optional<Repair::State> Repair::mend_around(std::span<const std::uint32_t> crossings) {
+  State before = take_state();
   rounds_.mend_around(crossings, controls_);
   mend_by_rounds();
   const bool is_done = is_assembled_ || rounds_.is_done();
@@ -145,40 +147,41 @@ std::optional<Repair::Ending> Repair::mend_around(std::span<const std::uint32_t>
     mend_vertices();
   }
   if (is_done && !controls_.poll() && is_polygonized_ == before.is_polygonized) return before;
-  return_to(std::move(before));
+  restore(std::move(before));
   return std::nullopt;
 }
 
-Repair::Ending Repair::take_ending() {
-  Ending ending{std::exchange(result_, {}), is_polygonized_, std::exchange(inverted_, {}),
-                std::exchange(is_apart_, false), stats_};
+Repair::State Repair::take_state() {
+  State state{std::exchange(result_, {}), is_polygonized_, std::exchange(inverted_, {}),
+              std::exchange(is_crossing_free_, false), stats_};
   stats_.foreign_vertices_removed = stats_.inverted_umbrellas_removed = 0;
-  return ending;
+  return state;
 }
 
-void Repair::return_to(Ending ending) {
+void Repair::restore(State state) {
   const std::int64_t rounds = stats_.rounds;
-  result_ = std::move(ending.result);
-  is_polygonized_ = std::move(ending.is_polygonized);
-  inverted_ = std::move(ending.inverted);
-  is_apart_ = ending.is_apart;
-  stats_ = ending.stats;
+  result_ = std::move(state.result);
+  is_polygonized_ = std::move(state.is_polygonized);
+  inverted_ = std::move(state.inverted);
+  is_crossing_free_ = state.is_crossing_free;
+  stats_ = state.stats;
   stats_.rounds = rounds;
 }
 
-// Whether nothing is wrong any more but that components have vertices of others, and these can be taken out.
+// Whether foreign vertices are the only remaining defect and can be removed.
 bool Repair::ends_without_foreign_vertices() {
   if (!rounds_.is_done_but_for_mixing()) return false;
   timed(inner_poles_, [this] { rounds_.give_poles(); });
   const bool is_whole = timed(inner_build_, [this] { return assemble(); });
   if (is_whole && take_foreign_vertices_out()) return true;
   result_ = {};
-  is_apart_ = false;
+  is_crossing_free_ = false;
   stats_.foreign_vertices_removed = 0;
   return false;
 }
 
-// The components, each from the latest mesh that agrees with it. Whether that is all of them.
+// Assembles the components, each from the latest mesh that agrees with it. Returns whether every component has such a
+// mesh.
 bool Repair::assemble() {
   result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface.box(), surface_.threads, stats_);
   return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
@@ -191,8 +194,8 @@ void Repair::polygonize_rest() {
                [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
 }
 
-// What components taken with vertices of others have of them; unless that is what makes triangles cross. Whether none
-// is left and nothing crosses.
+// Removes foreign vertices, unless the removal itself makes triangles cross. Returns whether no foreign vertex is left
+// and no triangles cross.
 bool Repair::take_foreign_vertices_out() {
   const auto crosses = [&](const SurfaceMesh& mesh) {
     return self_intersections(mesh.points, mesh.triangles, 0, surface_.threads).crossing_pairs > 0;
@@ -200,15 +203,15 @@ bool Repair::take_foreign_vertices_out() {
   SurfaceMesh without = result_.mesh;
   const auto [removed, left] = remove_foreign_vertices(without, result_.component);
   if (removed == 0 && left > 0) return false;
-  is_apart_ = !crosses(without);
-  if (removed == 0) return is_apart_;
-  if (!is_apart_ && !crosses(result_.mesh)) {
-    is_apart_ = true;  // as it is
+  is_crossing_free_ = !crosses(without);
+  if (removed == 0) return is_crossing_free_;
+  if (!is_crossing_free_ && !crosses(result_.mesh)) {
+    is_crossing_free_ = true;  // the mesh before the removal
     return false;
   }
   stats_.foreign_vertices_removed = removed;
   result_ = {std::move(without), {}};
-  return left == 0 && is_apart_;
+  return left == 0 && is_crossing_free_;
 }
 
 }  // namespace deliso

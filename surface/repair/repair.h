@@ -1,16 +1,18 @@
-// Repair: resample the surface where its mesh differs from the exact topology, and only there, until nothing differs.
+// Repair: resamples the surface where its mesh differs from the exact topology, and only there.
 //
-// Rounds of: flag the voxel cells near the defects of the components that are not right yet (defect_cells.h); raise
-// each flagged cell one level of the sample lattice and exchange samples in the triangulation (its free samples go,
-// lattice samples come); take signs (sign_rule.h) and match the pieces of the mesh with the exact components; where a
-// few handles are wrong, find the boxes in which they are (euler_differences.h) and turn over single signs there
-// (sign_search.h). A component is done when its main piece has its topology, holds no vertex of another component and
-// lies near all of its samples. At the end each component is taken from the latest mesh that has it at its best; one
-// that no mesh has right is meshed by marching cubes, whose topology is exact, and reported. Vertices of other
-// components (foreign_vertices.h) and inverted umbrellas (inverted_umbrellas.h) are removed from what that makes; when
-// the former are all that is wrong, that is the end. Where inverted umbrellas that have to stay leave parts of the
-// surface out (missed_crossings.h), the rounds go on, with samples around these. Components whose triangles cross
-// others are meshed by marching cubes, too, until none do (marching_cubes_fallback.h).
+// Input are the triangulation of stage 1 and the exact topology. A component of the surface is done when its main piece
+// has its topology, has no foreign vertex, and lies near all samples of the component. A round treats the other ones:
+//  1. flag the voxel cells near their defects (defect_cells.h), found also by Euler curves (euler_differences.h);
+//  2. refine each flagged cell by one level: its free samples leave, lattice samples come (cell_levels.h, samples.h);
+//  3. set the signs by the rule for refined cells (sign_rule.h), build the mesh, match its pieces with the components;
+//  4. flip single signs where a few handles are wrong (sign_search.h).
+// Rounds end when every component is done, when only foreign vertices are left and can be removed (foreign_vertices.h),
+// after `max_rounds`, or when the run is stopped. Each component is then taken from the latest mesh that agrees with it
+// best (component_selection.h), and inverted umbrellas are removed (inverted_umbrellas.h). While they help, further
+// rounds sample around missed crossings (missed_crossings.h) and crossing triangles. A component without a right mesh,
+// or whose triangles still cross others, is taken from marching cubes and reported (marching_cubes_fallback.h).
+// Guaranteed, unless the run is stopped: every component has its exact topology, and no triangles cross (but for the
+// crossings that marching cubes rounds to samples, see volume/marching_cubes/marching_cubes.h).
 #pragma once
 
 #include <cstdint>
@@ -32,32 +34,32 @@
 
 namespace deliso {
 
-// Stands around ComputePoles and BuildTriMesh: mend_topology() before them, mend() after them. The same for any number
-// of threads.
+// The steps of repair around ComputePoles and BuildTriMesh: mend_topology() comes before them, mend() after them. The
+// result is the same for any number of threads.
 class Repair : public RecoveredSurface {
  public:
-  // `restricted` is what stage 1 left. Keeps references to `cache`, `controls` and `stats`.
+  // `restricted` is the result of stage 1. Keeps references to `cache`, `controls` and `stats`.
   Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
          Controls& controls, RepairStats& stats);
 
-  // New samples and signs, until the mesh to be has the exact topology or there have been enough rounds.
+  // Rounds with new samples and signs, until the mesh has the exact topology or the limit of rounds is reached.
   void mend_topology();
-  // Each in the triangulation that its component is taken from.
+  // The pole heights of each vertex, from the triangulation that its component's mesh was made of.
   void compute_poles() override;
   SurfaceMesh build_triangle_mesh() override;
-  // Takes out what is in the wrong place. Goes on with rounds, ComputePoles and BuildTriMesh where triangles cross or
-  // parts of the surface are missed.
+  // Removes foreign vertices and inverted umbrellas. If triangles cross or crossings are missed, it makes further
+  // rounds, each with ComputePoles and BuildTriMesh of its own. Last it takes marching cubes where nothing else helps.
   void mend(SurfaceMesh& mesh) override;
   [[nodiscard]] double inner_poles_seconds() const override { return inner_poles_.seconds; }
   [[nodiscard]] double inner_build_seconds() const override { return inner_build_.seconds; }
 
  private:
-  // What rounds have led to.
-  struct Ending {
+  // The result of the rounds so far.
+  struct State {
     AssembledMesh result;
-    std::vector<bool> is_polygonized;  // of each component in it
-    std::vector<Box3> inverted;        // umbrellas left in it
-    bool is_apart = false;
+    std::vector<bool> is_polygonized;  // of each component: taken from marching cubes
+    std::vector<Box3> inverted;        // boxes around the inverted umbrellas left in it
+    bool is_crossing_free = false;
     RepairStats stats;
   };
 
@@ -65,12 +67,12 @@ class Repair : public RecoveredSurface {
   void build();
   void mend_vertices();
   void mend_crossing();
-  void mend_left_out();
-  std::optional<Ending> mend_around(std::span<const std::uint32_t> crossings);
+  void mend_missed_crossings();
+  std::optional<State> mend_around(std::span<const std::uint32_t> crossings);
   [[nodiscard]] SelfIntersections crossing_triangles() const;
   [[nodiscard]] std::vector<std::uint32_t> missed(std::span<const Box3> boxes) const;
-  Ending take_ending();
-  void return_to(Ending ending);
+  State take_state();
+  void restore(State state);
   bool ends_without_foreign_vertices();
   bool assemble();
   void polygonize_rest();
@@ -82,12 +84,13 @@ class Repair : public RecoveredSurface {
   Controls& controls_;
   RepairStats& stats_;
   RepairRounds rounds_;
-  AssembledMesh result_;              // at last
-  std::vector<bool> is_polygonized_;  // of each component in it
-  std::vector<Box3> inverted_;        // umbrellas left in it
-  bool is_apart_ = false;             // its triangles are known not to cross; taking vertices out keeps that
-  bool is_assembled_ = false;         // rounds ended with it, foreign vertices taken out
-  bool is_as_it_was_ = false;         // the run had to end before any round
+  AssembledMesh result_;              // the final mesh
+  std::vector<bool> is_polygonized_;  // of each component: taken from marching cubes
+  std::vector<Box3> inverted_;        // boxes around the inverted umbrellas left in it
+  bool is_crossing_free_ = false;     // its triangles are known not to cross; removing vertices keeps this
+  bool is_assembled_ = false;         // the rounds ended with result_ assembled, its foreign vertices removed
+  // The run was stopped before the first round: the mesh of stage 1 is output unchanged.
+  bool is_unrepaired_ = false;
   StageStats inner_poles_, inner_build_;
 };
 

@@ -1,4 +1,4 @@
-// Dual edges and their hits: the part of RestrictedDelaunay that asks the isosurface.
+// Dual edges and their hits: the part of RestrictedDelaunay that queries the isosurface.
 #include "surface/restricted/restricted_delaunay.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double kEndTolerance = 1e-7;
 }  // namespace
 
 double surface_hit(const DualEdge& edge) {
-  // Hits alternate, and the first one crosses in the direction of the facet.
+  // Hits alternate between the two directions; the first one crosses in the direction of the facet.
   double nearest = edge.hits.front().t;
   for (std::size_t i = 2; i < edge.hits.size(); i += 2) {
     if (std::abs(edge.hits[i].t) < std::abs(nearest)) nearest = edge.hits[i].t;
@@ -27,8 +27,8 @@ double surface_hit(const DualEdge& edge) {
   return nearest;
 }
 
-// The same as search_facet, for a facet between tetrahedra of one sign with these dual points: most such dual edges
-// lie far from the isosurface.
+// The same as search_facet, for a facet between two tetrahedra of equal sign with these dual points. Most such dual
+// edges lie far from the isosurface and need no search.
 void RestrictedDelaunay::search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to) {
   if (has_virtual_vertex(f)) return;
   if (from.is_finite && to.is_finite ? isosurface_.is_clear(from.point, from.place, to.point, to.place)
@@ -39,7 +39,7 @@ void RestrictedDelaunay::search_clear_facet(FacetId f, const DualEnd& from, cons
   search_facet(f);
 }
 
-// Computes V_sigma and Sigma for a facet and keeps its dual edge when it has hits.
+// Computes V_sigma and Sigma for a facet. Stores its dual edge when it has hits.
 void RestrictedDelaunay::search_facet(FacetId f) {
   if (has_virtual_vertex(f)) return;
   const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
@@ -61,7 +61,8 @@ void RestrictedDelaunay::search_facet(FacetId f) {
     edge.t_end = std::max(edge.t_begin, dual_end(edge, delaunay_.mirror(f).tet(), +1));
     isosurface_.all_hits(edge.dual, edge.t_begin, edge.t_end, edge.hits, counters_);
   } else {
-    edge.dual = {(a + b + c) / 3, {0, 0, 0}};  // a needle: nothing can be measured on it
+    // A nearly degenerate facet (needle): nothing can be measured on its dual line.
+    edge.dual = {(a + b + c) / 3, {0, 0, 0}};
     edge.radius = kInfinity;
     edge.t_begin = edge.t_end = 0;
   }
@@ -83,7 +84,8 @@ void RestrictedDelaunay::search_facet(FacetId f) {
 // through the facet, +1 when it enters. The apex d satisfies |x(t) - d| = |x(t) - a|, which gives t = (|d - c|^2 - r^2)
 // / (2 n.(d - c)); the sign of n.(d - c) is known exactly, so a rounded one that disagrees counts as 0.
 double RestrictedDelaunay::dual_end(const DualEdge& edge, TetId t, int side) const {
-  // What is left of the four when the facet's three cancel out: which one it is cannot be foretold.
+  // The XOR leaves the fourth vertex when the facet's three cancel out; its slot is unpredictable, so there is no
+  // branch.
   const auto& v = delaunay_.vertices(t);
   VertexId apex;
   apex.value = v[0].value ^ v[1].value ^ v[2].value ^ v[3].value ^ edge.vertices[0].value ^ edge.vertices[1].value ^
@@ -94,8 +96,8 @@ double RestrictedDelaunay::dual_end(const DualEdge& edge, TetId t, int side) con
   return side * (squared_norm(d) - edge.radius * edge.radius) / (2 * height);
 }
 
-// The signs of the two tetrahedra win over the search (unless the rule leaves it to the hits): where the first or last
-// hit contradicts them, a hit within rounding of that end is dropped, or else one is put there.
+// The signs of the two tetrahedra overrule the search (unless the facet rule is kHits). If the first or last hit
+// contradicts them, a hit within rounding of that end is dropped; if there is none, a hit is added at the end.
 void RestrictedDelaunay::settle_hits(DualEdge& edge) {
   const bool begin_above = is_above(edge.facet.tet());
   const bool end_above = is_above(delaunay_.mirror(edge.facet).tet());

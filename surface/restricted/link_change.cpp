@@ -6,7 +6,7 @@ namespace deliso {
 
 bool LinkChange::keeps_cycle(VertexId newest) const {
   if (gained_count_ == 2 && lost_count_ <= kMost) {
-    // Nearly always a path gives way to two edges over the newest vertex.
+    // In nearly all cases a path is replaced by two edges that meet at the newest vertex.
     const bool is_swapped = gained_[0].from == newest;
     const LinkEdge& to_newest = gained_[is_swapped ? 1 : 0];
     const LinkEdge& from_newest = gained_[is_swapped ? 0 : 1];
@@ -15,8 +15,8 @@ bool LinkChange::keeps_cycle(VertexId newest) const {
   if (gained_count_ == 0 || gained_count_ > kMost) return false;
   const std::optional<Ends> ends = ends_of_lost_path();
   if (!ends) return false;
-  // As many steps as there are edges, each the only one from where it begins, and the end only at last: so the path
-  // passes each edge once, and no vertex twice.
+  // There are as many steps as edges; each step takes the only edge that begins at its vertex, and the end is reached
+  // only with the last. So the path passes each edge once, and no vertex twice.
   VertexId at = ends->first;
   for (std::size_t step = 0; step < gained_count_; ++step) {
     const auto was_passed = [&](const LinkEdge& edge) { return edge.from == at; };
@@ -28,8 +28,8 @@ bool LinkChange::keeps_cycle(VertexId newest) const {
   return at == ends->last;
 }
 
-// Whether the edges lost, which are distinct ones of a cycle, are a path from `first` to `last`. Counted without
-// branches: few edges in any order.
+// Whether the lost edges, which are distinct edges of a cycle, form a path from `first` to `last`. Counted without
+// branches: there are few edges, in any order.
 bool LinkChange::was_path(VertexId first, VertexId last) const {
   std::size_t joints = 0;
   unsigned begins = 0, ends = 0, passes = 0;

@@ -1,5 +1,5 @@
-// What an insertion does to the link of a vertex on the surface: the umbrella stays a disk when a path of the link was
-// exchanged for another one. Much faster than a walk around the whole umbrella.
+// How an insertion changes the link of a vertex on the surface. The umbrella stays a disk when a path of the link was
+// replaced by another path. This test is much faster than a walk around the whole umbrella.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace deliso {
 
-// Of a vertex's restricted facet: the edge across from the vertex, turned as the facet is.
+// The edge of a vertex's restricted facet opposite the vertex, oriented as in the facet.
 struct LinkEdge {
   VertexId from, to;
 };
@@ -23,16 +23,16 @@ class LinkChange {
   void lose(const LinkEdge& edge) { note(edge, lost_, lost_count_); }
   void gain(const LinkEdge& edge) { note(edge, gained_, gained_count_); }
 
-  // Whether a link that was one cycle is one again. Certain only when true: a path was lost, and what was gained is a
-  // path between the same two ends, through vertices of the lost one and `newest`, which was in no link.
+  // Whether a link that was one cycle is one cycle again. Certain only when true: a path was lost, and a path between
+  // the same two ends was gained, through vertices of the lost one and `newest`, which was in no link.
   [[nodiscard]] bool keeps_cycle(VertexId newest) const;
-  // Whether the edges gained are one cycle, of `size` vertices none of which is virtual by `is_virtual`. Certain only
+  // Whether the gained edges form one cycle of `size` vertices, none of which is virtual by `is_virtual`. Certain only
   // when true.
   template <class IsVirtual>
   [[nodiscard]] bool is_new_cycle(std::size_t size, const IsVirtual& is_virtual) const;
 
  private:
-  static constexpr std::size_t kMost = 12;  // edges; of what changes more nothing is told
+  static constexpr std::size_t kMost = 12;  // edges; with more changes the answer is always false
   using Edges = std::array<LinkEdge, kMost>;
   struct Ends {
     VertexId first, last;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kTetsAtOnce = 8 * kBlockSize;
 
-// The pole height from the squared distances of the two poles; a side without a Voronoi vertex has 0. Poles farther
-// than `most` count as that far.
+// The pole height from the squared distances of the two poles; a side without a Voronoi vertex has 0. Distances above
+// `most` count as `most`.
 double pole_height(const std::array<double, 2>& squared, double most, PoleHeight rule) {
   const auto height = [most](double squared_height) { return std::min(most, std::sqrt(squared_height)); };
   if (!(squared[0] > 0) && !(squared[1] > 0)) return most;
@@ -52,7 +52,7 @@ std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::v
         circumcenter(delaunay.point(v[0]), delaunay.point(v[1]), delaunay.point(v[2]), delaunay.point(v[3]));
     return squared_distance(center, delaunay.point(v[0]));
   };
-  // The radii of a run of tetrahedra at a time are found on all threads, then each vertex takes the largest ones.
+  // For a block of tetrahedra at a time: all threads compute the radii, then each vertex takes the largest ones.
   using Radius = std::pair<TetId, double>;                                       // squared
   std::vector<std::array<double, 2>> farthest(delaunay.vertex_count(), {0, 0});  // squared, below and above
   for (std::size_t first = 0; first < delaunay.tet_slots(); first += kTetsAtOnce) {

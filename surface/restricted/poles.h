@@ -8,32 +8,32 @@
 
 namespace deliso {
 
-// The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two; on
-// each side the pole is the Voronoi vertex farthest from the vertex, and the pole height is the smaller of the two
-// distances (or, for comparison, the larger or their mean). The signs of the tetrahedra tell the sides apart. A side on
-// which the cell is unbounded counts as infinite (but for vertices on the box, whose cells always leave it); when both
-// are, the height is the diagonal of the box.
+// The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two. On
+// each side the pole is the Voronoi vertex farthest from the vertex. The pole height is the smaller of the two
+// distances (or, for comparison, the larger or their mean). The signs of the tetrahedra tell which side a Voronoi
+// vertex is on. A side on which the cell is unbounded counts as infinite (except at vertices on the box, whose cells
+// are always unbounded); when both sides are, the height is the diagonal of the box.
 std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule = PoleHeight::kNearer);
-// The same where only those of the wanted vertices matter; the others have any height; on several threads.
+// The same when only the wanted vertices matter, on several threads. The heights of the others are unspecified.
 std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule,
                                   int threads);
 
-// Pole heights (the nearer pole) for signs that change and points that are exchanged: those of vertices around which
-// nothing has changed since the last time are known.
+// Pole heights (of the nearer pole) while signs change and points are exchanged. The height of a vertex is computed
+// anew only if something around it has changed since the last time.
 class KnownPoles {
  public:
   // Keeps a reference.
   explicit KnownPoles(const SignedDelaunay& restricted) : restricted_(restricted) {}
 
   void renew(const ExchangedPoints& exchanged);
-  // For the signs as they stand; of the wanted vertices, the others have any height.
+  // The heights for the present signs. Only those of the wanted vertices are specified.
   const std::vector<double>& heights(const std::vector<bool>& wanted, int threads);
 
  private:
   void forget_around(TetId t);
 
   const SignedDelaunay& restricted_;
-  std::vector<std::uint8_t> signs_;  // by slot, as of the last time; empty when there was none
+  std::vector<std::uint8_t> signs_;  // by slot, as of the last call; empty before the first
   std::vector<double> heights_;
   std::vector<bool> is_known_;
 };

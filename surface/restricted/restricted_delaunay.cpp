@@ -11,9 +11,9 @@ namespace {
 
 struct RestrictedFacet {
   std::array<VertexId, 3> vertices;
-  bool is_seen_from_above = false;  // counterclockwise from outside the tetrahedron above
+  bool is_seen_from_above = false;  // counterclockwise seen from outside the tetrahedron above
 
-  // Of the link of a vertex, turned the same way for all facets.
+  // The edge of a vertex's link, with the same orientation for all facets.
   [[nodiscard]] LinkEdge link_edge(unsigned i) const {
     const VertexId next = vertices[(i + 1) % 3], last = vertices[(i + 2) % 3];
     return is_seen_from_above ? LinkEdge{next, last} : LinkEdge{last, next};
@@ -27,7 +27,7 @@ RestrictedDelaunay::RestrictedDelaunay(const Isosurface& isosurface, std::span<c
     : SignedDelaunay(isosurface, points, threads), rule_(rule) {
   const Stopwatch watch;
   search_everything();
-  touched_vertices_.clear();  // by kHits searches have touched some
+  touched_vertices_.clear();  // with the rule kHits, searches have touched some vertices
   link_changes_.clear();
   restricted_seconds_ += watch.seconds();
 }
@@ -65,7 +65,7 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
     delaunay_.abandon_cavity();
     return Outcome::kTooClose;
   }
-  // Each facet of the star may have a dual edge: at most five for two on the rim.
+  // Each facet of the star may have a dual edge: at most five facets for two edges of the rim.
   if (is_part_ && edges_left() < 3 * delaunay_.rim().size()) {
     delaunay_.abandon_cavity();
     return Outcome::kBlocked;
@@ -81,7 +81,7 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
   return Outcome::kInserted;
 }
 
-// Before the conflict region goes: dual edges inside it are released, those of its rim are noted.
+// Call before the conflict region is destroyed: releases the dual edges inside it and notes those of its rim.
 void RestrictedDelaunay::forget_region() {
   rim_edges_.clear();
   for (const FacetId f : delaunay_.rim()) {
@@ -100,9 +100,9 @@ void RestrictedDelaunay::forget_region() {
   }
 }
 
-// The facets of some tetrahedra from `first_face` on, but for those of `left_out` (bits for each tetrahedron, or
-// empty), each from one of its two sides. Which side cannot be foretold: so all are written, and those not wanted
-// overwritten.
+// The facets of some tetrahedra, from face `first_face` on, except those of `left_out` (bits for each tetrahedron, or
+// empty); each facet is listed from one of its two sides. Which side is unpredictable: so all are written, and the
+// unwanted ones are overwritten.
 std::span<const FacetId> RestrictedDelaunay::facets_once(std::span<const TetId> tets, unsigned first_face,
                                                          std::span<const std::uint8_t> left_out) {
   facets_once_.resize(4 * tets.size() + 1);
@@ -124,7 +124,7 @@ RestrictedDelaunay::DualEnd RestrictedDelaunay::dual_end_at(const Vec3& dual_poi
   return end;
 }
 
-// After the cavity is filled: signs of the new tetrahedra, then their facets, the rim first.
+// Call after the cavity is filled: computes the signs of the new tetrahedra, then their facets, the rim first.
 void RestrictedDelaunay::renew_star() {
   sign_.resize(delaunay_.tet_slots());
   tets_.resize(delaunay_.tet_slots());
@@ -145,7 +145,7 @@ void RestrictedDelaunay::renew_star() {
   }
   for (std::size_t i = 0; i < created.size(); ++i) {
     const RimEdge& rim = rim_edges_[i];
-    // Most facets of the rim have nothing to do with the surface: one branch for all of them.
+    // Most facets of the rim are far from the surface: one branch skips them.
     const unsigned concerns = static_cast<unsigned>(!rim.edge.is_none()) | static_cast<unsigned>(rim.was_restricted) |
                               static_cast<unsigned>(is_dual_to_surface(FacetId(created[i], 0)));
     if (concerns != 0) renew_rim_facet(created[i], rim);
@@ -172,19 +172,20 @@ void RestrictedDelaunay::renew_rim_facet(TetId created, const RimEdge& rim) {
   if (!restricted && rim.was_restricted) remove_restricted(f);
   const DualEdgeId e = dual_edge_of(f);
   if (e.is_none()) {
-    if (restricted) search_facet(f);  // the signs disagree with the search that found nothing: they win
+    if (restricted) search_facet(f);  // the search found nothing, but the signs differ: the signs win
   } else if (has_other_hits || restricted != rim.was_restricted) {
     dual_edges_[e.index()].generation += 2;
     touched_edges_.push_back(e);
   }
 }
 
-// The dual edge of a facet on the rim is a part of what it was: its hits are filtered, not searched again. Tells
-// whether their number changed; an edge without hits is released.
+// The dual edge of a facet on the rim is a part of the old dual edge: so its old hits are filtered, not searched again.
+// Returns whether their number changed; an edge without hits is released.
 bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
   DualEdge& edge = dual_edges_[rim.edge.index()];
   tets_[f.tet().index()].edges[f.face()] = rim.edge;
-  const bool begins_inside = edge.facet != delaunay_.mirror(f);  // in the region, before it went
+  // Seen from inside the region, before that was destroyed.
+  const bool begins_inside = edge.facet != delaunay_.mirror(f);
   if (begins_inside) {
     edge.facet = f;
     edge.t_begin = std::min(dual_end(edge, f.tet(), -1), edge.t_end);
@@ -199,7 +200,7 @@ bool RestrictedDelaunay::cut_back(const RimEdge& rim, FacetId f) {
   return changed;
 }
 
-// By kHits; a facet with a virtual vertex goes by its signs.
+// For the rule kHits; a facet with a virtual vertex is decided by its signs.
 bool RestrictedDelaunay::has_odd_hits(FacetId f) const {
   return RestrictedDelaunay::falls_through(f) || RestrictedDelaunay::falls_through(delaunay_.mirror(f));
 }
@@ -233,8 +234,8 @@ void RestrictedDelaunay::add_restricted(FacetId f) {
   }
 }
 
-// On the rim the sign in the region has changed by now; that beyond it tells which way the facet was turned. (By kHits
-// this may be wrong, and nobody asks.)
+// On the rim the sign inside the region has changed by now; the sign beyond it tells how the facet was oriented. (With
+// the rule kHits this may be wrong, but it is not used.)
 void RestrictedDelaunay::remove_restricted(FacetId f) {
   const RestrictedFacet facet{delaunay_.facet_vertices(f), !is_above(delaunay_.mirror(f).tet())};
   for (unsigned i = 0; i < 3; ++i) {
@@ -245,7 +246,7 @@ void RestrictedDelaunay::remove_restricted(FacetId f) {
   }
 }
 
-// Which umbrellas the insertion has left disks for certain.
+// Finds which umbrellas are certainly disks after the insertion.
 void RestrictedDelaunay::judge_umbrellas() {
   const VertexId newest = last_vertex();
   for (std::size_t i = 0; i < touched_vertices_.size(); ++i) {
@@ -257,11 +258,11 @@ void RestrictedDelaunay::judge_umbrellas() {
 }
 
 UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) {
-  if (rule_ == FacetRule::kHits) return UmbrellaShape::kBroken;  // the walk goes by signs
+  if (rule_ == FacetRule::kHits) return UmbrellaShape::kBroken;  // the walk uses signs
   auto& [size, facet, is_disk] = umbrellas_[q.index()];
   if (is_disk) return UmbrellaShape::kDisk;
   if (size == 0) return UmbrellaShape::kEmpty;
-  // The facet known may be gone, and another one stand in its place.
+  // The stored facet may be gone, and its slot reused by another one.
   if (facet.is_none() || !delaunay_.is_live(facet.tet()) || !is_above(facet.tet()) || !is_restricted(facet))
     return UmbrellaShape::kBroken;
   const std::array<VertexId, 3> v = delaunay_.facet_vertices(facet);
@@ -271,7 +272,7 @@ UmbrellaShape RestrictedDelaunay::quick_umbrella_shape(VertexId q) {
   return shape;
 }
 
-// Tells where to note what becomes of the vertex's link.
+// Returns the record of the changes of the vertex's link.
 LinkChange& RestrictedDelaunay::touch(VertexId v) {
   Touch& touch = touches_[v.index()];
   if (touch.stamp != stamp_) {

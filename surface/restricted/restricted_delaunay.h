@@ -19,8 +19,9 @@
 
 namespace deliso {
 
-// Which facets are restricted: those whose two tetrahedra differ in sign; or, for comparison, as the paper has it,
-// those whose own dual edge was found to have an odd number of hits, whatever the signs at its ends.
+// The rule that tells which facets are restricted. kSigns: those whose two tetrahedra differ in sign. kHits, for
+// comparison, as in the paper: those whose own dual edge was found to have an odd number of hits, whatever the signs at
+// its ends.
 enum class FacetRule { kSigns, kHits };
 
 using DualEdgeId = StrongId<struct DualEdgeTag>;
@@ -34,7 +35,7 @@ struct DualEdge {
   double t_begin = 0;                // where the dual edge begins and ends: infinite towards a ghost
   double t_end = 0;
   std::vector<Hit> hits;         // V_sigma and Sigma: ascending, alternating; by kSigns consistent with the two signs
-  std::uint32_t generation = 0;  // odd while alive; grows with every change, so that a queue can tell stale entries
+  std::uint32_t generation = 0;  // odd while alive; every change increases it, so a queue can recognize stale entries
 };
 
 // x_sigma of a restricted facet: the hit nearest to its plane among those that cross in the direction of the facet.
@@ -47,28 +48,28 @@ class RestrictedDelaunay : public SignedDelaunay {
                      int threads = 1);
 
   enum class Outcome { kInserted, kDuplicate, kTooClose, kBlocked };
-  // Inserts the point unless a vertex is nearer than `min_distance`. `start`: a tetrahedron probably in conflict with
-  // it. Parts alone are blocked.
+  // Inserts the point unless a vertex is nearer than `min_distance`. `start` is a tetrahedron that is probably in
+  // conflict with it. The outcome kBlocked occurs only in parts.
   Outcome insert(const Vec3& point, TetId start, double min_distance);
 
-  // Whether it would destroy a tetrahedron.
+  // Whether inserting the point would destroy t.
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& point) const { return delaunay_.in_conflict(t, snapped(point)); }
 
-  // What the last successful insertion changed: dual edges that are new or other than before, and vertices whose
-  // umbrella is.
+  // What the last successful insertion changed: the dual edges that are new or changed, and the vertices whose umbrella
+  // changed.
   [[nodiscard]] std::span<const DualEdgeId> touched_edges() const { return touched_edges_; }
   [[nodiscard]] std::span<const VertexId> touched_vertices() const { return touched_vertices_; }
   [[nodiscard]] VertexId last_vertex() const { return VertexId(delaunay_.vertex_count() - 1); }
 
-  // Parts for several threads, one in each of some slabs that do not meet, with room for so many insertions each (see
-  // BowyerWatson); no parts when that is 0 or cannot be. To be left alone until they have joined.
+  // Parts for several threads, one in each of some disjoint slabs, with room for so many insertions each (see
+  // BowyerWatson). Returns no parts when there is no room. This object must not be used until the parts have joined.
   std::vector<std::unique_ptr<RestrictedDelaunay>> parts(std::span<const Slab> slabs, std::size_t insertions,
                                                          int threads = 1);
-  // Whether there is room for an insertion, unless it is a very large one in a part.
+  // Whether there is room for an insertion; in a part a very large one may still not fit.
   [[nodiscard]] bool has_room() const {
     return !is_part_ || (delaunay_.has_room() && edges_left() >= kFewestEdgesLeft);
   }
-  // Takes in what the parts have done. Returns the new id of each vertex.
+  // Takes in the results of the parts. Returns the new id of each vertex.
   std::vector<VertexId> join(std::span<const std::unique_ptr<RestrictedDelaunay>> parts);
 
   // Slots of dual edges; `is_alive` tells the used ones.
@@ -78,14 +79,14 @@ class RestrictedDelaunay : public SignedDelaunay {
   // The dual edge of a facet, or none when it has no hit.
   [[nodiscard]] DualEdgeId dual_edge_of(FacetId f) const { return tets_[f.tet().index()].edges[f.face()]; }
 
-  // Restricted by the rule. Facets with a virtual vertex have no dual edge: their signs tell.
+  // Whether the facet is restricted by the rule. Facets with a virtual vertex have no dual edge: their signs decide.
   [[nodiscard]] bool is_dual_to_surface(FacetId f) const {
     return rule_ == FacetRule::kSigns ? is_restricted(f) : has_odd_hits(f);
   }
   [[nodiscard]] bool falls_through(FacetId f) const override;
 
-  // The umbrella of a vertex, as far as what insertions changed of it or a quick walk can tell (see link_change.h,
-  // shape_by_walk). Only while nobody but insert() has changed signs.
+  // The shape of a vertex's umbrella, as far as recorded changes or a quick walk can tell it (see link_change.h,
+  // shape_by_walk). Precondition: only insert() has changed signs.
   [[nodiscard]] UmbrellaShape quick_umbrella_shape(VertexId q);
 
   [[nodiscard]] const SearchCounters& counters() const { return counters_; }
@@ -131,7 +132,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   };
   [[nodiscard]] DualEnd dual_end_at(const Vec3& dual_point, TetId t) const;
   void search_clear_facet(FacetId f, const DualEnd& from, const DualEnd& to);
-  // Fast but for the few triangulations with guards.
+  // Constant time when there are no guards, which is the rule.
   [[nodiscard]] bool has_virtual_vertex(FacetId f) const {
     return guards_ == 0 ? f.face() != 3 && delaunay_.is_ghost(f.tet()) : has_virtual_vertex_or_guard(f);
   }
@@ -141,7 +142,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   void remove_restricted(FacetId f);
   LinkChange& touch(VertexId v);
   void judge_umbrellas();
-  // Tells the processor that a dual edge, if there is one, will be read soon: without a branch on whether there is.
+  // Prefetches a dual edge, if there is one, without a branch on whether there is.
   void prefetch(DualEdgeId e) const {
     if (!dual_edges_.empty()) __builtin_prefetch(&dual_edges_[std::min(e.index(), dual_edges_.size() - 1)]);
   }
@@ -155,20 +156,20 @@ class RestrictedDelaunay : public SignedDelaunay {
   };
   SharedArray<TetRecord> tets_;
   struct Touch {
-    std::uint32_t stamp = 0;  // the insertion that touched a vertex last; 0 for none
-    std::uint32_t place = 0;  // in touched_vertices_, as long as it is the last one
+    std::uint32_t stamp = 0;  // the last insertion that touched the vertex; 0 for none
+    std::uint32_t place = 0;  // index in touched_vertices_, valid if that insertion is the last one
   };
   SharedArray<Touch> touches_;  // of each vertex
   std::uint32_t stamp_ = 1;
   std::vector<Vec3> circumcenters_;      // of created(), but for ghosts
   std::vector<DualEnd> dual_ends_;       // of created()
   std::vector<FacetId> facets_once_;     // the latest
-  std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: bits of its faces on the rim
-  // The umbrella of each vertex: how many restricted facets it has, and one of them, unless that is gone.
+  std::vector<std::uint8_t> rim_faces_;  // of each tetrahedron of the conflict region: one bit for each face on the rim
+  // The umbrella of each vertex: its number of restricted facets, and one of them, which may be stale.
   struct Umbrella {
     std::uint32_t size = 0;
     FacetId facet;
-    bool is_disk = false;  // known to be one, by what kSigns says
+    bool is_disk = false;  // whether it is known to be one by the rule kSigns
   };
   SharedArray<Umbrella> umbrellas_;
 
@@ -176,7 +177,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   std::vector<DualEdgeId> free_edges_;
   std::vector<DualEdgeId> touched_edges_;
   std::vector<VertexId> touched_vertices_;
-  std::vector<LinkChange> link_changes_;  // of these, the rest for later ones
+  std::vector<LinkChange> link_changes_;  // of touched_vertices_; further elements are kept for later insertions
 
   std::vector<RimEdge> rim_edges_;
   DualEdge scratch_;

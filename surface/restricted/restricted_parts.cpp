@@ -8,7 +8,7 @@ namespace deliso {
 
 namespace {
 
-// An insertion needs so many dual edges, all in all; when there are fewer, a part ends sooner.
+// The dual edges that an insertion needs on average; with fewer, a part ends sooner.
 constexpr std::size_t kEdgesPerInsertion = 4;
 
 }  // namespace
@@ -36,7 +36,7 @@ std::vector<std::unique_ptr<RestrictedDelaunay>> RestrictedDelaunay::parts(std::
   return parts;
 }
 
-// A slot that is free becomes anybody's: a part must not look there for the facet of a vertex that it had before.
+// A freed slot may be reused by any part: so a part must not look there for the stored facet of a vertex.
 void RestrictedDelaunay::forget_facets_gone() {
   for (std::size_t v = 0; v < umbrellas_.size(); ++v) {
     FacetId& facet = umbrellas_[v].facet;
@@ -48,7 +48,7 @@ void RestrictedDelaunay::forget_facets_gone() {
   }
 }
 
-// In two arrays beside each other: most of it is waiting for fresh pages.
+// Two arrays at the same time: most of the time goes into waiting for fresh pages.
 void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges, int threads) {
   const int threads_each = (threads + 1) / 2;
   run_tasks(2, threads, [&](std::size_t task) {

@@ -13,11 +13,12 @@ namespace {
 
 // Guards sit this many box diagonals off the plane of coplanar points.
 constexpr double kGuardDistance = 16;
-// Smaller coordinates count as zero: the exact predicates do not reach down to them, and a surface point may lie as
-// near to a side of the box as its data please.
+// Smaller coordinates count as zero: the exact predicates do not cover them, and a surface point may lie arbitrarily
+// near to a side of the box.
 constexpr double kSmallestCoordinate = 0x1p-100;
 
-// Of the box of all points, to spare along each axis. The smaller it is, the more orientations are plain.
+// The margin around the box of all points, as a fraction of its size. The smaller it is, the more often the static
+// filter decides an orientation.
 constexpr double kToSpare = 1.0 / 64;
 
 Box3 with_margin(const Box3& box, const Vec3& reach) {
@@ -43,7 +44,7 @@ Vec3 plane_normal(std::span<const Vec3> points) {
   return best / norm(best);
 }
 
-// The point of the box that a point running to infinity along the line ends at when it is clamped.
+// The limit of clamp(point) for a point that runs to infinity along the line.
 Vec3 clamped_limit(const Box3& box, const Vec3& origin, const Vec3& direction) {
   Vec3 p = box.clamp(origin);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,17 +102,17 @@ bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const
   if (guards_ > 0) return false;
   std::vector<TetId>& renewed = exchanged.renewed;
   const auto note = [&](std::span<const TetId> tets) { renewed.insert(renewed.end(), tets.begin(), tets.end()); };
-  // Step 1: take away; a point that comes may be where one has gone.
+  // Step 1: remove vertices first, because a new point may lie where an old one is removed.
   std::vector<BowyerWatson::Going> goes(delaunay_.vertex_count(), BowyerWatson::Going::kNo);
   for (const VertexId v : leaving) goes[v.index()] = BowyerWatson::Going::kYes;
   for (const VertexId v : leaving) {
-    if (goes[v.index()] == BowyerWatson::Going::kNo) continue;  // has gone with another one
+    if (goes[v.index()] == BowyerWatson::Going::kNo) continue;  // already removed together with another one
     if (!delaunay_.remove(v, goes)) return false;
     note(delaunay_.destroyed());
     note(delaunay_.created());
   }
   exchanged.renamed = delaunay_.close_gaps();
-  // Step 2: put in.
+  // Step 2: insert.
   TetId hint = delaunay_.incident_tet(VertexId(std::size_t{0}));
   for (const Vec3& given : coming) {
     exchanged.vertex_of.push_back(VertexId::none());

@@ -1,10 +1,10 @@
-// A Delaunay triangulation of points on the isosurface, every tetrahedron with one sign.
+// A Delaunay triangulation of points on the isosurface in which every tetrahedron has a sign.
 //
-// The sign is that of the field at the tetrahedron's circumcenter, taken once. A facet is *restricted* when the signs
-// of its two tetrahedra differ: then its dual edge meets the isosurface an odd number of times. So the restricted
-// facets always bound a set of tetrahedra, whatever the rounding. The field is extended beyond the box by clamping, so
-// signs exist everywhere, also for ghosts (the limit of their dual ray), and a surface cut by the box needs no special
-// case: its rim shows as restricted facets at the infinite vertex.
+// The sign is that of the field at the tetrahedron's circumcenter, computed once. A facet is *restricted* when the
+// signs of its two tetrahedra differ: then its dual edge meets the isosurface an odd number of times. So the restricted
+// facets always bound a set of tetrahedra, whatever the rounding. The field is extended beyond the box by clamping. So
+// ghosts have signs, too (from the limit of their dual ray), and a surface cut by the box needs no special case: its
+// boundary shows as restricted facets at the infinite vertex.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace deliso {
 // The signs of tetrahedra by slot: 1 for above, 0 for below.
 using TetSigns = std::vector<std::uint8_t>;
 
-// Calls visit(t) for every slot t, ascending, whose sign is not the same in two arrays of bytes.
+// Calls visit(t) for every slot t, ascending, whose sign differs between two arrays of bytes.
 template <class Signs, class Visit>
 void for_each_difference(const TetSigns& known, const Signs& signs, Visit visit) {
   constexpr std::size_t kAtOnce = 64;
@@ -36,24 +36,25 @@ void for_each_difference(const TetSigns& known, const Signs& signs, Visit visit)
   }
 }
 
-// What an exchange of points has changed.
+// The effect of an exchange of points.
 struct ExchangedPoints {
-  std::vector<VertexId> renamed;    // of each vertex before: what it is called now, or none if it went
-  std::vector<VertexId> vertex_of;  // of each point that came; none for one that is not finite
+  std::vector<VertexId> renamed;    // the new id of each old vertex, or none if it was removed
+  std::vector<VertexId> vertex_of;  // of each new point; none for one that is not finite
   std::vector<TetId> renewed;       // slots, ascending, whose tetrahedron is new or gone
 };
 
 class SignedDelaunay {
  public:
-  // Points on the isosurface in mesh space, in its box; what comes or is located later is in the box, too. When all of
-  // them are coplanar two guard vertices far off the plane are added; facets with a guard count as infinite. Throws
-  // InputError when fewer than three points are not in line. The signs are found on several threads, the same for any
-  // number. `vertex_of`, when asked for, tells the vertex of each point; none for one that is not finite.
+  // Points on the isosurface in mesh space, in its box; later points must lie in the box, too. When all points are
+  // coplanar, two guard vertices far off the plane are added; facets with a guard count as infinite. Throws InputError
+  // when all points are collinear or there are fewer than three. The signs are computed on several threads, with the
+  // same result for any number. `vertex_of`, if given, receives the vertex of each point; none for a point that is not
+  // finite.
   SignedDelaunay(const Isosurface& isosurface, std::span<const Vec3> points, int threads = 1,
                  std::vector<VertexId>* vertex_of = nullptr);
   virtual ~SignedDelaunay() = default;
-  // Takes the triangulation and the signs of one that may be of a class derived from this one, without what that adds
-  // to them.
+  // Takes the triangulation and the signs of `other`. If `other` is of a derived class, its further members are
+  // ignored.
   SignedDelaunay(SignedDelaunay&& other) = default;
   SignedDelaunay(const SignedDelaunay&) = delete;
   SignedDelaunay& operator=(const SignedDelaunay&) = delete;
@@ -67,26 +68,27 @@ class SignedDelaunay {
   }
   // Whether the surface passes through a facet, falling from its tetrahedron, above the isovalue, to the one behind it.
   [[nodiscard]] virtual bool falls_through(FacetId f) const { return is_above(f.tet()) && is_restricted(f); }
-  // The infinite vertex or a guard: no point of the surface.
+  // Whether v is the infinite vertex or a guard, which are no points of the surface.
   [[nodiscard]] bool is_virtual(VertexId v) const {
     return v == kInfiniteVertex || (v.value >= first_guard_ && v.value < first_guard_ + guards_);
   }
   // Whether a vertex lies on the box, so that the surface may end there.
   [[nodiscard]] bool is_on_box(VertexId v) const { return on_box(isosurface_.box(), delaunay_.point(v)); }
-  // The tetrahedron that holds p, by a walk from `hint`. Where several do, the one on the way to `inwards`, whatever
-  // the hint; but of several ghosts any.
+  // The tetrahedron that holds p, by a walk from `hint`. If several do, the one in the direction of `inwards`, whatever
+  // the hint; among several ghosts, any.
   [[nodiscard]] TetId locate(const Vec3& p, const Vec3& inwards, TetId hint) const {
     return delaunay_.locate_moved(p, {p.x < inwards.x ? 1 : -1, p.y < inwards.y ? 1 : -1, p.z < inwards.z ? 1 : -1},
                                   hint);
   }
-  // Takes vertices away and puts points in; then the vertices are numbered as if it had been made of the points left,
-  // in their order, and those that came, in theirs. New tetrahedra have the signs of their circumcenters, the others
-  // keep theirs; those of free slots mean nothing. Returns false when that cannot be done (the points left would be
-  // coplanar, or there are guards): then this triangulation is of no more use. Not for classes derived from this one.
+  // Removes vertices and inserts points. Then the vertices are numbered as if the triangulation had been built from the
+  // remaining points, in their order, and then the new points, in theirs. New tetrahedra have the signs of their
+  // circumcenters, the others keep their signs; the signs of free slots are meaningless. Returns false when the
+  // exchange is impossible (the remaining points would be coplanar, or there are guards): then this object must not be
+  // used any more. Not for derived classes.
   bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
   // Gives a tetrahedron another sign than that of the field at its circumcenter.
   void set_sign(TetId t, bool above) { sign_[t.index()] = above ? Sign::kAbove : Sign::kBelow; }
-  // All signs as they stand, by slot of their tetrahedron; and back again.
+  // The present signs, by slot of their tetrahedron; and the reverse.
   [[nodiscard]] TetSigns signs() const {
     TetSigns above(sign_.size());
     if (!above.empty()) std::memcpy(above.data(), sign_.data(), above.size());
@@ -96,12 +98,12 @@ class SignedDelaunay {
     DELISO_CHECK(above.size() == sign_.size(), "every slot has a sign");
     if (!sign_.empty()) std::memcpy(sign_.data(), above.data(), sign_.size());
   }
-  // Calls visit(t) for every slot t, ascending, whose sign is not that in `known`.
+  // Calls visit(t) for every slot t, ascending, whose sign differs from that in `known`.
   template <class Visit>
   void for_each_difference(const TetSigns& known, Visit visit) const {
     deliso::for_each_difference(known, sign_, visit);
   }
-  // The same, and takes the sign over first.
+  // The same, but first copies the sign into `known`.
   template <class Visit>
   void for_each_change(TetSigns& known, Visit visit) const {
     for_each_difference(known, [&](TetId t) {
@@ -109,9 +111,9 @@ class SignedDelaunay {
       visit(t);
     });
   }
-  void overturn_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
+  void flip_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
-  // A point as the triangulation takes it: coordinates below 2^-100 count as zero.
+  // A point as the triangulation stores it: coordinates below 2^-100 count as zero.
   static Vec3 snapped(const Vec3& p);
   // Whether a point lies on the surface of the box, exactly.
   static bool on_box(const Box3& box, const Vec3& p);
@@ -123,10 +125,10 @@ class SignedDelaunay {
     DELISO_CHECK(whole.guards_ == 0, "there are no guards");
   }
 
-  enum class Sign : std::uint8_t { kBelow, kAbove };  // kBelow where none was found yet
+  enum class Sign : std::uint8_t { kBelow, kAbove };  // kBelow until computed
   [[nodiscard]] Sign sign_at(const Vec3& p) const { return isosurface_.is_above(p) ? Sign::kAbove : Sign::kBelow; }
   [[nodiscard]] Sign sign_of(TetId t) const { return sign_at(dual_point(t)); }
-  // The circumcenter of t; of a ghost, where its dual ray ends up when it is clamped to the box.
+  // The circumcenter of t; for a ghost the limit of its dual ray clamped to the box.
   [[nodiscard]] Vec3 dual_point(TetId t) const;
 
   const Isosurface& isosurface_;

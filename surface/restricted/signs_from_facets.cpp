@@ -12,7 +12,8 @@ namespace {
 
 enum class Side : std::uint8_t { kUnknown, kBelow, kAbove };
 
-// The side that a tetrahedron passes on to the one behind its facet, or nothing when it cannot be on its side.
+// The side of the tetrahedron behind a facet, given the side of the one in front; nothing when the facet contradicts
+// that side.
 std::optional<Side> side_behind(const SignedDelaunay& restricted, FacetId f, Side side) {
   const bool falls = restricted.falls_through(f);
   const bool rises = restricted.falls_through(restricted.delaunay().mirror(f));
@@ -33,7 +34,8 @@ std::optional<TetSigns> signs_from_facets(const SignedDelaunay& restricted) {
     waiting.push_back(t);
   };
 
-  // One restricted facet tells the side of its tetrahedron; without any, all lie on the side of their signs.
+  // One restricted facet determines the side of its tetrahedron. Without restricted facets all tetrahedra have their
+  // signs as sides.
   for (std::size_t i = 0; i < delaunay.tet_slots() && waiting.empty(); ++i) {
     for (unsigned face = 0; delaunay.is_live(TetId(i)) && face < 4 && waiting.empty(); ++face) {
       if (restricted.falls_through(FacetId(TetId(i), face))) give(TetId(i), Side::kAbove);
@@ -41,7 +43,7 @@ std::optional<TetSigns> signs_from_facets(const SignedDelaunay& restricted) {
   }
   if (waiting.empty()) return restricted.signs();
 
-  // From there the sides spread over all tetrahedra, and must agree wherever they meet.
+  // From there the sides propagate to all tetrahedra, and must agree wherever they meet.
   while (!waiting.empty()) {
     const TetId t = waiting.back();
     waiting.pop_back();

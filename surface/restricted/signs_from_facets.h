@@ -1,5 +1,5 @@
-// Do restricted facets bound a set of tetrahedra? By the signs of tetrahedra they always do; when each facet goes by
-// the hits of its own dual edge (FacetRule::kHits) they need not.
+// Whether the restricted facets bound a set of tetrahedra. With the rule kSigns they always do; with FacetRule::kHits,
+// where each facet is decided by the hits of its own dual edge, they need not.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ namespace deliso {
 // facets are odd in number, or two of them disagree about the side.
 std::optional<TetSigns> signs_from_facets(const SignedDelaunay& restricted);
 
-// The facets that the surface falls through, counterclockwise seen from below, as they are: no manifold in general.
-// Only points and triangles of the mesh are filled; vertices without triangles are left out.
+// The facets that the surface falls through, counterclockwise seen from below, as a mesh that is no manifold in
+// general. Only points and triangles of the mesh are set; vertices without triangles are left out.
 SurfaceMesh facets_alone(const SignedDelaunay& restricted, int threads = 1);
 
 }  // namespace deliso

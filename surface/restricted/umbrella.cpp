@@ -6,14 +6,15 @@ namespace deliso {
 
 namespace {
 
-constexpr std::uint32_t kLargestWalk = 32;  // restricted facets
+constexpr std::uint32_t kLargestWalk = 32;  // of restricted facets
 
-// The slot of v, which is one of the four. By a sum: which one it is cannot be foretold, and branches would go wrong.
+// The slot of v, which is one of the four vertices. Computed by a sum without branches, because the slot is
+// unpredictable.
 unsigned slot_of(const std::array<VertexId, 4>& tet, VertexId v) {
   return static_cast<unsigned>(tet[1] == v) + 2 * static_cast<unsigned>(tet[2] == v) +
          3 * static_cast<unsigned>(tet[3] == v);
 }
-// Which of a facet's three slots holds q; one does.
+// Which of a facet's three slots holds q.
 unsigned place_of(const std::array<VertexId, 4>& tet, const unsigned (&slots)[3], VertexId q) {
   return static_cast<unsigned>(tet[slots[1]] == q) + 2 * static_cast<unsigned>(tet[slots[2]] == q);
 }
@@ -41,7 +42,8 @@ UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetI
     link[passed++] = from;
     at_infinity |= restricted.is_virtual(from);
 
-    // The next one also has the edge from q to `to`: turn around it on the side above, until the sign changes.
+    // The next facet also has the edge from q to `to`: rotate around this edge on the side above, until the sign
+    // changes.
     TetId t = facet.tet();
     VertexId behind = from;
     for (;;) {
@@ -52,7 +54,7 @@ UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetI
         facet = FacetId(t, face);
         break;
       }
-      // The fourth vertex of t is what lies behind in the next one.
+      // The fourth vertex of t becomes the vertex behind in the next tetrahedron.
       behind.value = tet[0].value ^ tet[1].value ^ tet[2].value ^ tet[3].value ^ q.value ^ to.value ^ behind.value;
       t = mirror.tet();
     }
@@ -67,7 +69,8 @@ UmbrellaShape UmbrellaInspector::inspect(VertexId q) {
   collect(q);
   if (facets_.empty()) return UmbrellaShape::kEmpty;
 
-  // Follow the link from its first edge; it must come back after passing every edge, with one way on at every vertex.
+  // Follow the link from its first edge. It must return to its start after all edges, with one next edge at every
+  // vertex.
   VertexId at = link_.front().to;
   bool at_infinity = false;
   for (std::size_t passed = 1;; ++passed) {
@@ -113,7 +116,7 @@ void UmbrellaInspector::collect(VertexId q) {
         facets_.emplace_back(t, face);
         link_.push_back({v[slots[(at + 1) % 3]], v[slots[(at + 2) % 3]]});
       }
-      // Whether it is new cannot be foretold: appended in any case, and overwritten unless it is.
+      // Whether it is new is unpredictable: it is always appended, and overwritten unless it is new.
       std::uint32_t& seen = seen_[neighbour.index()];
       star_[star_size] = neighbour;
       star_size += static_cast<std::size_t>(seen != inspection_);

@@ -17,9 +17,9 @@ enum class UmbrellaShape {
   kBroken,    // anything else
 };
 
-// The shape of an umbrella of `size` restricted facets, by a walk from one of them to the next: `first` is one of them,
-// seen from the tetrahedron above the isovalue. Much faster than a look at the whole star, but kBroken may also mean
-// that the walk gave up.
+// The shape of an umbrella of `size` restricted facets, by a walk from facet to facet. `first` is one of them, seen
+// from the tetrahedron above the isovalue. Much faster than a search of the whole star, but kBroken may also mean that
+// the walk gave up.
 UmbrellaShape shape_by_walk(const SignedDelaunay& restricted, VertexId q, FacetId first, std::uint32_t size);
 
 // Walks stars. Holds scratch memory; one object serves any number of vertices of one triangulation.
@@ -29,8 +29,8 @@ class UmbrellaInspector {
 
   UmbrellaShape inspect(VertexId q);
 
-  // Of the vertex inspected last: its restricted facets, each seen from the tetrahedron above the isovalue, those with
-  // a virtual vertex included; and the tetrahedra around it.
+  // Of the vertex inspected last: its restricted facets, including those with a virtual vertex, each seen from the
+  // tetrahedron above the isovalue; and the tetrahedra around the vertex.
   [[nodiscard]] std::span<const FacetId> facets() const { return facets_; }
   [[nodiscard]] std::span<const TetId> star() const { return star_; }
 
@@ -38,7 +38,7 @@ class UmbrellaInspector {
   void collect(VertexId q);
 
   const SignedDelaunay& restricted_;
-  std::vector<std::uint32_t> seen_;  // of each tetrahedron: the inspection that saw it last
+  std::vector<std::uint32_t> seen_;  // of each tetrahedron: the last inspection that visited it
   std::uint32_t inspection_ = 0;
   std::vector<TetId> star_;
   std::vector<FacetId> facets_;

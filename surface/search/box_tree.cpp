@@ -9,7 +9,7 @@ constexpr int kNoDepth = -1;
 
 }  // namespace
 
-// Subtrees first, beside each other; then the nodes above them.
+// Builds the subtrees at the same time, then the nodes above them.
 void BoxTree::make_nodes(int threads) {
   nodes_.resize(node_count(things_.size()));
   const Subtree all{0, 0, static_cast<std::uint32_t>(things_.size())};
@@ -20,7 +20,7 @@ void BoxTree::make_nodes(int threads) {
   make_nodes(all, kTaskDepth);
 }
 
-// Those of a depth.
+// Appends the subtrees at this depth.
 void BoxTree::append_subtrees(const Subtree& tree, int depth, std::vector<Subtree>& subtrees) const {
   if (depth == 0) {
     subtrees.push_back(tree);
@@ -30,7 +30,7 @@ void BoxTree::append_subtrees(const Subtree& tree, int depth, std::vector<Subtre
   }
 }
 
-// Those above a depth, where there is one. Returns the box of all.
+// Builds the nodes above a depth, if a depth is given. Returns the box of all.
 Box3 BoxTree::make_nodes(const Subtree& tree, int depth) {
   if (depth == 0) return nodes_[tree.node].box;
   Box3 box;

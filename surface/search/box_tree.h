@@ -1,7 +1,8 @@
-// A tree of axis-aligned boxes over any things that have one: which of them meet a box, which is nearest.
+// A tree of axis-aligned boxes over any things with a box: it finds those whose boxes meet a box, and the nearest one.
 //
-// The things stand in the order of halving (surface/search/kd_order.h), whose parts are the nodes. What is found
-// does not depend on how that order was rounded: boxes are only copied and merged, and of equals the first is taken.
+// The things are stored in the order of repeated halving (surface/search/kd_order.h), whose parts are the nodes.
+// Results do not depend on the rounding of that order: boxes are only copied and merged, and among equals the first
+// thing is taken.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ class BoxTree {
       : BoxTree(
             boxes.size(), [boxes](std::size_t i) { return boxes[i]; }, threads) {}
 
-  // Of `count` things; box_of(i) gives the box of thing i, always the same, to any thread.
+  // For `count` things; box_of(i) gives the box of thing i, always the same, from any thread.
   template <class BoxOf>
   BoxTree(std::size_t count, BoxOf&& box_of, int threads = 1) {
     if (count == 0) return;
@@ -56,27 +57,27 @@ class BoxTree {
   template <class Visit>
   void for_each_meeting(const Box3& box, Visit&& visit) const;
 
-  // The thing nearest to p among those nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
-  // none. measure(i) gives the squared distance of thing i from p. Of things at the same distance the first.
+  // The nearest to p of the things nearer than sqrt(bound), with its squared distance; {kNone, bound} when there is
+  // none. measure(i) gives the squared distance of thing i from p. Among equally distant things the first is taken.
   template <class Measure>
   [[nodiscard]] std::pair<std::uint32_t, double> nearest(const Vec3& p, double bound, Measure&& measure) const {
     return least(
         bound, [&](const Box3& box) { return squared_gap(box, p); }, measure);
   }
 
-  // The thing with the least measure below `bound`, the first of equals, with its measure; {kNone, bound} when there is
-  // none. No thing in a box may measure less than gap(box).
+  // The thing with the least measure below `bound` (the first of equals), with its measure; {kNone, bound} when there
+  // is none. Precondition: gap(box) is a lower bound of the measure of any thing in the box.
   template <class Gap, class Measure>
   [[nodiscard]] std::pair<std::uint32_t, double> least(double bound, Gap&& gap, Measure&& measure) const;
 
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
  private:
-  static constexpr std::size_t kMaxDepth = 64;  // halving 2^32 things stops long before
+  static constexpr std::size_t kMaxDepth = 64;  // repeated halving of 2^32 things ends long before
 
   struct Node {
     Box3 box;
-    std::uint32_t first = 0;  // leaf: its first place in things_; inner node: its right child
+    std::uint32_t first = 0;  // leaf: index of its first thing in things_; inner node: its right child
     std::uint32_t count = 0;  // leaf: number of things; inner node: 0
   };
 
@@ -85,7 +86,7 @@ class BoxTree {
   // A subtree: its first node, and its things.
   struct Subtree {
     std::uint32_t node = 0;
-    std::uint32_t first = 0;  // place in things_
+    std::uint32_t first = 0;  // index in things_
     std::uint32_t count = 0;
 
     [[nodiscard]] bool is_leaf() const { return count <= kThingsPerLeaf; }
@@ -95,7 +96,7 @@ class BoxTree {
       return {node + 1 + node_count(there), first + there, count - there};
     }
   };
-  // All leaves but the last of a part are full (kd_order.h).
+  // All leaves except the last of a part are full (kd_order.h).
   static std::uint32_t node_count(std::size_t things) {
     return static_cast<std::uint32_t>(2 * ((things + kThingsPerLeaf - 1) / kThingsPerLeaf) - 1);
   }

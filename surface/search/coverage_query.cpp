@@ -15,19 +15,19 @@ namespace {
 
 using nearness::kClose;
 constexpr double kNear = nearness::kCrossing;
-// Points in a row that fit into a box with this diagonal, as those of a brick do (surface/recover/coverage.cpp), share
-// the triangles that are near to any of them.
+// Consecutive points that fit into a box with this diagonal, as those of a brick do (surface/recover/coverage.cpp),
+// share one list of the triangles near any of them.
 constexpr double kGroupDiagonal = 14;
-// Points without a triangle near are looked at together when at least so many in a row fit into a box with this
-// diagonal, the triangle there has an edge of this length, and at most so many triangles are near. (With two thirds of
-// the diagonal stage 1 of shells of 256^3 samples takes a fourth longer, with twice the edge a tenth; others between
-// half and twice are alike.)
+// Points without a near triangle are handled together when at least kFewestTogether consecutive ones fit into a box
+// with this diagonal, the triangle there has an edge of this length, and at most so many triangles are near. (With two
+// thirds of the diagonal stage 1 of shells of 256^3 samples takes a fourth longer, with twice the edge a tenth longer.
+// Other values between half and twice these make no difference.)
 constexpr std::size_t kFewestTogether = 4;
 constexpr double kDiagonal = 9;
 constexpr double kCoarse = 16;
 constexpr std::size_t kMostCandidates = 16;
 
-// The circumradius or, of a sliver, whose circumradius tells nothing, the longest edge.
+// The circumradius; for a sliver, whose circumradius is meaningless, the longest edge.
 double extent(const SurfaceMesh& mesh, std::uint32_t t) {
   const auto& v = mesh.triangles[t];
   const double radius = circumcircle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]).radius;
@@ -35,7 +35,7 @@ double extent(const SurfaceMesh& mesh, std::uint32_t t) {
   return radius < edge ? radius : edge;
 }
 
-// Calls visit(first, end, box) for points in a row that lie within a box with such a diagonal, as many as do.
+// Calls visit(first, end, box) for maximal runs of consecutive points that lie within a box with this diagonal.
 template <class Visit>
 void for_each_run(std::span<const Vec3> points, double diagonal, Visit&& visit) {
   for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
@@ -71,8 +71,8 @@ CoverageQuery::Cover CoverageQuery::look(const Vec3& p, std::uint32_t& guess) co
   if (mesh_.triangles.empty()) return Cover::kNone;
   const double reached = squared_distance_to(p, guess);
   if (reached < kClose * kClose) return Cover::kClose;
-  // The nearest of all is no farther than that (a little more, so that the one reached is found as well); or, when it
-  // is near enough already, only a close one matters.
+  // The nearest triangle is no farther than that (slightly more, so that the one already found is found again). If that
+  // one is near enough, only a close one still matters.
   const double bound = reached < kNear * kNear ? kClose * kClose : 1.001 * reached;
   const auto [triangle, squared] = tree_.nearest(p, bound, [&](std::uint32_t t) { return squared_distance_to(p, t); });
   if (triangle == BoxTree::kNone) return Cover::kFar;
@@ -95,7 +95,8 @@ void CoverageQuery::look_at_all(std::span<const Vec3> points, std::span<Cover> c
   });
 }
 
-// Points within a small box. Bounds tell of most that a triangle is close, of most others how far; few are measured.
+// Handles points within a small box. Bounds show for most points that a triangle is close, and for most others how far
+// it is; few distances are measured.
 void CoverageQuery::look_at_group(std::span<const Vec3> group, const Box3& box, std::span<Cover> covers,
                                   Work& work) const {
   find_near(box, work);
@@ -139,7 +140,7 @@ DistanceBounds CoverageQuery::bounds_of(std::span<const Vec3> points, const Vec3
   return bounds;
 }
 
-// As far as those near a group tell.
+// The answer as far as the triangles near a group determine it.
 CoverageQuery::Cover CoverageQuery::cover_by_near(const Vec3& p, const Work& work) const {
   double least = kNear * kNear;
   for (const Near& near : work.near) {
@@ -148,7 +149,7 @@ CoverageQuery::Cover CoverageQuery::cover_by_near(const Vec3& p, const Work& wor
   return least < kClose * kClose ? Cover::kClose : least < kNear * kNear ? Cover::kFar : Cover::kNone;
 }
 
-// At points of a group that have no triangle near.
+// Handles the points of a group that have no near triangle.
 void CoverageQuery::look_at_left(std::span<const Vec3> group, std::span<Cover> covers, Work& work) const {
   std::vector<Vec3> points;
   for (const std::size_t i : work.left) points.push_back(group[i]);
@@ -161,13 +162,13 @@ void CoverageQuery::look_at_left(std::span<const Vec3> group, std::span<Cover> c
   });
 }
 
-// The triangles that may be nearest to a point of a small box, by their distance from its middle.
+// The triangles that may be nearest to some point of a small box, in the order of their distance from its middle.
 class CoverageQuery::Candidates {
  public:
-  // `distance`: of the nearest of all from the middle.
+  // `distance`: from the middle to the nearest triangle.
   Candidates(const CoverageQuery& cover, const Box3& box, double distance)
       : cover_(cover), middle_(0.5 * box.low + 0.5 * box.high) {
-    // Half a diagonal from the middle to the point, and back.
+    // From the middle to a point is half a diagonal; the nearest triangle of the point adds another half.
     const double reach = 1.001 * (distance + box.diagonal());
     const Vec3 around{reach, reach, reach};
     cover.tree_.for_each_meeting({middle_ - around, middle_ + around}, [&](std::uint32_t t) {
@@ -201,7 +202,7 @@ class CoverageQuery::Candidates {
   std::array<std::pair<double, std::uint32_t>, kMostCandidates> found_;
 };
 
-// Points within a small box, whose covers have the places given; false when too many triangles are near.
+// Handles points within a small box; the covers to set have the given indices. False when too many triangles are near.
 bool CoverageQuery::look_together(std::span<const Vec3> run, const Box3& box, std::span<const std::size_t> places,
                                   std::span<Cover> covers, std::uint32_t& guess) const {
   const Vec3 middle = 0.5 * box.low + 0.5 * box.high;

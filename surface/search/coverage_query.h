@@ -1,4 +1,4 @@
-// The triangles of a mesh by place: whether points of the surface lie near them.
+// Whether points of the surface lie near triangles of a mesh, by spatial search.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ class CoverageQuery {
   // Keeps a reference to the mesh.
   explicit CoverageQuery(const SurfaceMesh& mesh, int threads = 1);
 
-  // Whether p lies within nearness::kCrossing (nearness.h) of some triangle, or within nearness::kOfCircumradius of the
-  // nearest one (of a sliver, as much of its longest edge): a coarse triangle may well be that far off the surface that
-  // it approximates. `guess` is a triangle that may be near, and becomes one that is nearer, if any: a good guess for a
-  // point nearby. The answer does not depend on it.
+  // Whether p lies within 0.8 mesh-space units of some triangle, or within 0.3 circumradii of the nearest one (for a
+  // sliver, 0.3 longest edges): a coarse triangle may be that far off the surface that it approximates. `guess` is a
+  // triangle that may be near. It is replaced by a nearer one, if any, which is a good guess for a point nearby. The
+  // answer does not depend on it.
   [[nodiscard]] bool covers(const Vec3& p, std::uint32_t& guess) const { return look(p, guess) != Cover::kNone; }
-  // The same, and whether it is within nearness::kClose.
+  // The same, with a distinction: kClose is within 0.5 units.
   enum class Cover : std::uint8_t { kNone, kFar, kClose };
   [[nodiscard]] Cover look(const Vec3& p, std::uint32_t& guess) const;
-  // covers[i] = look(points[i]): much faster than one by one where points that follow each other lie near each other.
+  // covers[i] = look(points[i]). Much faster than single calls if consecutive points lie near each other.
   void look_at_all(std::span<const Vec3> points, std::span<Cover> covers) const;
 
  private:
@@ -35,16 +35,16 @@ class CoverageQuery {
     std::uint32_t triangle = 0;
     double squared = std::numeric_limits<double>::infinity();
   };
-  // A triangle; what it is near to lies in the box.
+  // A triangle, and a box that holds everything it is near to.
   struct Near {
     std::uint32_t triangle = 0;
     Box3 box;
     TrianglePlanes planes;
   };
-  // What is known of a group of points that lie near each other.
+  // Scratch data for a group of points that lie near each other.
   struct Work {
-    std::vector<Near> near;         // triangles, to any of them
-    std::vector<std::size_t> left;  // places of points that have none near
+    std::vector<Near> near;         // triangles near any point of the group
+    std::vector<std::size_t> left;  // indices of points that have no near triangle
     std::uint32_t guess = 0;        // the nearest triangle of an earlier point
   };
   class Candidates;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBlock = 4;  // side of the blocks near samples
 
-// All that a triangle covers lies in it.
+// A box that holds all that a triangle covers.
 Box3 box_around(const SurfaceMesh& mesh, std::uint32_t t) {
   return nearness::widened(box_of(mesh, t), nearness::kSample);
 }
@@ -34,7 +34,8 @@ std::vector<std::uint32_t> covering_triangles(const std::vector<Vec3>& points, c
   const OccupiedBlocks blocks(points, kBlock);
   const auto append_if_near = [&](std::size_t i, std::vector<std::uint32_t>& near) {
     const auto t = static_cast<std::uint32_t>(i);
-    // A corner far from all points tells of a small triangle: sides and reach together stay within a block.
+    // If a corner is far from all points and the triangle is small enough, it covers none: its sides plus kSampleReach
+    // stay within a block.
     const double small = blocks.reach() - 2 * nearness::kSample;
     if (!blocks.is_near(mesh.points[mesh.triangles[t][0]]) && squared_longest_edge(mesh, t) <= small * small) return;
     if (takes(t)) near.push_back(t);

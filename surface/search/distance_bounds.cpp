@@ -8,8 +8,8 @@ namespace deliso {
 namespace {
 
 constexpr float kInfinite = 1e30F;
-// A triangle with so small an angle (its sine is 2 divided by this) tells of no point that it is near: rounding would
-// be stretched. With a smaller one it has no plane, either.
+// For a triangle whose smallest angle has a sine below 2 divided by this, no bounds are given: the stretch would
+// magnify the rounding. With a still smaller angle the triangle has no plane.
 constexpr double kMostStretch = 100;
 constexpr double kFlat = 1e6;
 
@@ -55,9 +55,10 @@ DistanceBounds::DistanceBounds(std::span<const Vec3> points, const Vec3& middle)
   most_.fill(quad(kInfinite));
 }
 
-// By a point's height above the triangle's plane and how far it is out beyond the lines of the sides. In the plane it
-// is at least so far from the triangle. And at most so many times farther as the corner of the smallest angle moves
-// when all sides move out: 1 over the sine of half that angle, which is less than the stretch.
+// The bounds use a point's height above the triangle's plane, and how far the point lies beyond the lines of the sides.
+// In the plane this is a lower bound of its distance from the triangle. The distance is at most this times the factor
+// by which the corner with the smallest angle moves when all sides move outward: 1 over the sine of half that angle,
+// which is less than the stretch.
 void DistanceBounds::add(const TrianglePlanes& planes) {
   const auto& [first, second, third] = planes.sides_;
   for (std::size_t i = 0; i < quads_; ++i) {

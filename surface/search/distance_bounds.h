@@ -1,5 +1,6 @@
-// How near points of a small box are to triangles, within bounds: cheap, for many points and triangles, and enough to
-// know for most points whether any triangle is within some distance. In floats, from the middle of the box.
+// Bounds of the distances from points of a small box to triangles. They are cheap for many points and triangles, and
+// decide for most points whether any triangle is within some distance. Computed in floats, relative to the middle of
+// the box.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ class TrianglePlanes {
  private:
   friend class DistanceBounds;
 
-  // The signed distances of four points from a plane, whose numbers stand in all places.
+  // The signed distances of four points from a plane; each coefficient of the plane is repeated in all four lanes.
   struct Plane {
     Quad x{}, y{}, z{}, offset{};
     [[nodiscard]] Quad operator()(const Quad& px, const Quad& py, const Quad& pz) const {
@@ -32,23 +33,23 @@ class TrianglePlanes {
 
   Plane own_;
   std::array<Plane, 3> sides_;  // facing outwards
-  Quad squared_stretch_{};      // how far a point beyond the sides is from the triangle, in what it is beyond them
-  Quad unknown_;                // infinite when nothing is known of what the triangle is near to
+  Quad squared_stretch_{};      // bounds the distance from the triangle by the distance beyond the sides
+  Quad unknown_;                // infinite when nothing can be said about distances to the triangle
 };
 
-// Of a few points, by the nearest of the triangles added.
+// For a few points: bounds of the distance to the nearest of the triangles added.
 class DistanceBounds {
  public:
   static constexpr std::size_t kMostPoints = 16;
-  static constexpr double kFarthest = 16;  // of a point from the middle
+  static constexpr double kFarthest = 16;  // largest distance of a point from the middle
 
   // Precondition: at least one point, and at most kMostPoints; none farther than kFarthest from `middle`.
   DistanceBounds(std::span<const Vec3> points, const Vec3& middle);
 
-  // Precondition: planes of the same middle.
+  // Precondition: the planes were made with the same middle.
   void add(const TrianglePlanes& planes);
 
-  // Whether some triangle certainly is within `distance` (less than 100) of a point; whether certainly none is.
+  // Whether some triangle is certainly within `distance` (below 100) of a point; whether certainly none is.
   [[nodiscard]] bool is_within(std::size_t point, double distance) const {
     return most_[point / 4][point % 4] < (distance - kRounding) * (distance - kRounding);
   }
@@ -57,11 +58,11 @@ class DistanceBounds {
   }
 
  private:
-  static constexpr double kRounding = 1e-3;  // by far more than what floats round off a distance
+  static constexpr double kRounding = 1e-3;  // far more than the rounding error of a distance in floats
 
   std::size_t quads_;
-  // Of each point: where it lies from the middle; and the squared distance of the nearest triangle, from both sides.
-  // The last point may stand there several times.
+  // For each point: its position relative to the middle, and a lower and an upper bound of the squared distance of the
+  // nearest triangle. The last point may be stored several times.
   std::array<Quad, kMostPoints / 4> x_, y_, z_, least_, most_;
 };
 

@@ -15,12 +15,12 @@ namespace {
 using Places = std::span<LatticePlace>;
 
 constexpr int kPartDepth = 4;       // parts of this depth are tasks
-constexpr unsigned kIndexBits = 5;  // so many are parted by counting
+constexpr unsigned kIndexBits = 5;  // at most 2^this things are split by counting
 constexpr std::size_t kSmall = std::size_t{1} << kIndexBits;
 constexpr std::size_t kMostSamples = 32;
 constexpr int kMostRounds = 24;
 
-// An axis, and where the places begin and how far they reach along it.
+// An axis, and where the positions begin and how far they reach along it.
 struct Extent {
   std::size_t axis = 0;
   std::int32_t low = 0;
@@ -43,13 +43,13 @@ Extent longest_side(Places places) {
   return longest;
 }
 
-// Equal steps are told apart by the thing, so that the order is total.
+// Positions with equal steps are ordered by their thing, so that the order is total.
 std::uint64_t key(const LatticePlace& p, std::size_t axis) {
   return std::uint64_t{static_cast<std::uint32_t>(p.at[axis])} << 32 | p.thing;
 }
 
-// Of few places: each goes to where as many are as lie before it. Their order is by the uppermost bits of what they
-// have above the least one, then by where they stand now.
+// For few positions: each moves to the index that is the number of positions before it. They are compared by the
+// uppermost bits of their coordinate above the least one, then by their present index.
 void part_few(Places places, const Extent& extent) {
   const int width = static_cast<int>(std::bit_width(extent.size)), most = 31 - static_cast<int>(kIndexBits);
   const int shift = std::max(width - most, 0);
@@ -67,7 +67,7 @@ void part_few(Places places, const Extent& extent) {
   for (std::size_t i = 0; i < places.size(); ++i) places[static_cast<std::size_t>(before[i])] = old[i];
 }
 
-// A key of which about `middle` places lie before: that of the sample which has as large a share of samples before it.
+// A key that about `middle` positions precede: the key at the same rank within a sample of them.
 std::uint64_t pivot_key(Places places, std::size_t middle, std::size_t axis) {
   const std::size_t count = std::min(kMostSamples, places.size() / 8), stride = places.size() / count;
   std::array<std::uint64_t, kMostSamples> samples{};
@@ -77,7 +77,8 @@ std::uint64_t pivot_key(Places places, std::size_t middle, std::size_t axis) {
   return *rank;
 }
 
-// Moves the places with smaller keys to the front; returns how many. Which these are cannot be foretold: no branches.
+// Moves the positions with smaller keys to the front; returns how many. No branches, because which these are is
+// unpredictable.
 std::size_t move_smaller(Places places, std::uint64_t bound, std::size_t axis) {
   std::size_t smaller = 0;
   for (LatticePlace& p : places) {
@@ -89,13 +90,13 @@ std::size_t move_smaller(Places places, std::uint64_t bound, std::size_t axis) {
   return smaller;
 }
 
-// Steps that a crowd of places must have along its longest side, or else the order is as good as none.
+// A crowded set of positions must span this many steps along its longest side; otherwise its order is refined.
 constexpr std::uint32_t kFewestSteps = 1u << 10;
 constexpr std::size_t kCrowd = 256;
 
 using CentreOf = std::function<Vec3(std::uint32_t)>;
 
-// Places the things of a crowd on a lattice of its own.
+// Gives the things of a crowded set positions on a finer lattice of their own.
 Extent spread_out(Places places, const CentreOf& centre_of) {
   Box3 box;
   for (const LatticePlace& p : places) box.extend(centre_of(p.thing));
@@ -104,7 +105,7 @@ Extent spread_out(Places places, const CentreOf& centre_of) {
   return longest_side(places);
 }
 
-// Moves the `middle` places that are least along the longest side to the front.
+// Moves to the front the `middle` positions that come first along the longest side.
 void part(Places places, std::size_t middle, const CentreOf& centre_of) {
   Extent extent = longest_side(places);
   if (places.size() > kCrowd && extent.size < kFewestSteps) extent = spread_out(places, centre_of);
@@ -140,7 +141,7 @@ void order(Places places, const CentreOf& centre_of) {
 CentreLattice::CentreLattice(const Box3& box) : low_(box.low) {
   const Vec3 size = box.size();
   const double longest = std::max({size.x, size.y, size.z});
-  // Sides too short to count steps in are as good as none.
+  // Sides too short to count steps in are treated as zero.
   if (longest > 1e-290) steps_per_unit_ = kMostSteps / longest;
 }
 
@@ -149,7 +150,7 @@ std::uint32_t left_half(std::uint32_t count) {
 }
 
 std::vector<std::uint32_t> kd_order(std::vector<LatticePlace> places, const CentreOf& centre_of, int threads) {
-  // The uppermost levels one after the other, then what hangs below them.
+  // First the uppermost levels one by one, then the subtrees below them.
   std::vector<Places> parts = {places};
   for (int depth = 0; depth < kPartDepth; ++depth) {
     std::vector<Places> halves(2 * parts.size());

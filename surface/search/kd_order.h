@@ -1,10 +1,10 @@
-// An order of things in space such that things near each other stand near each other: that of the leaves of a tree of
-// halves.
+// An order of things in which neighbours in space are mostly neighbours in memory: that of the leaves of a tree made by
+// repeated halving.
 //
-// The things are parted along the longest side of their centres' box, the parts again, down to leaves of eight. Every
-// left part has as many leaves as the largest power of two below the number of all: so eight leaves that begin at a
-// multiple of eight are a subtree, and so on upward, and the places of all subtrees are known from the number of
-// things.
+// The things are split along the longest side of their centres' box, then the parts again, down to leaves of eight.
+// Every left part has as many leaves as the largest power of two below the number of all its leaves. So eight leaves
+// that begin at a multiple of eight form a subtree, and so on upward. The extents of all subtrees follow from the
+// number of things.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ namespace deliso {
 
 inline constexpr std::uint32_t kThingsPerLeaf = 8;
 
-// A thing and its centre in steps of a lattice.
+// A thing and its centre, in steps of a lattice.
 struct LatticePlace {
   std::array<std::int32_t, 3> at{};
   std::uint32_t thing = 0;
 };
 
-// Steps along the longest side of a box, as many as go into 30 bits.
+// A lattice on a box with 2^30 steps along its longest side.
 class CentreLattice {
  public:
   explicit CentreLattice(const Box3& box);
@@ -45,11 +45,11 @@ class CentreLattice {
   double steps_per_unit_ = 0;
 };
 
-// How many of `count` things the left part gets. Precondition: more than one leaf.
+// How many of `count` things the left part gets. Precondition: there is more than one leaf.
 std::uint32_t left_half(std::uint32_t count);
 
-// The things in the order of the leaves, the same for any number of threads. centre_of(thing) gives the point that a
-// place was made from: crowds that share few steps of the lattice get a finer one of their own.
+// The things in the order of the leaves, the same for any number of threads. centre_of(thing) gives the point from
+// which its position was made: things crowded into few lattice steps get a finer lattice of their own.
 std::vector<std::uint32_t> kd_order(std::vector<LatticePlace> places,
                                     const std::function<Vec3(std::uint32_t)>& centre_of, int threads);
 

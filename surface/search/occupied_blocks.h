@@ -1,4 +1,5 @@
-// The blocks of space near some points: a cheap way to see that most small things are far from all of them.
+// The blocks of space near some points: a cheap test that shows for most small things that they are far from all
+// points.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace deliso {
 
 class OccupiedBlocks {
  public:
-  // At least one point. Blocks have sides of this length, or longer where that would be too many.
+  // Precondition: at least one point. Blocks have sides of this length, or longer if there would be too many blocks.
   OccupiedBlocks(std::span<const Vec3> points, double side) {
     Box3 box;
     for (const Vec3& p : points) box.extend(p);
@@ -34,7 +35,7 @@ class OccupiedBlocks {
     }
   }
 
-  // Points within this distance along each axis of one that is not near any are none of those given.
+  // If p is not near any point, then every point within this distance of p along each axis is none of the given ones.
   [[nodiscard]] double reach() const { return kRounding * side_; }
   [[nodiscard]] bool is_near(const Vec3& p) const {
     const std::array<std::size_t, 3> at = {block_of(p, 0), block_of(p, 1), block_of(p, 2)};
@@ -45,8 +46,8 @@ class OccupiedBlocks {
   static constexpr double kMostBlocks = 256;  // along an axis
   static constexpr double kRounding = 0.999;
 
-  // Block 0 is a margin, and so is the last one. What lies farther out counts as in the former, or gets a number
-  // beyond the latter.
+  // Block 0 and the last block are margins. Positions beyond the low end count as block 0; those beyond the high end
+  // get a number after the last block.
   [[nodiscard]] std::size_t block_of(const Vec3& p, std::size_t axis) const {
     return static_cast<std::size_t>(std::clamp((p[axis] - low_[axis]) * per_side_ + 1, 0.0, 2 * kMostBlocks));
   }

@@ -1,4 +1,4 @@
-// Points sorted into cubes of space, for asking which are near a small box.
+// Points sorted into cubes of space, to find those near a small box.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace deliso {
 
 class PointGrid {
  public:
-  // Cubes with sides of this length, or longer where that would be too many.
+  // Cubes have sides of this length, or longer if there would be too many.
   PointGrid(std::span<const Vec3> points, double side) {
     if (points.empty()) return;
     Box3 box;
@@ -38,7 +38,7 @@ class PointGrid {
     for (const Vec3& p : points) ++first_[block_of(p)];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     points_.resize(points.size());
-    // From behind, each block downwards to its first place: so its points stay in order.
+    // Filled from the back, so that the points of a block stay in order.
     for (auto i = static_cast<std::uint32_t>(points.size()); i-- > 0;) points_[--first_[block_of(points[i])]] = i;
   }
 
@@ -78,14 +78,14 @@ class PointGrid {
   static constexpr double kMostBlocks = 128;  // along an axis, or one more
   static constexpr double kMostPerPoint = 64;
 
-  // In blocks from the lowest one.
+  // In block sides, from the lowest block.
   [[nodiscard]] double place(const Vec3& p, std::size_t axis) const { return (p[axis] - low_[axis]) * per_side_; }
   [[nodiscard]] std::size_t row(std::size_t j, std::size_t k) const { return dims_[0] * (j + dims_[1] * k); }
 
   Vec3 low_;
   double per_side_ = 1;
   std::array<std::size_t, 3> dims_{};
-  std::vector<std::uint32_t> first_;   // of each block: its first place in points_
+  std::vector<std::uint32_t> first_;   // of each block: index of its first point in points_
   std::vector<std::uint32_t> points_;  // block by block
 };
 

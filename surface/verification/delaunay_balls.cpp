@@ -41,7 +41,7 @@ DelaunayBallCheck check_delaunay_balls(const TriangleMesh& mesh, const ScalarGri
     const double squared_radius =
         std::min({squared_distance(center, a), squared_distance(center, b), squared_distance(center, c)});
 
-    // Another vertex inside it. Vertices at the place of a corner lie on the ball.
+    // Finds another vertex inside the ball. Vertices with the coordinates of a corner lie on the ball.
     const auto measure = [&](std::uint32_t v) {
       const bool is_corner = std::find(triangle.begin(), triangle.end(), v) != triangle.end();
       return is_corner ? kInfinity : squared_distance(center, mesh.points[v]);

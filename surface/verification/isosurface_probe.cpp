@@ -13,15 +13,17 @@ namespace deliso {
 
 namespace {
 
-constexpr double kReach = 2.0;       // voxels that a walk along a line goes at most
-constexpr double kFirstStep = 0.25;  // voxels that its first step goes at most
-constexpr double kFar = 0.25;        // voxels beyond which all directions are tried and the crossings asked
-constexpr double kMoved = 1e-4;      // or, beside a grid face or edge, beyond this
-constexpr double kBeside = 1e-3;     // grid steps to a grid face or edge
-constexpr double kSurprising = 1.5;  // a first foot farther than this many times what value and slope promise
-constexpr int kRefinements = 4;      // walks along the gradient of the foot found so far
-constexpr double kNearer = 0.6;      // no search for what is farther than this many times what is found
-constexpr double kSmallest = 1e-9;   // voxels to what is found, below which nothing nearer is searched for
+constexpr double kReach = 2.0;       // voxels; the longest walk along a line
+constexpr double kFirstStep = 0.25;  // voxels; the longest first step of a walk
+// Voxels; beyond this distance all directions are tried, and the grid-edge crossings.
+constexpr double kFar = 0.25;
+constexpr double kMoved = 1e-4;   // the same limit near a grid face or edge
+constexpr double kBeside = 1e-3;  // grid steps; nearer than this counts as near a grid face or edge
+// A first foot point farther than this times the estimate from value and slope is doubted.
+constexpr double kSurprising = 1.5;
+constexpr int kRefinements = 4;     // number of walks along the gradient at the foot point found last
+constexpr double kNearer = 0.6;     // a search looks only for points nearer than this times the present distance
+constexpr double kSmallest = 1e-9;  // voxels; if the present distance is below this, nothing nearer is searched for
 
 // Corner i: bit a of i says whether it lies at the high end of axis a.
 Vec3 corner_of(const Box3& box, unsigned i) {
@@ -47,7 +49,7 @@ IsosurfaceProbe::Place IsosurfaceProbe::place(const Vec3& p) const {
   Place result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t last = grid_.dims()[axis] - 2;
-    // In this order what is not a number counts as 0: differences of huge samples may overflow on the way here.
+    // In this order NaN counts as 0: differences of huge samples may have overflowed on the way here.
     const double x = std::min(std::max(0.0, p[axis] / step_[axis]), static_cast<double>(last + 1));
     cell[axis] = std::min(static_cast<std::int32_t>(x), last);
     result.uvw[axis] = x - cell[axis];
@@ -84,7 +86,7 @@ std::optional<FootPoint> IsosurfaceProbe::along_line(const Vec3& p, double value
     t1 = std::min(2 * t1, reach);
     f1 = value(p + t1 * direction);
   }
-  // The root lies between t0 and t1, the latest guess. An end that stays twice counts half from then on.
+  // The root lies between t0 and t1, the latest guess. The value at an end that stays twice is halved from then on.
   for (int i = 0; i < 60 && f1 != 0; ++i) {
     double t = t1 - f1 * (t1 - t0) / (f1 - f0);
     if (!(std::min(t0, t1) < t && t < std::max(t0, t1))) t = 0.5 * (t0 + t1);
@@ -115,7 +117,7 @@ void IsosurfaceProbe::look_among_crossings(const Vec3& p, FootPoint& best) {
   if (nearest != BoxTree::kNone) best = {points_[nearest], std::sqrt(squared)};
 }
 
-// The axes across which a grid face is near, as bits.
+// The axes across which a grid face is near p, as bits.
 unsigned IsosurfaceProbe::faces_beside(const Vec3& p) const {
   unsigned faces = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -125,8 +127,8 @@ unsigned IsosurfaceProbe::faces_beside(const Vec3& p) const {
   return faces;
 }
 
-// The cells of a grid face agree on the gradient but for its part across the face: straight across it from p, and from
-// the nearest point of the face along lines within it.
+// The cells at a grid face have the same gradient except for its component across the face. So walks go straight across
+// the face from p, and along lines within the face from its point nearest to p.
 void IsosurfaceProbe::look_around_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const {
   for (const double side : {1.0, -1.0}) {
     Vec3 across;
@@ -151,8 +153,8 @@ void IsosurfaceProbe::look_around_grid_face(const Vec3& p, unsigned axis, FootPo
   }
 }
 
-// A point of the surface moved by a hair: where creases as sharp as knives meet, in a grid edge or in the saddle of a
-// face, hardly any line leads back to the surface.
+// For a point moved slightly off the surface (by about kMoved) near a grid edge or the saddle of a face. If sharp
+// creases of the surface meet there, hardly any line through the point leads back to the surface.
 void IsosurfaceProbe::look_beside_creases(const Vec3& p, FootPoint& best) {
   const unsigned faces = faces_beside(p);
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -169,7 +171,8 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
     best.distance = deliso::distance(p, best.point);
     return best;
   }
-  // Keeps the foot in this direction when it is nearer; tells whether it is nearer by something worth another walk.
+  // Tries a direction and keeps its foot point if that is nearer. Returns whether it is nearer by enough for another
+  // walk.
   const auto try_direction = [&](const Vec3& direction, double guess) {
     const double length = norm(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
@@ -180,8 +183,8 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
     return is_progress;
   };
 
-  // Down or up the gradient at p. On a crease the gradient of one cell may lead into another where it does not hold;
-  // then in many directions: those in a grid face or edge have values that all its cells share.
+  // First down or up the gradient at p. On a crease the gradient of one cell may lead into another cell, where it is
+  // not valid. Then many directions are tried: along those in a grid face or edge all its cells have the same values.
   const double uphill = f > 0 ? -1 : 1;
   const Vec3 normal = gradient(p);
   const double promised = std::abs(f) / norm(normal);
@@ -203,9 +206,9 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   return best;
 }
 
-// Looks for points on the other side of the isosurface than p that are nearer than `beyond`. The interpolant is linear
-// along each axis, so within a cell's part its extremes are at the corners: where those are all on p's side, so is the
-// whole part. `box` lies within a cell.
+// Looks for points nearer than `beyond` that lie on the other side of the isosurface than p. The interpolant is linear
+// along each axis, so within a box its extremes are at the corners. If all corners are on p's side, so is the whole
+// box. Precondition: `box` lies within a cell.
 void IsosurfaceProbe::look_in_box(const Vec3& p, bool is_below, const Box3& box, FootPoint& beyond) const {
   const auto is_too_far = [&](const Box3& part) {
     const double gap = deliso::distance(p, part.clamp(p));
@@ -222,7 +225,7 @@ void IsosurfaceProbe::look_in_box(const Vec3& p, bool is_below, const Box3& box,
   }
   if (!has_beyond) return;
 
-  // The eighths, the one next to p first and the one across from it last.
+  // The eight octants, from the one that holds or is nearest to p to the opposite one.
   const Vec3 middle = 0.5 * (box.low + box.high);
   unsigned next = 0;
   for (unsigned axis = 0; axis < 3; ++axis) next |= p[axis] < middle[axis] ? 0u : 1u << axis;
@@ -238,7 +241,7 @@ FootPoint IsosurfaceProbe::nearest_point(const Vec3& p) {
   if (best.distance <= kMoved) return best;
   const double f = value(p), reach = std::min(best.distance, kFar);
   const Vec3 low = box_.clamp(p - Vec3{reach, reach, reach}), high = box_.clamp(p + Vec3{reach, reach, reach});
-  // Cut at the grid faces: there is at most one across each axis.
+  // Split the box at grid faces: there is at most one across each axis.
   Vec3 cut;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cut[axis] = std::clamp(step_[axis] * std::round(p[axis] / step_[axis]), low[axis], high[axis]);
@@ -250,7 +253,7 @@ FootPoint IsosurfaceProbe::nearest_point(const Vec3& p) {
     if (part.smallest_side() > 0) look_in_box(p, f < 0, part, beyond);
   }
   if (beyond.point == p) return best;
-  // Before the point beyond there is one of the isosurface, or within rounding of it.
+  // On the way to this point the isosurface is crossed, at the latest within rounding of it.
   const Vec3 direction = (beyond.point - p) / beyond.distance;
   return along_line(p, f, direction, beyond.distance, beyond.distance).value_or(beyond);
 }

@@ -1,5 +1,5 @@
-// Distances of points to an isosurface, found by walking along gradients of the trilinear interpolant. For checks: it
-// shares no code with the ray search that the mesher uses.
+// Distances of points to an isosurface, found by walks along gradients of the trilinear interpolant. For checks: it
+// shares no code with the mesher's ray search.
 //
 // Voxel space: lengths in units of the smallest spacing, the first sample at the origin.
 #pragma once
@@ -24,32 +24,33 @@ struct FootPoint {
 
 class IsosurfaceProbe {
  public:
-  // Keeps references to the grid and to `crossings` (all of the isosurface, not empty: see exact_topology).
+  // Keeps references to the grid and to `crossings` (all crossings of the isosurface, at least one: see
+  // exact_topology).
   IsosurfaceProbe(const ScalarGrid& grid, double isovalue, std::span<const EdgeCrossing> crossings);
 
-  // Length of the smallest spacing in the world, and the way to voxel space and back.
+  // The smallest spacing in world units, and the maps to voxel space and back.
   [[nodiscard]] double voxel() const { return voxel_; }
   [[nodiscard]] Vec3 to_voxels(const Vec3& world) const { return (world - grid_.origin()) / voxel_; }
   [[nodiscard]] Vec3 to_world(const Vec3& p) const { return grid_.origin() + voxel_ * p; }
   // The volume's box in voxel space.
   [[nodiscard]] const Box3& box() const { return box_; }
 
-  // Interpolant minus isovalue, and its gradient; beyond the box those of the nearest point of the box.
+  // Interpolant minus isovalue, and its gradient; outside the box, those at the nearest point of the box.
   [[nodiscard]] double value(const Vec3& p) const;
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
-  // A point of the isosurface near p: where lines through p along gradients (and, far off or near creases, in about a
-  // hundred directions) meet it, or the nearest of its points on grid edges when that is nearer. So the distance is
-  // never below the true one (but for rounding), and exceeds it only where the isosurface bends strongly within a
-  // voxel.
+  // A point of the isosurface near p: where lines through p along gradients meet it (far off or near creases also lines
+  // in about a hundred directions), or the nearest of its points on grid edges if that is nearer. So the distance is
+  // never below the true one (but for rounding). It exceeds the true one only where the isosurface bends strongly
+  // within a voxel.
   FootPoint foot_point(const Vec3& p);
 
-  // The same for a point that should lie on the isosurface: where the foot is off by more than 1e-4, the surroundings
-  // of p are searched through, to a quarter of a voxel. A foot within that is at most two thirds farther than the
-  // nearest point of the isosurface, however it bends.
+  // The same for a point that should lie on the isosurface. If the foot point is farther than 1e-4, the surroundings of
+  // p are searched completely, up to a quarter of a voxel. A foot point within that range is at most two thirds farther
+  // than the nearest point of the isosurface, however the surface bends.
   FootPoint nearest_point(const Vec3& p);
 
-  // The places of `crossings` in voxel space, in their order.
+  // The positions of `crossings` in voxel space, in their order.
   [[nodiscard]] std::vector<Vec3> crossing_points() const;
 
  private:
@@ -72,7 +73,7 @@ class IsosurfaceProbe {
   double voxel_;
   Vec3 step_;  // spacing in voxels
   Box3 box_;
-  // Made when first needed.
+  // Built when first needed.
   std::optional<BoxTree> tree_;
   std::vector<Vec3> points_;
 };

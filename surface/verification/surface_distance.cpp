@@ -36,8 +36,8 @@ class FigureBuilder {
 };
 
 // The squared distance from p to the triangle abc: to the nearest point of its three edges, or to the foot of p in its
-// plane where that has no negative weight. Whatever rounding does to the weights, they name a point of the triangle.
-// The mesher measures in another way (surface/mesh/triangle_distance.h).
+// plane when its barycentric weights are not negative. Rounded weights still give a point of the triangle. The mesher
+// uses another formula (surface/mesh/triangle_distance.h).
 double squared_distance_to(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   double least = squared_distance(p, a);
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
@@ -85,7 +85,7 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
     const double longest =
         std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
     const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
-    // A lattice without the corners, and the centroid.
+    // The points of a lattice except the corners, and the centroid.
     samples.clear();
     samples.push_back((a + b + c) / 3);
     for (int i = 0; i <= order; ++i) {
@@ -116,7 +116,7 @@ DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& 
       const auto& [a, b, c] = mesh.triangles[t];
       return squared_distance_to(p, mesh.points[a], mesh.points[b], mesh.points[c]);
     };
-    // Consecutive points are neighbours mostly: the last answer bounds the next.
+    // Consecutive points are mostly neighbours: the last nearest triangle gives a bound for the next.
     const double bound = measure(nearest);
     const auto [better, squared] = tree.nearest(p, bound, measure);
     if (better != BoxTree::kNone) nearest = better;

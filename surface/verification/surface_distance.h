@@ -17,17 +17,18 @@ struct DistanceFigure {
   Vec3 worst;  // where the maximum is: the sampled point
 };
 
-// The distance of each vertex to the isosurface; nothing for vertices without a triangle. All in voxel space.
+// The distance of each vertex to the isosurface; nothing for a vertex without a triangle. All in voxel space.
 std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);
-// Of these; the mean is over vertices.
+// The figure of these distances; the mean is over vertices.
 DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances);
 
-// Triangles to the isosurface: edge midpoints and centroid of each, on triangles with an edge longer than two voxels
-// more, one about every voxel (at most 16 to an edge). The mean is over area. The vertices are not sampled again.
+// Triangles to the isosurface. Sampled are the edge midpoints and the centroid of each triangle, and on triangles with
+// an edge longer than two voxels further points, about one per voxel (at most 16 to an edge). The mean is over area.
+// Vertices are not sampled here.
 DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
 
-// The given points to the mesh: their nearest triangles, exactly but for rounding. A mesh without triangles has the
-// distance `if_empty`.
+// The given points to the mesh: to their nearest triangles, exactly but for rounding. For a mesh without triangles the
+// distance is `if_empty`.
 DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty);
 
 }  // namespace deliso

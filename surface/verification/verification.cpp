@@ -20,9 +20,9 @@ namespace deliso {
 
 namespace {
 
-constexpr double kOnBox = 1e-3;        // voxels that a point of a boundary edge may be off its face
-constexpr double kMaxResidual = 1e-3;  // voxels that a vertex may be off the isosurface
-constexpr double kMaxDistance = 1.0;   // voxels that the isosurface may be off the mesh
+constexpr double kOnBox = 1e-3;        // voxels; how far a point of a boundary edge may be off its face
+constexpr double kMaxResidual = 1e-3;  // voxels; how far a vertex may be off the isosurface
+constexpr double kMaxDistance = 1.0;   // voxels; how far the isosurface may be off the mesh
 constexpr std::size_t kMostPlaces = 10;
 
 // Triangles with the same three vertices as an earlier one, whatever their order.
@@ -57,13 +57,13 @@ std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& 
     double& of_component = flux[topology.component_of_vertex[triangle[0]]];
     if (of_component >= 0 || places.size() == kMostPlaces) continue;
     places.push_back(mesh.points[triangle[0]]);
-    of_component = 0;  // told
+    of_component = 0;  // reported already
   }
   return places;
 }
 
-// The isosurface next to the centroid of a triangle: the direction in which values fall there, longer where they fall
-// more steeply, and how far off it is.
+// The isosurface near the centroid of a triangle: the direction of descent there, whose length is the slope, and the
+// distance.
 struct NextToCentroid {
   Vec3 descent;
   double distance = 0;
@@ -79,12 +79,13 @@ std::vector<NextToCentroid> look_next_to_centroids(const TriangleMesh& voxels, I
   return result;
 }
 
-// The flux of the unit descent through a triangle, positive when it faces lower values. It is asked on the isosurface,
-// and all of that counts alike, however steep: beside a thin part the field is that of another. A triangle far off for
-// its height counts less. Its corners are `off` the isosurface, and it gets the benefit of that, within the tolerance
-// of residuals: what is thinner may be turned inside out by it.
+// The flux of the unit descent direction through a triangle; positive when the triangle faces lower values. The
+// direction is evaluated on the isosurface, and it has unit length, so that steep parts do not count more: near a thin
+// part of the surface the field at the triangle itself belongs to another part. A triangle that is far off the
+// isosurface compared with its height counts less. Its corners are `off` the isosurface; the result is the largest flux
+// that this allows, within the tolerance of residuals: a thinner part may be turned inside out by such residuals.
 double flux_through(const std::array<Vec3, 3>& corners, const std::array<double, 3>& off, const NextToCentroid& next) {
-  constexpr double kFarOff = 0.25;  // heights to the isosurface with which it counts half
+  constexpr double kFarOff = 0.25;  // distance to the isosurface, in heights, at which a triangle counts half
   const double steepness = norm_of_any_size(next.descent);
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   if (!(norm(normal) > 0 && steepness > 0 && std::isfinite(steepness))) return 0;
@@ -255,7 +256,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   v.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   v.isovalue = isovalue;
 
-  // The truth.
+  // Ground truth.
   const RegularTopology regular = regular_topology(grid, isovalue);
   const IsosurfaceTopology& truth = regular.topology;
   v.isovalue_used = regular.isovalue;

@@ -1,8 +1,8 @@
 // Judges any triangle mesh as an image of an isosurface.
 //
-// It shares with the mesher: the exact topology, the comparison with it (certificate/), the exact tests for triangles
+// Shared with the mesher are the exact topology, the comparison with it (certificate/), the exact tests for triangles
 // that meet (intersection/), and the tree of boxes that finds near triangles (search/box_tree.h). Residuals, distances
-// both ways, normals and orientation it measures with code of its own, without the mesher's ray search.
+// both ways, normals and orientation are measured by code of its own, without the mesher's ray search.
 //
 // Every check is plain data: whether it passed, and its figures. Lengths are in voxels: units of the smallest spacing.
 #pragma once
@@ -38,8 +38,8 @@ struct ManifoldCheck {
 struct OrientationCheck {
   bool pass = false;                   // manifold, neighbours agree, and every component faces lower values
   std::int64_t misoriented_edges = 0;  // edges whose two triangles disagree
-  // Components whose normals point to higher values on the whole, by more than their vertices' residuals can account
-  // for.
+  // Components whose normals point to higher values on the whole, by more than the residuals of their vertices can
+  // explain.
   std::int64_t reversed_components = 0;
   std::vector<Vec3> reversed_at;  // a vertex of each of the first ten, in the world
 };
@@ -94,7 +94,8 @@ struct Verification {
   MeshQuality quality;
 
   // Manifold, oriented, closed up to the box, exact topology per component, no crossing triangles, residual and
-  // isosurface-to-mesh distance in bounds. Normals, shape and Delaunay balls are figures of merit beside it.
+  // isosurface-to-mesh distance within bounds. Normals, shape and Delaunay balls do not count: they are further figures
+  // of merit.
   bool proven = false;
   std::vector<std::string> failures;  // one sentence for each condition of `proven` that fails
   double seconds = 0;

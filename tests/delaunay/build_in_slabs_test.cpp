@@ -1,4 +1,4 @@
-// Triangulations built by parts beside those built in one.
+// Triangulations built by parts, compared with those built in one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST(BuildInSlabs, GivesTheTriangulationThatIsBuiltInOne) {
   }
 }
 
-// What comes later finds a triangulation like any other.
+// Later insertions find a triangulation like any other.
 TEST(BuildInSlabs, LeavesNoGaps) {
   Rng rng(12);
   const Points points = test::random_points(kCount + 200, rng);

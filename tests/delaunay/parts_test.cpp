@@ -1,4 +1,4 @@
-// Parts of a triangulation: what they insert apart from each other must give the triangulation of all points.
+// Parts of a triangulation: together their insertions must give the triangulation of all points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +39,8 @@ std::vector<std::unique_ptr<BowyerWatson>> parts_of(BowyerWatson& whole, const s
   return parts;
 }
 
-// By turns each part tries a point; what it cannot insert goes to `left`. Nobody else works meanwhile, so that walks
-// may look for where to start.
+// The parts try points in turn; a point that a part cannot insert goes to `left`. No other part works meanwhile, so a
+// walk may search for the tetrahedron to start from.
 void insert_by_turns(std::vector<std::unique_ptr<BowyerWatson>>& parts, const Points& points, Rng& rng, Points& left,
                      Counts& counts) {
   for (const Vec3& p : points) {

@@ -42,8 +42,8 @@ TetSet built_anew(const BowyerWatson& tets, const Box3& box) {
 
 bool all_coplanar(const Points& points) { return !BowyerWatson(test::box_of(points)).build(points); }
 
-// Random points on a sphere, and its centre. Where that comes late it joins what is inside to itself, which takes fewer
-// tetrahedra, and slots stay free.
+// Random points on a sphere, and its centre. If the centre comes late it connects to what is inside, which takes fewer
+// tetrahedra, so slots stay free.
 Points sphere_and_centre(std::size_t count, Rng& rng) {
   const Vec3 centre = {rng.uniform(), rng.uniform(), rng.uniform()};
   Points points;
@@ -55,7 +55,7 @@ Points sphere_and_centre(std::size_t count, Rng& rng) {
   return points;
 }
 
-// Removes random vertices until the rest is coplanar, which must be when it is refused.
+// Removes random vertices until the rest is coplanar; exactly then the removal must be refused.
 void remove_all(const std::string& name, const Points& points, Rng& rng, std::size_t compare_every) {
   const Box3 box = test::box_of(points);
   BowyerWatson tets(box);
@@ -102,7 +102,7 @@ TEST(VertexRemoval, LeavesTheTriangulationOfTheOthersInLargerSets) {
 
 using Going = BowyerWatson::Going;
 
-// Marks some vertices, so many of a hundred, and takes them away with those they hang together with.
+// Marks this percentage of the vertices, and removes them together with those connected to them.
 void remove_together(const std::string& name, const Points& points, Rng& rng, std::size_t percent) {
   const Box3 box = test::box_of(points);
   BowyerWatson tets(box);

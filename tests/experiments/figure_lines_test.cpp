@@ -1,4 +1,5 @@
-// The lines of the paper's figures and the functions that stand for them: what surface/README.md names is there.
+// The lines of the paper's figures and the functions that implement them: checks that surface/README.md names existing
+// ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The floors of the house: an include may only point downwards.
+// The layers of the project: an include may only point to a lower layer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each top folder may include besides itself. A folder named with its parent stands apart from it.
+// The top folders that each top folder may include besides itself. A folder named with its parent is separate from it.
 const std::map<std::string, std::set<std::string>> kBelow = {
     {"delaunay/base", {}},
     {"delaunay", {"delaunay/base"}},
@@ -27,7 +27,7 @@ const std::map<std::string, std::set<std::string>> kBelow = {
     {"experiments", {"delaunay/base", "delaunay", "volume", "raycast", "surface"}},
 };
 
-// The floors within a top folder, from the ground up. Rooms of one floor do not include each other.
+// The layers within a top folder, from the lowest up. Folders of one layer do not include each other.
 using Floors = std::vector<std::set<std::string>>;
 const std::map<std::string, Floors> kFloors = {
     {"volume", {{"volume"}, {"volume/io", "volume/topology", "volume/fields"}, {"volume/marching_cubes"}}},

@@ -1,4 +1,4 @@
-// The pages that lead through the project: each folder has one, of a size that is read, and what it names is there.
+// The README pages: each folder has one of limited size, and the names in it exist.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Whether a page may name a file so: from the root, from the page's own folder, or, without a folder, anywhere in it.
+// Whether a page may name a file in this way: from the root, from the page's own folder or, without a folder, anywhere
+// below it.
 bool is_there(const std::string& name, const std::string& page) {
   const fs::path folder = (root() / page).parent_path();
   if (fs::exists(root() / name) || fs::exists(folder / name)) return true;

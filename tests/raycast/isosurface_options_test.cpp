@@ -1,4 +1,4 @@
-// Options of the search: whatever they are, the hits are the same; and what the counters say of them.
+// Options of the search: they never change the hits; and what they change in the counters.
 #include <gtest/gtest.h>
 
 #include <array>

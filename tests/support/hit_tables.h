@@ -1,5 +1,5 @@
-// What a restricted Delaunay triangulation knows of its dual edges and umbrellas, in a form that does not depend on how
-// its elements are numbered.
+// The dual edges and umbrellas of a restricted Delaunay triangulation, in a form that does not depend on how its
+// elements are numbered.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,7 @@
 
 namespace deliso::testing {
 
-// The hits of each dual edge as points, falling ones told apart, in the direction that leaves the smallest vertex's
-// facet orientation out of account.
+// The hits of each dual edge as points, along the edge, by the name of its facet.
 struct NamedHit {
   Vec3 point;
   double from_end = 0;  // distance along the line to the nearer end of the dual edge

@@ -140,27 +140,30 @@ TEST_P(ProvenInput, StaysSo) {
 INSTANTIATE_TEST_SUITE_P(
     Regression, ProvenInput,
     ::testing::Values(
-        // The vertex of a subdivided edge went far, and beyond another sheet.
+        // The vertex of a subdivided edge was placed far away, beyond another sheet.
         Input{"far_home.nrrd", 127.5},
-        // A speck lost the crossings on one side, and faced the wrong way.
+        // A small component lost the crossings on one side, and its orientation was reversed.
         Input{"half_speck.nrrd", 128.9},
-        // Tips of fingers as thin as a hair: samples below them were left out, near enough by themselves.
+        // Tips of very thin fingers: samples below them were left out although they were near enough themselves.
         Input{"left_out_tip_0.nrrd", 128.1}, Input{"left_out_tip_1.nrrd", 128.9},
-        // The vertex of a subdivided edge stayed off the surface, for everywhere on it triangles would have crossed.
+        // The vertex of a subdivided edge stayed off the surface, because triangles would have crossed at every
+        // position on it.
         Input{"off_surface_edge.nrrd", 128.2},
-        // Beside the saddle of a face the check did not find the surface that a vertex had been moved from by a hair.
+        // Near the saddle of a face, the check did not find the surface from which a vertex had been moved by less than
+        // 1e-3.
         Input{"face_saddle.nrrd", 128.2},
-        // Samples of mixed magnitudes. The check stepped over the layer, as thin as a hair, behind a grid face.
+        // Samples of mixed magnitudes. The check stepped over a very thin layer behind a grid face.
         Input{"mixed_magnitudes_0.nrrd", 0},
-        // It took the needle around a grid edge for reversed: beside that the gradient belongs to other parts.
+        // It took a needle around a grid edge for reversed: near the needle the gradient belongs to other parts.
         Input{"mixed_magnitudes_1.nrrd", 0},
-        // Copies of vertices, moved apart by a hair, turned a speck inside out.
+        // Copies of vertices that were moved apart (by less than 1e-3) turned a small component inside out.
         Input{"mixed_magnitudes_2.nrrd", 0},
-        // One of two disks came out right, and once more as a part of the other, which the counts did not tell.
+        // One of two disks was right, and meshed once more as a part of the other, which the counts did not show.
         Input{"swallowed_disk.nrrd", 0.1},
-        // A wide triangle spans the hollow between the arms of a corner piece, and its centroid is next to others.
+        // A wide triangle spans the hollow between the arms of a corner piece, so its centroid is nearest to another
+        // part.
         Input{"mixed_magnitudes_3.nrrd", 0},
-        // Where masks are plane the surface was folded by half a turn; in the world, rounded, the folds crossed.
+        // Where masks are plane the surface was folded back on itself; rounded to world coordinates, the folds crossed.
         Input{"folded_mask_0.nrrd", 0.5}, Input{"folded_mask_1.nrrd", 0.5}, Input{"folded_mask_2.nrrd", 0.5}),
     [](const auto& input) {
       const std::string name = input.param.name;

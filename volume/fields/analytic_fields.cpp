@@ -207,9 +207,9 @@ Topology many_spheres(std::int32_t size) {
   return {{{2, 0, side * side * side}}};
 }
 
-// No sample can equal a suggested isovalue: those of f32 fields are no f32 numbers, those of integer fields no
-// integers, and the plane's samples are whole multiples of 0.1 / (size - 1), its isovalue is none up to the largest
-// size.
+// No sample can equal a suggested isovalue. Those of f32 fields are no f32 numbers, and those of integer fields no
+// integers. The plane's samples are whole multiples of 0.1 / (size - 1), and its isovalue is none for any size up to
+// the largest.
 std::vector<AnalyticField> all_fields() {
   constexpr bool kClosed = true;
   constexpr bool kOpen = false;

@@ -23,8 +23,8 @@ struct KnownComponents {
   friend bool operator==(const KnownComponents&, const KnownComponents&) = default;
 };
 
-// The value at a point of [-1, 1]^3. To be called for every sample in order, x fastest: noise counts on it. The samples
-// take the nearest value of their type.
+// The value at a point of [-1, 1]^3. It must be called for every sample in order, x fastest, because noise draws its
+// values in this order. Each sample is the nearest value of its type.
 using FieldValues = std::function<double(const Vec3&)>;
 
 struct AnalyticField {
@@ -35,8 +35,8 @@ struct AnalyticField {
   std::string type_name;  // of the samples, as ScalarGrid::type_name
   bool closed = false;    // does the isosurface at the suggested isovalue stay away from the cube's faces?
   bool seeded = false;    // does the seed matter?
-  // The isosurface at the suggested isovalue up to homeomorphism, for sizes from `smallest_known_size` on; nothing when
-  // it is not known beforehand or the size too small to resolve it.
+  // The isosurface at the suggested isovalue up to homeomorphism, for sizes from `smallest_known_size` on. Empty when
+  // it is not known beforehand or the size is too small to resolve it.
   std::int32_t smallest_known_size = 0;
   std::optional<std::vector<KnownComponents>> (*topology)(std::int32_t size) = nullptr;
   FieldValues (*values)(std::int32_t size, std::uint64_t seed) = nullptr;

@@ -24,7 +24,7 @@ constexpr int kMemoryLevel = 8;
 
 Bytef* as_zlib(std::byte* bytes) { return reinterpret_cast<Bytef*>(bytes); }
 
-// zlib counts in 32 bits.
+// zlib counts bytes in 32 bits: the size of the next piece.
 uInt piece(std::size_t size) {
   return static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
 }

@@ -20,7 +20,7 @@ constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 std::string counted(std::uint64_t count, const char* unit) { return std::to_string(count) + " " + unit; }
 
-// Plain and compressed bytes behind one face.
+// One interface for plain and compressed bytes.
 class ByteReader {
  public:
   ByteReader(InputFile& file, Compression compression) : file_(file) {

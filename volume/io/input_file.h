@@ -43,7 +43,7 @@ class InputFile {
 
 enum class Compression { kNone, kGzip };
 
-// How samples lie in a file.
+// The layout of the samples in a file.
 struct SampleLayout {
   SampleType type = SampleType::kU8;
   Dims dims{};
@@ -57,8 +57,8 @@ struct SampleLayout {
 inline constexpr std::uint64_t kMappedFileBytes = std::uint64_t{64} << 20;
 
 // Reads the samples that make up the rest of the file. They are mapped when the file has at least `mapped_from` bytes
-// and the samples are uncompressed, aligned, in the byte order of this machine and not to be reversed. Never allocates
-// more than the file can hold: the size that the layout claims is first compared with the file's (for gzip with the
+// and the samples are uncompressed, aligned, in this machine's byte order and not to be reversed. Never allocates more
+// than the file can hold: the size that the layout claims is first compared with the file's size (for gzip with the
 // most that deflate can expand to, 1032 to 1). Throws InputError when the data are too short, too long or corrupt, or
 // memory does not suffice.
 Samples read_samples(InputFile& file, const SampleLayout& layout, std::uint64_t mapped_from = kMappedFileBytes);

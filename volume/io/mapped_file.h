@@ -9,10 +9,11 @@
 
 namespace deliso {
 
-// A read-only view of a whole file. Whoever shortens the file while it is mapped ends this process: map what stays.
+// A read-only view of a whole file. If someone shortens the file while it is mapped, this process is killed: map only
+// files that do not change.
 class MappedFile {
  public:
-  // Nothing when the system cannot map the file, or it has not `size` bytes (any more).
+  // Nothing when the system cannot map the file, or its size is not `size` bytes (any more).
   static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path, std::uint64_t size);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;

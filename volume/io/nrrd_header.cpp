@@ -140,7 +140,7 @@ void read_axis_geometry(const NrrdFields& fields, const Axes& axes, NrrdHeader& 
   }
 }
 
-// Fields that do not matter here but tell a damaged header.
+// Checks fields that we do not use; a wrong value there shows that the header is damaged.
 void check_unused_fields(const NrrdFields& fields, const Axes& axes) {
   for (const char* name : {"kinds", "thicknesses"}) {
     if (const NrrdField* field = fields.find(name)) static_cast<void>(fields.words(*field, axes.count));

@@ -1,9 +1,9 @@
 // The loops in which the isosurface meets the boundary of a cell: closed polygons of grid-edge crossings.
 //
-// On a face the mesh draws straight chords for the arcs. Two arcs on one face (an ambiguous one) cut off opposite
-// corners, whichever way the asymptotic decider joins them: with the cut-off corner at (0, 0) one chord runs from
-// (a, 0) to (0, b) with a, b < 1, so x + y < 1 on all of it, and x + y > 1 on the other. So the loops of a cell are
-// disjoint simple polygons, and both cells of a face draw the same chords on it.
+// On a face the mesh draws straight chords for the arcs. Two arcs on one (ambiguous) face cut off opposite corners,
+// whichever way the asymptotic decider joins them. Put one of these corners at (0, 0): its chord runs from (a, 0) to
+// (0, b) with a, b < 1, so x + y < 1 on it, and x + y > 1 on the other chord. So the loops of a cell are disjoint
+// simple polygons, and both cells of a face draw the same chords on it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ std::size_t split_into_loops(const EdgeSuccessors& next, std::array<CellLoop, kM
 // The one loop of a simple sign pattern (is_simple), from a table.
 const CellLoop& simple_loop(std::uint8_t pattern);
 
-// For each edge of the cell a bit for either face that contains it.
+// For each edge of the cell, one bit for each of the two faces that contain it.
 inline constexpr std::array<std::uint8_t, kCellEdges> kFacesOfEdge = [] {
   std::array<std::uint8_t, kCellEdges> faces{};
   for (unsigned edge = 0; edge < kCellEdges; ++edge) {

@@ -18,7 +18,7 @@ const MarchingCubesPatch& CellTriangulation::triangulate(const CellIndex& cell, 
   patch_.triangles.clear();
   add_crossings(pattern);
   if (is_simple(pattern)) {
-    add_disk(simple_loop(pattern));  // chords do: no inner point
+    add_disk(simple_loop(pattern));  // the chords alone triangulate it, without an inner point
     return patch_;
   }
   corners_ = grid_.cell(cell[0], cell[1], cell[2]);
@@ -95,8 +95,8 @@ bool CellTriangulation::draw(const std::function<void(const Piece&)>& add_tunnel
 }
 
 // Triangulates the loop by the chords of least total squared length. A chord between two crossings of one face is
-// forbidden, for the cell across that face might draw it too; when no other triangulation exists, an inner point
-// serves.
+// forbidden, because the cell across that face might draw it too. If no other triangulation exists, an inner point is
+// used.
 void CellTriangulation::add_disk(const CellLoop& loop) {
   const std::size_t n = loop.size;
   if (n == 3) return add_triangle(vertex(loop.edges[0]), vertex(loop.edges[1]), vertex(loop.edges[2]));
@@ -139,7 +139,7 @@ void CellTriangulation::add_disk(const CellLoop& loop) {
   }
 }
 
-// From the centre of the crossings or, if that leads nowhere, from between it and one of them.
+// Projects the centre of the crossings onto the surface or, if that fails, points between the centre and a crossing.
 CellTriangulation::SurfacePoint CellTriangulation::apex_of(const CellLoop& loop) const {
   Vec3 centre;
   for (std::size_t i = 0; i < loop.size; ++i) centre += point(loop.edges[i]) / static_cast<double>(loop.size);
@@ -187,8 +187,8 @@ void CellTriangulation::add_ring(CellLoop outer, CellLoop inner) {
   }
 }
 
-// Moves a point onto the surface inside the cell, as near as a few Newton steps along the gradient come. The place
-// only measures: the mesh is right wherever it lies.
+// Moves a point onto the surface inside the cell, as near as a few Newton steps along the gradient come. The position
+// affects only the geometry: the topology is right wherever the point lies.
 CellTriangulation::SurfacePoint CellTriangulation::onto_surface(const Vec3& near) const {
   static constexpr double kMargin = 1e-3;
   constexpr int kSteps = 8;

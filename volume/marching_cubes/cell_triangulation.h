@@ -1,17 +1,17 @@
 // The triangles of marching cubes in one cell.
 //
-// Triangles of different cells have nothing in common but what they share, so the whole mesh is embedded when the
-// triangles of each cell are. They lie in the cell, which is convex, and meet its boundary in the chords of the loops
-// alone, which are the same for both cells of a face and disjoint on it (cell_loops.h): a segment between two crossings
-// lies in a face only if both do, and such a segment is forbidden unless it is one of the chords; inner points lie
-// strictly inside.
+// The whole mesh is embedded when the triangles of each cell are, because triangles of different cells meet only in
+// what they share. The triangles of a cell lie in the cell, which is convex. They meet its boundary only in the chords
+// of the loops, which are the same for both cells of a face and disjoint on it (cell_loops.h): a segment between two
+// crossings lies in a face only if both crossings do, and such a segment is forbidden unless it is one of the chords.
+// Inner points lie strictly inside.
 //
-// Within a cell a disk of least chords has not been seen to cross itself or another disk (in more than 10^7 random
-// cells); triangles around a tunnel do. So cells that are not simple are tested exactly, where there are tests, and
-// tunnels whose triangles meet, or whose inner points are off the surface, are drawn in another way (cell_tunnel.cpp).
-// Both is decided in index space; what is drawn otherwise also bears small displacements. A spacing that is no power of
-// two rounds the points anew: what comes within a rounding may meet again, as may edges whose crossings round to a
-// sample.
+// Within a cell, a disk of least chords has never been seen to cross itself or another disk (in more than 10^7 random
+// cells); triangles around a tunnel have. So cells that are not simple are tested exactly, if exact tests are given. A
+// tunnel is drawn in another way (cell_tunnel.cpp) when its triangles meet or its inner points are off the surface.
+// Both are decided in index space; such a redrawn tunnel also withstands small displacements. A spacing that is no
+// power of two rounds the points again: triangles closer than a rounding may then meet, as may edges whose crossings
+// round to a sample.
 #pragma once
 
 #include <array>
@@ -31,12 +31,12 @@ namespace deliso {
 
 struct MarchingCubesPatch {
   CellIndex cell{};
-  // The vertices of the patch: what the whole mesh calls them, and where they are, in index space. First the cell's
-  // grid-edge crossings, then its inner points.
+  // The vertices of the patch: their numbers in the whole mesh, and their positions in index space. The cell's
+  // grid-edge crossings come first, then its inner points.
   std::vector<std::uint32_t> vertices;
   std::vector<Vec3> points;
   std::size_t crossing_count = 0;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // of places in `vertices`
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into `vertices`
 };
 
 // Triangulates one cell after the other.
@@ -60,31 +60,31 @@ class CellTriangulation {
     CellLoop other;  // empty for a disk
     [[nodiscard]] bool is_disk() const { return other.size == 0; }
   };
-  // The corners of one end of a band: a loop, or a ring drawn from it into the cell.
+  // The corners of one end of a band: a loop, or a ring of its points moved into the cell.
   struct Rim {
     std::array<Vec3, kCellEdges> points{};
     bool is_loop = true;
   };
   struct SurfacePoint {
     Vec3 at;
-    bool is_near = false;  // to the surface
+    bool is_near = false;  // whether it lies near the surface
   };
 
   using Triangle = std::array<std::uint32_t, 3>;
 
   // Whether no two triangles have points in common beyond their common vertices, and none is degenerate. Precondition:
-  // there are tests.
+  // exact tests are given.
   [[nodiscard]] bool is_embedded(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) const;
 
   void add_crossings(std::uint8_t pattern);
   void find_pieces(std::uint8_t pattern);
-  // Draws all pieces anew; returns whether the triangles have no contacts and inner points lie on the surface, where
-  // there are tests.
+  // Draws all pieces anew. Returns whether no triangles meet (if exact tests are given) and all inner points lie on the
+  // surface.
   bool draw(const std::function<void(const Piece&)>& add_tunnel);
   void add_disk(const CellLoop& loop);
   void add_ring(CellLoop outer, CellLoop inner);
 
-  // cell_tunnel.cpp: what else can be drawn for a tunnel.
+  // cell_tunnel.cpp: the other ways to draw a tunnel.
   bool draw_otherwise();
   bool draw_bands(const Piece& tunnel, const std::array<double, 2>& depths);
   bool draw_part_of_hull(double depth);
@@ -112,7 +112,7 @@ class CellTriangulation {
   const ExactTests* tests_;
   std::size_t vertex_count_;  // crossings, and the inner points of the cells so far
 
-  // Of the cell at hand:
+  // State of the current cell:
   MarchingCubesPatch patch_;
   std::array<std::uint32_t, kCellEdges> places_{};  // of its crossings in patch_.vertices, by edge
   CellCorners corners_{};                           // its samples and its pieces, when it is not simple

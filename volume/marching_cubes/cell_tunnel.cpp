@@ -1,11 +1,11 @@
-// Tunnels whose ring of inner points makes triangles that meet: other ways to draw them, tried one after the other.
+// Other ways to draw a tunnel whose ring of inner points makes triangles that meet. They are tried one after the other.
 //
-// The last one fails only where crossings are rounded to samples or into line. A grid edge holds at most one crossing,
-// so every crossing of the cell is a corner of the convex hull H of all, and the chords of the loops, which are sides
-// of the polygons that H has in common with the cell's faces, are edges of H. So the loops cut H's boundary into
-// regions, and one of them joins the tunnel's loops. Shrink it towards a point within H, a little, and join its rims to
-// the loops: seen from that point nothing lies behind anything else. A disk beside the tunnel (at most one has been
-// seen) is a triangle that cuts off a corner of the cell; it is a facet of H, outside of what has been shrunk.
+// The last way fails only where crossings are rounded to samples or into collinear positions. A grid edge holds at most
+// one crossing, so every crossing of the cell is a corner of the convex hull H of all. The chords of the loops are
+// sides of the polygons that H shares with the cell's faces, so they are edges of H. The loops cut the boundary of H
+// into regions, and one region joins the loops of the tunnel. Shrink it slightly towards a point within H, and join its
+// rims to the loops: seen from that point no triangle hides another. A disk beside the tunnel (at most one has been
+// seen) is a triangle that cuts off a corner of the cell. It is a facet of H, and lies outside of the shrunken region.
 #include <algorithm>
 #include <limits>
 
@@ -15,24 +15,24 @@
 
 namespace deliso {
 
-// Precondition, here as below: there are tests. A cell has at most one tunnel.
+// Precondition, here as below: exact tests are given. A cell has at most one tunnel.
 bool CellTriangulation::draw_otherwise() {
   const auto tunnel = std::find_if(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return !piece.is_disk(); });
   if (tunnel == pieces_.end()) return false;
-  // Without inner points; then with rings on the surface at these parts of the way into the cell, from one loop or
-  // both.
+  // First without inner points; then with rings on the surface, moved into the cell by these fractions, from one loop
+  // or from both.
   if (draw_bands(*tunnel, {0, 0})) return true;
   for (const double depth : {0.5, 0.25, 0.125}) {
     if (draw_bands(*tunnel, {0, depth}) || draw_bands(*tunnel, {depth, 0}) || draw_bands(*tunnel, {depth, depth})) {
       return true;
     }
   }
-  // So near to the loops, which lie on the surface, that the copies need not be moved onto it.
+  // The rings are so near to the loops, which lie on the surface, that they need not be moved onto it.
   constexpr double kShallow = 0x1p-12;
   return draw_part_of_hull(kShallow);
 }
 
-// Tries the bands of least total squared length of chords, one from each start. A chord between two crossings of one
+// Tries bands of least total squared length of chords, one band for each start. A chord between two crossings of one
 // face is forbidden.
 bool CellTriangulation::draw_bands(const Piece& tunnel, const std::array<double, 2>& depths) {
   const std::optional<Rim> first = rim(tunnel.loop, depths[0]), second = rim(tunnel.other, depths[1]);
@@ -50,8 +50,8 @@ bool CellTriangulation::draw_bands(const Piece& tunnel, const std::array<double,
   });
 }
 
-// Whether small displacements make no triangles meet. In symmetric cells triangles can come as near to each other as
-// rounding leaves them, and would meet elsewhere in the volume or with another spacing.
+// Whether the triangles still do not meet after small displacements. In symmetric cells triangles may be only a
+// rounding apart, and would meet elsewhere in the volume or with another spacing.
 bool CellTriangulation::stays_embedded() const {
   constexpr int kTrials = 8;
   constexpr double kStep = 0x1p-20;
@@ -70,7 +70,7 @@ bool CellTriangulation::stays_embedded() const {
   return true;
 }
 
-// Here rounding could move an inner point onto the cell's boundary.
+// False also when rounding has moved an inner point onto the cell's boundary, which is near.
 bool CellTriangulation::draw_part_of_hull(double depth) {
   const Vec3 low = base();
   const auto is_inside = [&](const Vec3& p) {
@@ -83,7 +83,7 @@ bool CellTriangulation::draw_part_of_hull(double depth) {
                      is_inside);
 }
 
-// The rim at a part of the way into the cell, if it comes to lie on the surface.
+// The rim moved into the cell by this fraction; nothing if it does not come to lie on the surface.
 std::optional<CellTriangulation::Rim> CellTriangulation::rim(const CellLoop& loop, double depth) const {
   Rim result;
   result.is_loop = depth == 0;
@@ -97,7 +97,7 @@ std::optional<CellTriangulation::Rim> CellTriangulation::rim(const CellLoop& loo
   return result;
 }
 
-// A point at a part of its way to the centre of the crossings.
+// A point moved by this fraction of its way to the centre of the crossings.
 Vec3 CellTriangulation::drawn_in(const Vec3& at, double depth) const {
   Vec3 centre;
   for (std::size_t v = 0; v < patch_.crossing_count; ++v) {
@@ -106,7 +106,7 @@ Vec3 CellTriangulation::drawn_in(const Vec3& at, double depth) const {
   return at + depth * (centre - at);
 }
 
-// Adds a ring, joined to its loop.
+// Adds a ring and joins it to its loop.
 std::array<std::uint32_t, kCellEdges> CellTriangulation::add_rim(const CellLoop& loop, const Rim& rim) {
   std::array<std::uint32_t, kCellEdges> corners{};
   for (std::size_t k = 0; k < loop.size; ++k) {
@@ -137,9 +137,9 @@ void CellTriangulation::add_band(const Piece& tunnel, const std::array<Rim, 2>& 
   }
 }
 
-// False when the hull has no region between the loops: rounded crossings need not be its corners.
+// False when the hull has no region between the loops: rounded crossings may fail to be corners of the hull.
 bool CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
-  // The region of the hull that joins the loops, by places in the patch.
+  // The region of the hull that joins the loops, by indices into the patch.
   const auto polygon = [&](const CellLoop& loop) {
     std::vector<std::uint32_t> corners;
     for (std::size_t k = 0; k < loop.size; ++k) corners.push_back(vertex(loop.edges[k]));
@@ -149,7 +149,7 @@ bool CellTriangulation::add_part_of_hull(const Piece& tunnel, double depth) {
                                     patch_.points.begin() + static_cast<std::ptrdiff_t>(patch_.crossing_count));
   const auto region = hull_annulus(crossings, polygon(tunnel.loop), polygon(tunnel.other), *tests_);
   if (region.empty()) return false;
-  // Its copy between copies of the loops.
+  // A shrunken copy of it, between copies of the loops.
   constexpr std::uint32_t kNone = 0;  // a crossing's number
   std::array<std::uint32_t, kCellEdges> copies{};
   for (const CellLoop& loop : {tunnel.loop, tunnel.other}) {

@@ -28,8 +28,8 @@ std::uint32_t facet_through(std::span<const Vec3> points, const Corners& corners
   return is_any_above != is_any_below ? facet : 0;
 }
 
-// Appends the facet's polygon as a fan, counterclockwise seen from outside: seen from there all of the facet lies to
-// the left of each side, and from a point of the hull beyond the facet's plane to the right.
+// Appends the facet's polygon as a fan, counterclockwise seen from outside. Seen from outside, all of the facet lies to
+// the left of each of its sides. Seen from a point of the hull beyond the facet's plane it lies to the right.
 void append_fan(std::span<const Vec3> points, std::uint32_t facet, const ExactTests& tests,
                 std::vector<Corners>& triangles) {
   const Vec3& inside = points[static_cast<std::size_t>(std::countr_one(facet))];
@@ -80,7 +80,7 @@ std::vector<Corners> hull_annulus(std::span<const Vec3> points, std::span<const 
   std::set<Edge> rims = edges_along(first);
   rims.merge(edges_along(second));
   for (int side = 0; side < 2; ++side) {
-    // Flood from the first polygon on, over all edges but those of the polygons.
+    // Flood fill from the first polygon, across all edges but those of the polygons.
     std::vector<Corners> part;
     std::set<Edge> entered{{first[0], first[1]}};
     for (bool has_grown = true; has_grown;) {
@@ -103,7 +103,7 @@ std::vector<Corners> hull_annulus(std::span<const Vec3> points, std::span<const 
       for (const Edge& e : edges_of(t)) edges.insert(e);
     }
     if (std::includes(edges.begin(), edges.end(), rims.begin(), rims.end())) return part;
-    // The other side: the whole hull seen from inside.
+    // The other side of the polygons: the whole hull seen from inside.
     hull = hull_triangles(points, tests);
     for (Corners& t : hull) std::swap(t[1], t[2]);
   }

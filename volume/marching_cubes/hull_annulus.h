@@ -11,9 +11,10 @@
 
 namespace deliso {
 
-// Triangles that cover the hull's boundary between the two polygons, oriented so that each runs once along every edge
-// of theirs in its direction. Empty when no part of the boundary lies to the same side of both polygons. Precondition:
-// few points (at most 32), every one a corner of the hull; the polygons are disjoint cycles of edges of hull facets.
+// Triangles that cover the part of the hull's boundary between the two polygons. They are oriented so that each polygon
+// edge is an edge of one triangle, in the polygon's direction. Empty when no part of the boundary lies on the same side
+// of both polygons. Precondition: at most 32 points, every one a corner of the hull; the polygons are disjoint cycles
+// of edges of hull facets.
 std::vector<std::array<std::uint32_t, 3>> hull_annulus(std::span<const Vec3> points,
                                                        std::span<const std::uint32_t> first,
                                                        std::span<const std::uint32_t> second, const ExactTests& tests);

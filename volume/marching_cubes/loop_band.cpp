@@ -11,11 +11,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kPlaces = kCellEdges + 1;
 
-// The cheapest paths from one start. Place (i, j) is the chord from corner i to corner start + j; the last place, a
-// full turn along both, is the start again. A path must not join a corner to all of the other polygon, for it would end
-// that fan on the chord with which it began it. So it leaves corner 0 of the first polygon at once and comes back to it
-// after it has left the start, and it must not turn fully along the second polygon at one corner of the first: hence
-// two layers, the second one for paths that have left the corner at which they left the start.
+// The cheapest paths from one start. Node (i, j) is the chord from corner i to corner start + j; the last node, a full
+// turn along both polygons, is the start again. A path must not join one corner to all corners of the other polygon,
+// because such a fan would end on the chord with which it began. So the path leaves corner 0 of the first polygon at
+// once, and returns to it only after it has left the start of the second. Also it must not make a full turn along the
+// second polygon at one corner of the first. Hence there are two layers of nodes: the second layer is for paths that
+// have left the corner at which they left the start.
 class CheapestPaths {
  public:
   template <class Chord>
@@ -37,7 +38,7 @@ class CheapestPaths {
   }
 
   [[nodiscard]] double cost(std::size_t i, std::size_t j) const { return cost_[1][i][j]; }
-  // The steps along the second polygon of the path to a place.
+  // How many steps along the second polygon the path to a node has.
   [[nodiscard]] unsigned steps_along_second(std::size_t i, std::size_t j) const {
     unsigned steps = 0;
     for (std::size_t layer = 1; i + j > 0;) {
@@ -55,7 +56,8 @@ class CheapestPaths {
   }
 
  private:
-  // The costs of the places before one of the second layer: in either layer along the first polygon, along the second.
+  // The costs of the nodes before a node of the second layer: in either layer along the first polygon, and along the
+  // second.
   [[nodiscard]] std::array<double, 3> before(std::size_t i, std::size_t j) const {
     return {cost_[0][i - 1][j], cost_[1][i - 1][j], cost_[1][i][j - 1]};
   }

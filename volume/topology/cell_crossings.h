@@ -1,7 +1,8 @@
-// The numbers of the crossings on the edges of cells that are gone through row by row.
+// The numbers of the crossings on the edges of cells, for callers that visit cells row by row.
 //
-// CrossingIndex::number() counts bits for every edge. Here a row of samples is gone through once, and each of its
-// crossings takes the number after the one before it; the rows around a row of cells serve the next one, too.
+// CrossingIndex::number() counts bits for every edge. This class instead numbers the crossings of a row of samples in
+// one pass, each by adding 1 to the one before it. The rows of samples around a row of cells are reused for the next
+// row of cells.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ class CellCrossings {
   CellCrossings(const CellCrossings&) = delete;
   CellCrossings& operator=(const CellCrossings&) = delete;
 
-  // To a cell. Fast where it lies in the same row along x as the last one, or in the next row along y.
+  // Moves to a cell. Fast if the cell lies in the same row along x as the last one, or in the next row along y.
   void move_to(const CellIndex& cell) {
     if (cell[1] != row_[0] || cell[2] != row_[1]) take_row(cell[1], cell[2]);
     first_ = kPerSample * static_cast<std::size_t>(cell[0]);
@@ -31,14 +32,14 @@ class CellCrossings {
   }
 
  private:
-  // A row of samples and the numbers of the crossings that start from its samples: of sample i along `axis` at
-  // kPerSample i + axis. Where there is no crossing, there is no telling.
+  // A row of samples and the numbers of the crossings that start from its samples. The crossing of sample i along
+  // `axis` is at kPerSample i + axis; where there is no crossing the entry is undefined.
   struct SampleRow {
     std::int32_t j = -1;
     std::int32_t k = -1;
     std::vector<std::uint32_t> numbers;
   };
-  // Of an edge: which of the four rows around a row of cells its lower end is in, and where, seen from the cell.
+  // For an edge: which of the four rows around a row of cells holds its lower end, and at which offset from the cell.
   struct Place {
     std::uint32_t row = 0;
     std::uint32_t offset = 0;
@@ -50,10 +51,11 @@ class CellCrossings {
 
   const CrossingIndex& index_;
   std::array<Place, 12> places_;
-  std::array<std::array<SampleRow, 2>, 2> known_;  // of layers of samples and, within these, of rows: even and odd ones
-  std::array<std::int32_t, 2> row_{-1, -1};        // of cells: (j, k)
-  std::array<const std::uint32_t*, 4> rows_{};     // around it: at (j, k), (j + 1, k), (j, k + 1) and (j + 1, k + 1)
-  std::size_t first_ = 0;                          // of the numbers of the cell's lowest corner
+  // Of even and odd layers of samples and, within these, of even and odd rows.
+  std::array<std::array<SampleRow, 2>, 2> known_;
+  std::array<std::int32_t, 2> row_{-1, -1};     // of cells: (j, k)
+  std::array<const std::uint32_t*, 4> rows_{};  // around it: at (j, k), (j + 1, k), (j, k + 1) and (j + 1, k + 1)
+  std::size_t first_ = 0;                       // where the numbers of the cell's lowest corner begin
 };
 
 }  // namespace deliso

@@ -88,9 +88,9 @@ int CellSweep::det_sign(int end) const {
   return end == 0 || end == 3 ? -1 : 1;
 }
 
-// Whether slice corner a < b changes sign before slice corner b. Of two that flip together the higher one goes first:
-// for a regular surface any order gives the same answer, and on a face with a saddle at the isovalue this one agrees
-// with above_joined_on_face.
+// Whether slice corner a < b changes sign before slice corner b. If both change at the same w, the higher one goes
+// first. For a regular surface any order gives the same answer; on a face with a saddle at the isovalue this order
+// agrees with above_joined_on_face.
 bool CellSweep::flips_before(int a, int b) const {
   const int det = determinant(a, b, a + 4, b + 4);
   const bool same_direction = (pattern_ >> a & 1) == (pattern_ >> b & 1);
@@ -153,7 +153,8 @@ void CellSweep::start() {
   record_edges(0);
 }
 
-// From one flip (or the bottom) to the next (or the top): only saddles can happen, and only in an ambiguous slice.
+// From one flip (or the bottom) to the next (or the top). Only saddles can occur in between, and only in an ambiguous
+// slice.
 void CellSweep::cross_interval(int interval) {
   if (slice_.is_ambiguous()) {
     const int start = interval == 0 ? kBottom : flips_[as_index(interval - 1)];
@@ -163,7 +164,7 @@ void CellSweep::cross_interval(int interval) {
     if (sign != det_sign(end)) {
       add_saddles(1, start, end);
     } else if (det_slope(start) * sign < 0 && det_slope(end) * sign > 0) {
-      // D comes nearest to zero strictly inside: it reaches zero twice, once (a singular point), or not at all.
+      // D has an extremum strictly inside: D has two roots there, one double root (a singular point), or none.
       const int two_roots = discriminant();
       if (two_roots > 0) add_saddles(2, start, end);
       if (two_roots == 0) singular_inside_ = true;
@@ -172,7 +173,7 @@ void CellSweep::cross_interval(int interval) {
   history_[as_index(interval)] = slice_;
 }
 
-// Two arcs meet in a saddle and part again: one node of the graph, two edges leave it.
+// Two arcs meet in a saddle and separate again: the graph gets one node, and two edges leave it.
 void CellSweep::add_saddles(int count, int start, int end) {
   const int piece = merge(slice_.piece_of_side[0], slice_.piece_of_side[1]);
   slice_.piece_of_side.fill(piece);
@@ -199,7 +200,8 @@ void CellSweep::add_saddles(int count, int start, int end) {
   }
 }
 
-// A slice corner changes sign: on the two sides that meet there an arc is born, dies, or moves from one to the other.
+// A slice corner changes sign: an arc between the two sides that meet there appears or vanishes, or an arc's end moves
+// from one side to the other.
 void CellSweep::flip(int corner) {
   int& across = slice_.piece_of_side[as_index(corner / 2)];     // on the bottom or top side
   int& along = slice_.piece_of_side[as_index(2 + corner % 2)];  // on the left or right side
@@ -236,7 +238,7 @@ int CellSweep::new_piece() {
   return pieces_++;
 }
 
-// Makes pieces a and b one, everywhere they are written down.
+// Merges pieces a and b in all tables.
 int CellSweep::merge(int a, int b) {
   if (a == b) return a;
   const auto rename = [&](int& piece) {
@@ -260,7 +262,7 @@ void CellSweep::record_edges(int first_edge_offset) {
   }
 }
 
-// Numbers the pieces that are left after merging 0, 1, ... in the order of their first edge.
+// Numbers the pieces that remain after merging 0, 1, ... in the order of their first edge.
 void CellSweep::renumber() {
   std::array<int, 8> number;
   number.fill(-1);

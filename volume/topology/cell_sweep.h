@@ -2,15 +2,15 @@
 // and each piece's Euler characteristic. Every decision is the exact sign of a polynomial in the samples and the
 // isovalue (all finite doubles), so the answer does not depend on rounding.
 //
-// Where it comes from. Fix w: the slice g(., ., w) is bilinear with corner values f00, f10, f01, f11 (minus the
-// isovalue), linear in w. Its zero set is 0, 1 or 2 arcs, each named by the sides it joins. As w grows this changes
-// only where a corner changes sign, at the root of a linear function, and, while both diagonals have equal signs, where
-// D(w) = f00 f11 - f10 f01, a quadratic, changes sign (a saddle: two arcs meet and part the other way).
-// Two facts keep the predicates few. At a root of f00 or f11 in such an ambiguous slice D = -f10 f01 < 0, and at a
-// root of f10 or f01 it is positive: between two corner flips the signs of D are known for free. So only these are
-// computed: the order of two corner roots (degree 2, also the asymptotic decider of the faces), D at the cell's bottom
-// and top (degree 2), and, when D has one sign at both ends of an ambiguous interval, whether it dips to zero in
-// between: its discriminant (degree 4, Cayley's hyperdeterminant) and its slope at the two ends (degree 2 or 3).
+// The idea. Fix w: the slice g(., ., w) is bilinear with corner values f00, f10, f01, f11 (minus the isovalue), each
+// linear in w. Its zero set is 0, 1 or 2 arcs, each named by the sides it joins. As w grows the arcs change only in two
+// ways. A corner changes sign, at the root of a linear function. Or, while both diagonals have equal signs, D(w) = f00
+// f11 - f10 f01, a quadratic, changes sign: this is a saddle, where two arcs meet and separate the other way.
+// Two facts keep the predicates few. At a root of f00 or f11 in such an ambiguous slice D = -f10 f01 < 0, and at a root
+// of f10 or f01 D > 0: so between two corner flips the signs of D are known at no cost. Only these are computed: the
+// order of two corner roots (degree 2, also the asymptotic decider of the faces); D at the cell's bottom and top
+// (degree 2); and, when D has one sign at both ends of an ambiguous interval, whether it reaches zero in between, from
+// its discriminant (degree 4, Cayley's hyperdeterminant) and its slope at the two ends (degree 2 or 3).
 //
 // Source: asymptotic decider, Nielson and Hamann 1991; interior ambiguity, Chernyaev 1995 and Nielson 2003; the sweep
 // and its predicates are ours.
@@ -47,7 +47,7 @@ std::array<int, 4> face_corners(int face);
 
 // Bit c is set when corner c lies above the isovalue.
 std::uint8_t sign_pattern(const CellCorners& corners, double isovalue);
-// True when the signs alone tell that the surface in the cell is empty or one disk: no face is ambiguous and the
+// True when the signs alone show that the surface in the cell is empty or one disk: no face is ambiguous and the
 // crossings form at most one loop on the cell's boundary.
 bool is_simple(std::uint8_t pattern);
 // One bit per edge of the cell that has a crossing.
@@ -100,8 +100,8 @@ class CellSweep {
   // The pieces are then those of a nearby isovalue on one side.
   [[nodiscard]] bool singular_inside() const { return singular_inside_; }
   // Bit f is set when face f has a saddle exactly at the isovalue. The surface is regular there when it passes through
-  // the face, from cell to cell (saddle_slope_into_cell has opposite signs); else the pieces are those of a nearby
-  // field.
+  // the face from cell to cell (saddle_slope_into_cell has opposite signs in the two cells). Otherwise the pieces are
+  // those of a nearby field.
   [[nodiscard]] unsigned saddle_faces() const { return saddle_faces_; }
   // The saddles of the sweep: points of the surface (rounded), in cell parameters, with the piece they lie on.
   struct Saddle {
@@ -110,8 +110,8 @@ class CellSweep {
   };
   [[nodiscard]] int saddle_count() const { return saddle_count_; }
   [[nodiscard]] const Saddle& saddle(int i) const { return saddles_[static_cast<std::size_t>(i)]; }
-  // The piece of a point of the surface (a rounded one): the arc nearest to it in its slice, decided by the slice's
-  // asymptotes when there are two. -1 when the slice at its w holds no arc.
+  // The piece that holds a (rounded) point of the surface: the arc nearest to it in its slice. If there are two arcs,
+  // the asymptotes of the slice decide. -1 when the slice at its w holds no arc.
   [[nodiscard]] int piece_at(const Vec3& uvw) const;
 
  private:
@@ -120,10 +120,10 @@ class CellSweep {
     unsigned above = 0;
     std::array<int, 4> piece_of_side{-1, -1, -1, -1};
     int det_sign = 0;  // of D at the interval's start, when the slice is ambiguous
-    // Corners across from each other are on one side, the others on the other.
+    // Diagonally opposite corners lie on one side, the other two on the other side.
     [[nodiscard]] bool is_ambiguous() const { return above == 0b1001 || above == 0b0110; }
   };
-  // Ends of the sweep, beside the four slice corners 0 to 3 at whose roots an interval may end.
+  // The two ends of the sweep, in addition to the slice corners 0 to 3 at whose roots an interval may end.
   static constexpr int kBottom = 4;
   static constexpr int kTop = 5;
 
@@ -157,7 +157,7 @@ class CellSweep {
   int flip_count_ = 0;
   std::array<int, 4> flips_{};      // slice corners in the order in which they change sign
   Slice slice_;                     // the current one
-  std::array<Slice, 5> history_{};  // between the flips
+  std::array<Slice, 5> history_{};  // the slices between the flips
   int pieces_ = 0;
   std::array<int, kCellEdges> piece_of_edge_{};
   std::array<int, 8> euler_{};

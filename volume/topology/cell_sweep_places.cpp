@@ -1,4 +1,4 @@
-// Where things are in a cell's sweep, rounded: nothing about the topology is decided here.
+// Rounded positions in a cell's sweep: nothing about the topology is decided here.
 #include <algorithm>
 #include <array>
 #include <cmath>

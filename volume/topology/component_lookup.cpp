@@ -1,4 +1,4 @@
-// Where a point or a grid face meets the components of the isosurface.
+// Which component of the isosurface a point or an arc on a grid face belongs to.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -102,7 +102,7 @@ class PointLookup {
     return CrossingIndex::kNone;
   }
 
-  // Two arcs lie in opposite quadrants of the face's saddle; one of them ends on the side c = 0.
+  // Two arcs lie in opposite quadrants of the face's saddle; only one of them has an end on the side c = 0.
   [[nodiscard]] std::uint32_t on_ambiguous_face(const FaceArcs& arcs, std::size_t axis) const {
     const std::size_t b = (axis + 1) % 3;
     const std::size_t c = (axis + 2) % 3;
@@ -127,7 +127,7 @@ class PointLookup {
     return (on_bottom ? bottom_arc : top_arc).crossings[0];
   }
 
-  // A crossing on the same piece of the cell, or of a neighbour when the point lies on its border.
+  // A crossing on the piece of the cell that holds the point, or of a neighbour cell when the point lies on the border.
   [[nodiscard]] std::uint32_t in_cells() const {
     std::uint32_t nearest = CrossingIndex::kNone;
     for (unsigned side = 0; side < 8; ++side) {
@@ -164,8 +164,8 @@ class PointLookup {
   double isovalue_;
   const IsosurfaceTopology& topology_;
   Vec3 point_;
-  std::array<bool, 3> on_plane_{};  // of grid points, within kNear
-  CellIndex plane_{};               // the nearest one
+  std::array<bool, 3> on_plane_{};  // whether it is within kNear of a plane of grid points
+  CellIndex plane_{};               // the nearest such plane
   CellIndex cell_{};                // a cell that holds the point
 };
 

@@ -14,13 +14,14 @@ namespace deliso {
 
 namespace {
 
-// Heights of saddles of the body are known up to this fraction of the largest difference to the isovalue.
+// The rounding error of a body saddle's height is below this fraction of the largest difference to the isovalue.
 constexpr double kRounding = 1e-11;
 
 bool is_inside(double x) { return x > 0 && x < 1; }
 
-// The four edges of a cell along each axis, bit l for the one whose ends have the bits of l along the two next axes:
-// which rise, and which fall. Comparisons are exact, and most cells have no critical point by them alone.
+// For the four edges of a cell along each axis: which rise, and which fall. Bit l stands for the edge whose ends have
+// the bits of l along the two next axes. The comparisons are exact, and they alone show that most cells have no
+// critical point.
 struct EdgeSigns {
   explicit EdgeSigns(const CellCorners& corners) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -32,11 +33,12 @@ struct EdgeSigns {
       }
     }
   }
-  // Whether of two edges along an axis one rises and the other falls.
+  // Whether edge a rises and edge b falls along the axis, or the other way round.
   [[nodiscard]] bool oppose(std::size_t axis, std::size_t a, std::size_t b) const {
     return (((rises[axis] >> a & falls[axis] >> b) | (falls[axis] >> a & rises[axis] >> b)) & 1u) != 0;
   }
-  // Whether some derivative has one strict sign in the whole cell: that of the four edges along its axis.
+  // Whether some partial derivative has one strict sign in the whole cell: then the four edges along its axis all rise
+  // or all fall.
   [[nodiscard]] bool are_monotone() const {
     constexpr unsigned kAll = 0b1111u;
     const auto all = [](unsigned edges) { return edges == kAll; };
@@ -104,14 +106,14 @@ void append_body_saddles(const CellCorners& g, std::vector<CriticalPoint>& point
   }
 }
 
-// Sets of neighbours of a sample along the axes (bit 2 axis + direction) that make it critical when they are those
-// above it, or those below: bit s for the set s.
+// A sample is critical when the set of its neighbours above it, or below it, is one of these. A set has bit 2 axis +
+// direction for each neighbour along the axes; bit s of this number stands for the set s.
 constexpr std::uint64_t kCriticalSets =
     std::uint64_t{1} | std::uint64_t{1} << 0b11u | std::uint64_t{1} << 0b1100u | std::uint64_t{1} << 0b110000u;
 constexpr unsigned kAllNeighbours = 0b111111u;
 
-// The critical corners of a cell none of whose corners lies on the border of the grid: those that lie above both their
-// neighbours, or below both, along every axis. Without branches, for nothing here can be foretold.
+// The critical corners of a cell that has no corner on the border of the grid: those that lie above both their
+// neighbours, or below both, along every axis. No branches, because the outcomes are unpredictable.
 template <class Samples>
 unsigned critical_corners_within(const Samples& samples, std::size_t first, const std::array<std::size_t, 3>& strides) {
   unsigned critical = 0xFFu;
@@ -167,8 +169,8 @@ unsigned critical_corners(const ScalarGrid& grid, const std::array<std::int32_t,
     bool is_within = true;
     for (std::size_t axis = 0; axis < 3; ++axis) is_within &= cell[axis] > 0 && cell[axis] + 2 < grid.dims()[axis];
     if (is_within) return critical_corners_within(samples, first, strides);
-    // At the border some neighbours are missing, and the sets themselves are needed.
-    std::array<unsigned, 8> there;  // neighbours that there are
+    // At the border some neighbours are missing, so the sets themselves are compared.
+    std::array<unsigned, 8> there;  // the neighbours that exist
     there.fill(kAllNeighbours);
     std::array<unsigned, 8> above{};  // those of them that lie above the corner
     for (std::size_t axis = 0; axis < 3; ++axis) {

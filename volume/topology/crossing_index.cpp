@@ -21,8 +21,8 @@ bool mark_row(const SideTest<Sample>& sides, const Sample* row, std::size_t leng
   return sides.never_equal() || std::none_of(row, row + length, [&](Sample sample) { return sides.equals(sample); });
 }
 
-// How many bits of three words are set: summed by pairs, fours and bytes within each word, then over all bytes. (A
-// processor's own instruction is not to be counted on.)
+// How many bits of three words are set: summed by pairs, fours and bytes within each word, then over all bytes. (Not
+// every processor has an instruction for this.)
 unsigned count_bits(const std::array<std::uint64_t, 3>& words) {
   std::uint64_t bytes = 0;
   for (std::uint64_t word : words) {
@@ -114,7 +114,7 @@ std::uint32_t CrossingIndex::number(std::int32_t i, std::int32_t j, std::int32_t
   const std::uint64_t here = std::uint64_t{1} << (i % kWordBits);
   std::array<std::uint64_t, 3> bits = crossed(w, j, k);
   for (int a = 0; a < 3; ++a) {
-    // Edges of earlier samples, and this sample's edges along earlier axes.
+    // Edges of earlier samples, and this sample's edges along lower axes.
     bits[static_cast<std::size_t>(a)] &= (here - 1) | (a < axis ? here : 0);
   }
   return first_in_word_[word_index(w, j, k)] + count_bits(bits);
@@ -166,7 +166,8 @@ CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims) {
 
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing) {
   const auto [i, j, k] = sample_of(crossing, grid.dims());
-  // The axis cannot be foretold: zero is added along the others, by a table, for compilers make branches of conditions.
+  // The axis is unpredictable, so there is no branch on it: a table adds zero along the other axes (compilers turn
+  // conditional expressions into branches).
   static constexpr std::array<Vec3, 3> kAlong = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   return Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} +
          crossing.t * kAlong[crossing.axis];

@@ -1,4 +1,4 @@
-// Which grid edges the isosurface crosses: one bit per sample tells; the number of a crossing is found in constant
+// Which grid edges the isosurface crosses. One bit per sample is stored; the number of a crossing is found in constant
 // time.
 //
 // "Index space" has sample (i, j, k) at the point (i, j, k).
@@ -35,13 +35,13 @@ using CellIndex = std::array<std::int32_t, 3>;
 // The sample that a crossing's edge starts from.
 CellIndex sample_of(const EdgeCrossing& crossing, const Dims& dims);
 
-// Layers across z that a thread takes at a time. The same for any number of threads, and what slabs give is joined in
-// order; so results do not depend on it.
+// The number of layers across z that a thread takes at a time. It does not depend on the number of threads, and the
+// results of slabs are joined in order; so results do not depend on the number of threads.
 inline constexpr std::int32_t kSlabLayers = 8;
 inline std::size_t slab_count(std::int32_t layers) {
   return layers > 0 ? static_cast<std::size_t>((layers - 1) / kSlabLayers + 1) : 0;
 }
-// Calls body(slab, first, last) for all slabs of the layers below `layers`: slab's own are first to last - 1.
+// Calls body(slab, first, last) for all slabs of the layers below `layers`; the slab's layers are first to last - 1.
 template <class Body>
 void for_each_slab(std::int32_t layers, int threads, Body&& body) {
   run_tasks(slab_count(layers), threads, [&](std::size_t slab) {
@@ -145,7 +145,7 @@ class CrossingIndex {
 UnwrittenArray<EdgeCrossing> list_crossings(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                             int threads = 1);
 
-// The crossing's place in index space.
+// The crossing's position in index space.
 Vec3 crossing_position(const ScalarGrid& grid, const EdgeCrossing& crossing);
 
 // --- Implementation -------------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// Signs of polynomials, never guessed: one formula, evaluated first with a running error bound and, when the bound
-// cannot tell the sign, in exact arithmetic.
+// Exact signs of polynomials. A formula is first evaluated with a running error bound; when the bound cannot tell the
+// sign, it is evaluated in exact arithmetic.
 #pragma once
 
 #include <cmath>

@@ -15,16 +15,16 @@ namespace deliso {
 
 namespace {
 
-// The Euler characteristic of a component is pieces - arcs + crossings, each piece with its own. A piece has as many
-// arcs as crossings on its cell's boundary, and an arc belongs to two cells, or to one when it lies on the box. So
-// twice the Euler characteristic is the sum of (2 piece - crossings of the piece) over the pieces, plus 2 for every
-// crossing, minus 1 for every arc on the box.
+// The Euler characteristic of a component is the sum over its pieces of their own, minus the arcs, plus the crossings.
+// A piece has as many arcs as crossings on its cell's boundary. An arc belongs to two cells, or to one when it lies on
+// the box. So twice the Euler characteristic of a component is the sum of (2 x that of the piece - crossings of the
+// piece) over the pieces, plus 2 for every crossing, minus 1 for every arc on the box.
 class TopologyBuilder {
  public:
   TopologyBuilder(const ScalarGrid& grid, double isovalue, CrossingIndex index, int threads)
       : grid_(grid), isovalue_(isovalue), threads_(threads) {
     const std::size_t count = index.crossing_count();
-    // Beside each other: most of it is waiting for fresh pages.
+    // Both at the same time: most of the time goes into waiting for fresh pages.
     run_tasks(2, threads, [&](std::size_t task) {
       if (task == 0) sets_.reset(count);
       if (task == 1) twice_euler_of_crossing_.assign(count, 2);
@@ -45,7 +45,7 @@ class TopologyBuilder {
   }
 
  private:
-  // What the cells of some layers have, by cell.
+  // What some layers of cells contribute, in the order of the cells.
   struct Found {
     std::vector<SurfaceSaddle> saddles;
     std::vector<CellIndex> singular_cells;
@@ -65,13 +65,13 @@ class TopologyBuilder {
   double isovalue_;
   int threads_;
   DisjointSets sets_;                                 // of crossings
-  LargeArray<std::int32_t> twice_euler_of_crossing_;  // its own share and that of the cell pieces filed under it
+  LargeArray<std::int32_t> twice_euler_of_crossing_;  // its own share, and that of the cell pieces counted at it
   std::vector<std::int64_t> twice_euler_;             // of the components
   IsosurfaceTopology result_;
 };
 
-// The cells of a slab but for its last layer join crossings of the slab's own samples alone; so slabs are joined apart
-// from each other, the layers between them afterwards.
+// The cells of a slab except its last layer join only crossings that start from the slab's own samples. So slabs are
+// joined independently of each other, and the layers between them afterwards.
 void TopologyBuilder::join_cells() {
   const std::int32_t layers = result_.index.cell_layers();
   std::vector<std::array<Found, 2>> found(slab_count(layers));
@@ -138,14 +138,14 @@ void TopologyBuilder::join_cell(const CellIndex& cell, const CellCrossings& cros
   }
   const Vec3 base{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
   for (int i = 0; i < sweep.saddle_count(); ++i) {
-    // Until components are numbered, a saddle remembers a crossing of its piece.
+    // Until components are numbered, a saddle stores a crossing of its piece.
     const auto piece = static_cast<std::size_t>(sweep.saddle(i).piece);
     found.saddles.push_back({cell, base + sweep.saddle(i).uvw, first[piece]});
   }
 }
 
-// Whether the surface, at a saddle of a cell's face at the isovalue, passes from cell to cell: then it is a graph over
-// the face there, a regular point. Else two sheets touch in that point.
+// Whether the surface passes from cell to cell at a saddle of a face that lies exactly at the isovalue. Then the
+// surface is a graph over the face there, and the point is regular. Otherwise two sheets touch in that point.
 bool TopologyBuilder::passes_through(const CellIndex& cell, int face) const {
   const auto axis = static_cast<std::size_t>(face / 2);
   CellIndex neighbour = cell;
@@ -178,7 +178,7 @@ template <class Visit>
 void TopologyBuilder::for_each_face_on_box(const Visit& visit) const {
   const Dims& dims = grid_.dims();
   const CrossingIndex& index = result_.index;
-  // Those across x one by one, those along x 64 at a time.
+  // Faces across x are visited one by one, faces along x 64 at a time.
   for (const std::int32_t i : {0, dims[0] - 1}) {
     for (std::int32_t k = 0; k + 1 < dims[2]; ++k) {
       for (std::int32_t j = 0; j + 1 < dims[1]; ++j) {
@@ -192,7 +192,7 @@ void TopologyBuilder::for_each_face_on_box(const Visit& visit) const {
     }
   }
   for (const std::size_t axis : {1u, 2u}) {
-    const std::size_t along = 3 - axis;  // beside x
+    const std::size_t along = 3 - axis;  // the axis within the face other than x
     for (const std::int32_t plane : {0, dims[axis] - 1}) {
       CellIndex corner{};
       corner[axis] = plane;
@@ -214,8 +214,8 @@ void TopologyBuilder::for_each_face_on_box(const Visit& visit) const {
   }
 }
 
-// The arcs on the box. Every crossing there ends two of them, so loops are the sets of crossings that they join: as
-// many as crossings on the box, minus the arcs that joined two sets.
+// The arcs on the box. Every crossing on the box ends two of them, so the loops are the sets of crossings that arcs
+// join. Their number is the number of crossings on the box, minus the number of arcs that joined two sets.
 void TopologyBuilder::count_on_box() {
   DisjointSets sets;
   std::vector<bool> seen;

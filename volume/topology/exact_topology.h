@@ -27,8 +27,8 @@ struct ComponentTopology {
   friend auto operator<=>(const ComponentTopology&, const ComponentTopology&) = default;
 };
 
-// A point of the surface inside a cell where the slice w = const has a saddle: two sheets nearly meet, or a tunnel
-// opens.
+// A point of the surface inside a cell where the slice w = const has a saddle: two sheets nearly meet there, or a
+// tunnel begins.
 struct SurfaceSaddle {
   CellIndex cell{};
   Vec3 position;  // in index space, rounded
@@ -38,11 +38,11 @@ struct SurfaceSaddle {
 struct IsosurfaceTopology {
   std::vector<ComponentTopology> components;  // numbered by their first crossing in (sample, axis) order
   UnwrittenArray<EdgeCrossing> crossings;     // in (sample, axis) order; every component has at least one
-  CrossingIndex index;                        // index.find(i, j, k, axis) is a place in `crossings`
+  CrossingIndex index;                        // index.find(i, j, k, axis) is an index into `crossings`
   std::vector<SurfaceSaddle> saddles;         // by cell, x fastest
-  // Cells in or on which the surface has a singular point although no sample equals the isovalue: the isovalue is that
-  // of a saddle inside the cell, or of a saddle of a face on the box or where two sheets touch. The surface is no
-  // manifold there, and the components are those of a nearby field.
+  // Cells in which, or on whose faces, the surface has a singular point although no sample equals the isovalue: the
+  // isovalue is that of a saddle inside the cell, of a saddle of a face on the box, or of a saddle where two sheets
+  // touch. The surface is no manifold there, and the components are those of a nearby field.
   std::vector<CellIndex> singular_cells;
 };
 
@@ -50,23 +50,23 @@ struct IsosurfaceTopology {
 // threads.
 IsosurfaceTopology exact_topology(const ScalarGrid& grid, double isovalue, int threads = 1);
 
-// The exact topology at a regular isovalue: `isovalue` itself or, when a sample or a saddle has that value, one a
-// little lower (regular_isovalue, lowered_isovalue). singular_cells is empty unless three lowerings did not help.
+// The exact topology at a regular isovalue: `isovalue` itself or, when a sample or a saddle has that value, a slightly
+// lower one (regular_isovalue, lowered_isovalue). singular_cells is empty unless three lowerings did not help.
 struct RegularTopology {
   double isovalue = 0;
   IsosurfaceTopology topology;
 };
 RegularTopology regular_topology(const ScalarGrid& grid, double isovalue, int threads = 1);
 
-// The exact component on which a point of the surface lies, given in index space and rounded: points within 1e-9 of a
-// crossed grid edge or of a grid face that the surface meets are looked up there, others in the slice of their cell.
+// The exact component on which a point of the surface lies, given in index space and rounded. Points within 1e-9 of a
+// crossed grid edge, or of a grid face that the surface meets, are looked up on it; others in the slice of their cell.
 // Nothing when no cell at the point meets the surface. Constant time.
 std::optional<std::uint32_t> component_of(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                                           const Vec3& point);
 
 // An arc in which the surface meets a grid face. The face has its lowest corner at `corner` and lies across `axis`.
 struct FaceArc {
-  std::array<std::uint32_t, 2> crossings{};  // places in IsosurfaceTopology::crossings
+  std::array<std::uint32_t, 2> crossings{};  // indices into IsosurfaceTopology::crossings
   CellIndex corner{};
   std::uint8_t axis = 0;
 };
@@ -79,7 +79,7 @@ struct FaceArcs {
 FaceArcs face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index, const CellIndex& corner,
                    int axis);
 
-// All of them, in order of (corner, axis), corners x fastest.
+// The arcs on all grid faces, in order of (corner, axis), corners x fastest.
 std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index);
 
 }  // namespace deliso

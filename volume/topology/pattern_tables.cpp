@@ -109,11 +109,11 @@ int saddle_slope_into_cell(const CellCorners& corners, double isovalue, int face
   const int inwards = 1 << face / 2;
   return exact_sign([&](const auto& kind) {
     using Number = std::decay_t<decltype(kind)>;
-    // The saddle divides the face's sides in the ratios of these differences: weights of the corners, up to a square.
+    // The saddle divides the face's sides in the ratios of these differences: they weight the corners, up to a square.
     const auto step = [&](std::size_t to, std::size_t from) {
       return Number::difference(corners[as_index(c[to])], corners[as_index(c[from])]);
     };
-    // There the interpolant is the isovalue on the face; what it is across the cell gives the sign.
+    // There the interpolant equals the isovalue on the face; its value on the opposite face gives the sign.
     const auto across = [&](std::size_t i) { return Number::difference(corners[as_index(c[i] ^ inwards)], isovalue); };
     return across(0) * step(2, 1) * step(2, 3) + across(1) * step(0, 3) * step(2, 3) +
            across(2) * step(0, 3) * step(0, 1) + across(3) * step(2, 1) * step(0, 1);

@@ -1,5 +1,5 @@
-// The file formats behind mesh_io: each one turns a mesh into the bytes of a file and back. `file` is only the name
-// that errors give; they are InputErrors of the form "FILE, line N: expected ..., found ...".
+// The file formats of mesh_io: each turns a mesh into the bytes of a file and back. `file` is only the name that errors
+// give; they are InputErrors of the form "FILE, line N: expected ..., found ...".
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // OBJ (Wavefront): `v` and `f` lines. Every other statement of the format (normals, textures, groups, materials, free
-// forms) is skipped; what is none is an error, so that another kind of file does not pass for an empty mesh.
+// forms) is skipped. A line that is no OBJ statement is an error, so that another kind of file does not pass for an
+// empty mesh.
 #include <algorithm>
 #include <array>
 #include <limits>

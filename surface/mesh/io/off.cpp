@@ -42,7 +42,7 @@ TriangleMesh parse_off(std::string_view bytes, const std::string& file) {
     in.fail("fewer than 2^32 - 1 points", std::to_string(point_count));
   }
 
-  // A point takes at least six bytes and a polygon eight, whatever the counts promise.
+  // Reserve no more than the file can hold: a point takes at least six bytes and a polygon eight.
   TriangleMesh mesh;
   mesh.points.reserve(std::min(static_cast<std::size_t>(point_count), in.remaining() / 6));
   mesh.triangles.reserve(std::min(static_cast<std::size_t>(polygon_count), in.remaining() / 8));

@@ -61,7 +61,7 @@ class BinaryValues {
     return value;
   }
   void skip(PlyType type, std::int64_t count) {
-    const std::size_t most = in_.remaining() / ply_size_of(type) + 1;  // more than that cannot be skipped anyway
+    const std::size_t most = in_.remaining() / ply_size_of(type) + 1;  // more bytes cannot be skipped in any case
     in_.skip(std::min(static_cast<std::size_t>(count), most) * ply_size_of(type), "another value");
   }
   void expect_end() {

@@ -23,7 +23,7 @@ constexpr double kLikelyBlock = 3;  // and of those in which a likely triangle i
 constexpr double kFarthest = 6;     // where the nearest triangle is looked for
 constexpr double kLong = 4;         // triangles with such an edge may be off the surface
 constexpr double kTimesHeight = 2;
-constexpr double kSmallRadius = kLong / 2;  // of a ball: no edge is longer than it is wide
+constexpr double kSmallRadius = kLong / 2;  // of a ball: no edge of its triangle is longer than the diameter
 constexpr double kRounding = 1.01;
 
 using nearness::widened;
@@ -34,7 +34,7 @@ class CoverageTargetSearch {
       : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, nearness::kCrossing)), threads_(threads) {}
 
   [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> coverage_targets) const;
-  // Of coverage targets that are far from all triangles.
+  // For coverage targets that are far from all triangles: their nearest triangles.
   [[nodiscard]] std::vector<MissedTarget> with_nearest(std::span<const Vec3> coverage_targets) const;
 
  private:
@@ -47,15 +47,15 @@ class CoverageTargetSearch {
   }
   [[nodiscard]] std::vector<Vec3> beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const;
   [[nodiscard]] std::vector<Vec3> beside_no_triangle(std::span<const Vec3> coverage_targets) const;
-  // By its ball.
+  // Decided by its ball.
   [[nodiscard]] bool is_small(std::uint32_t triangle) const {
     const double squared_radius = mesh_.triangles[triangle].ball.squared_radius;
     return squared_radius > 0 && squared_radius < kSmallRadius * kSmallRadius;
   }
-  // How far from the middle of its ball a small triangle's vicinity of some width may reach.
+  // How far from the middle of its ball the vicinity of a small triangle may reach, for a vicinity of this width.
   static double reach_of_small(double width) { return kRounding * (kSmallRadius * kRounding + width); }
   [[nodiscard]] double reach_of(std::uint32_t triangle) const;
-  // How near a coverage target has to be to a triangle. All that is so near lies in a box, and not far from a plane.
+  // A bound of the region in which a triangle is near: a box, and a slab around the triangle's plane.
   struct Vicinity {
     double reach = 0;
     Box3 box;
@@ -72,7 +72,7 @@ class CoverageTargetSearch {
   int threads_;
 };
 
-// How far off a point of the surface may be that a triangle stands for.
+// How far off a triangle a coverage target may be to count as near.
 double CoverageTargetSearch::reach_of(std::uint32_t triangle) const {
   const auto [a, b, c] = corners(triangle);
   const double squared_edge = std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
@@ -82,10 +82,11 @@ double CoverageTargetSearch::reach_of(std::uint32_t triangle) const {
   return std::max(least_, std::min(kTimesHeight * h, std::sqrt(squared_edge)));
 }
 
-// Most triangles have a small ball, around which nearly always nothing is asked about: then their corners, which lie
-// all over the memory, are not needed. The box of a large one is mostly far off its plane.
+// Most triangles have a small ball, with no coverage target around it. Then their corners, which are scattered in
+// memory, need not be read. The box of a large triangle is mostly far off its plane.
 CoverageTargetSearch::Vicinity CoverageTargetSearch::vicinity_of(std::uint32_t triangle) const {
-  constexpr double kLeastArea = 1e-6;  // of the square of the box's diagonal, for a plane that rounding leaves alone
+  // Relative to the square of the box's diagonal; with a smaller area, rounding would distort the plane.
+  constexpr double kLeastArea = 1e-6;
   const SurfaceDelaunayBall& ball = mesh_.triangles[triangle].ball;
   Vicinity vicinity;
   if (is_small(triangle)) {
@@ -106,19 +107,20 @@ CoverageTargetSearch::Vicinity CoverageTargetSearch::vicinity_of(std::uint32_t t
   return vicinity;
 }
 
-// Where triangles are large there are fewer of them than coverage targets: then all of them are asked at once.
+// Where triangles are large, there are fewer of them than coverage targets: then each triangle is compared with all
+// targets near it.
 std::vector<Vec3> CoverageTargetSearch::far_from_all(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.size() > mesh_.triangles.size()) return beside_no_triangle(coverage_targets);
   return beside_no_triangle(beside_no_likely_triangle(coverage_targets));
 }
 
-// Of the triangles whose balls have their middles in a coverage target's block, the one with the nearest middle nearly
-// always is near. Which one is measured does not matter to what is found at last, so threads may miss each other's
-// finds.
+// For each coverage target the likely triangle is the one whose ball has the nearest middle, among the balls with their
+// middles near the target's block. Nearly always this triangle is near. Which triangle is measured does not matter for
+// the result, so threads may overwrite each other's finds.
 std::vector<Vec3> CoverageTargetSearch::beside_no_likely_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
   const PointGrid blocks(coverage_targets, kLikelyBlock);
-  // Of each coverage target: the squared distance, in steps, and behind it the triangle.
+  // For each coverage target: the squared distance, in steps, in the upper half, and the triangle in the lower half.
   constexpr double kSteps = 1 << 20;
   constexpr double kMostSteps = 1 << 30;
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
@@ -142,11 +144,11 @@ std::vector<Vec3> CoverageTargetSearch::beside_no_likely_triangle(std::span<cons
   });
 }
 
-// Those that no triangle is as near to as it would have to be.
+// The coverage targets to which no triangle is near enough.
 std::vector<Vec3> CoverageTargetSearch::beside_no_triangle(std::span<const Vec3> coverage_targets) const {
   if (coverage_targets.empty()) return {};
   const PointGrid blocks(coverage_targets, kBlock);
-  std::optional<OccupiedBlocks> near_blocks;  // where it pays
+  std::optional<OccupiedBlocks> near_blocks;  // only where it saves time
   if (coverage_targets.size() < mesh_.triangles.size()) near_blocks.emplace(coverage_targets, reach_of_small(least_));
   std::vector<std::uint8_t> is_near(coverage_targets.size(), 0);
   for_each_block(mesh_.triangles.size(), threads_, [&](std::size_t first, std::size_t last) {

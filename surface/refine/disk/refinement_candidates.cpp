@@ -7,16 +7,17 @@ namespace deliso {
 
 namespace {
 
-// A boundary edge is split only this far from its ends, as a fraction of its length.
+// A boundary edge is split only at least this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
 // Triangles with an edge of at least this length (mesh-space units) are coarse.
 constexpr double kCoarseEdge = 1.5;
-// The middle of an edge may be this near to a vertex, as a fraction of its length: coarse slivers have one there.
+// A halved edge may have a vertex this near to its middle, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
 
 // A coverage target is not inserted so near to a vertex (mesh-space units).
 constexpr double kTargetToVertex = 0.3;
-// The radius that stands for its ball's, in distances from the next triangle: folded disks lie farther off it.
+// The radius that stands for that of a ball, in distances from the nearest triangle: folded disks lie farther off the
+// target.
 constexpr double kTargetRadius = 2;
 
 }  // namespace

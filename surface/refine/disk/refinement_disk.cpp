@@ -6,7 +6,7 @@
 namespace deliso {
 
 void RefinementDisk::find_rim(const RefinementCandidate& candidate) {
-  // Which sides are on the rim cannot be foretold: all are written, and what is not on it is overwritten.
+  // Which sides are on the rim is unpredictable: all are written, and those not on the rim are overwritten.
   std::size_t size = 0;
   if (rim_.size() < 3 * size_) rim_.resize(3 * size_);
   for (const std::uint32_t t : triangles()) {

@@ -16,14 +16,14 @@
 
 namespace deliso {
 
-// An edge around E, directed as E's triangle has it, and the side of the triangle beyond.
+// An edge of the rim, directed as in the triangle of E, and the side of the triangle beyond.
 struct RimEdge {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   TriangleSide outer = kNoSide;
 };
 
-// Grown anew for every attempt; marks the triangles and vertices of the mesh with the attempt's number.
+// Grown anew for every attempted insertion; marks triangles and vertices of the mesh with the attempt's number.
 class RefinementDisk {
  public:
   enum class Shape { kDisk, kNotADisk, kRepeatedVertex };
@@ -31,24 +31,24 @@ class RefinementDisk {
   // The first `frozen` triangles of the mesh must not be replaced.
   explicit RefinementDisk(RefinementMesh& mesh, std::uint32_t frozen = 0) : mesh_(mesh), frozen_(frozen) {}
 
-  // E: the triangles reached from the candidate's seed whose balls hold its point, or the two at a halved edge; and the
-  // edges around them. ball_of(t) gives B_sigma; it does not matter what it gives for triangles that E holds already.
+  // Finds E: the triangles reached from the candidate's seed whose balls hold its point, or the two at a halved edge;
+  // and the edges around E. ball_of(t) gives B_sigma; its result for triangles already in E does not matter.
   template <class BallOf>
   void grow(const RefinementCandidate& candidate, BallOf&& ball_of);
 
-  // Brings the rim into order. E is a disk none of whose vertices gets lost when the rim is one cycle (for a boundary
-  // split, one path) that passes every vertex once and has as many edges as a disk without inner vertices.
+  // Brings the rim into order. E is a disk without inner vertices, so that none is lost, when the rim is one cycle (for
+  // a boundary split, one path) that passes every vertex once and has as many edges as such a disk.
   [[nodiscard]] Shape order_rim(const RefinementCandidate& candidate);
 
-  // A boundary edge of E whose diametral ball holds the point; or any boundary edge of E when the point lies beyond the
-  // box.
+  // A boundary edge of E whose diametral ball holds the point; or, if the point lies beyond the box, any boundary edge
+  // of E.
   [[nodiscard]] std::optional<TriangleSide> encroached_boundary_edge(const RefinementCandidate& candidate,
                                                                      const Box3& box) const;
-  // Whether E would have to hold a frozen triangle.
+  // Whether E would include a frozen triangle.
   [[nodiscard]] bool is_blocked() const { return is_blocked_; }
   // The sum of the normals of E's triangles, each as long as twice its area.
   [[nodiscard]] Vec3 normal_sum() const;
-  // How far p lies off the planes of E's triangles at most.
+  // The largest distance of p from the planes of E's triangles.
   [[nodiscard]] double distance_to(const Vec3& p) const;
 
   [[nodiscard]] std::uint32_t attempt() const { return attempt_; }
@@ -57,7 +57,7 @@ class RefinementDisk {
   [[nodiscard]] std::span<const RimEdge> rim() const { return std::span(rim_).first(rim_size_); }
 
  private:
-  // Takes a triangle into E if `is_so`, without a branch: whether it is so cannot be foretold. There must be room.
+  // Adds a triangle to E if `is_so`, without a branch, because this is unpredictable. There must be room.
   void take_if(bool is_so, std::uint32_t triangle) {
     std::uint32_t& attempt = mesh_.triangles[triangle].attempt;
     attempt = is_so ? attempt_ : attempt;
@@ -71,9 +71,9 @@ class RefinementDisk {
   std::uint32_t frozen_;
   std::uint32_t attempt_ = 0;
   bool is_blocked_ = false;
-  std::vector<std::uint32_t> triangles_;  // the first size_ of them; what lies beyond is room
+  std::vector<std::uint32_t> triangles_;  // E is the first size_ elements; the rest is room
   std::size_t size_ = 0;
-  std::vector<RimEdge> rim_;  // the first rim_size_ of them; what lies beyond is room
+  std::vector<RimEdge> rim_;  // the rim is the first rim_size_ elements; the rest is room
   std::size_t rim_size_ = 0;
   std::vector<RimEdge> ordered_;
 };

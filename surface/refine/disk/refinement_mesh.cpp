@@ -33,7 +33,7 @@ void RefinementMesh::forget_attempts(int threads) {
   });
 }
 
-// What is not needed any more goes at once: the peak of a whole run may lie here.
+// Arrays that are not needed any more are freed at once: the peak memory of a whole run may be here.
 void RefinementMesh::move_to(SurfaceMesh& mesh, int threads, bool keep_neighbours) {
   const auto copy = [](const auto& from, auto& to, auto member) {
     to.reserve(from.size());

@@ -1,4 +1,4 @@
-// The mesh that stage 2 works on: what an insertion needs of a triangle lies in one cache line.
+// The mesh on which stage 2 works: the data of a triangle that an insertion needs fill one cache line.
 #pragma once
 
 #include <algorithm>
@@ -25,22 +25,23 @@ struct RefinementMesh {
     Vec3 point;
     double pole_height = 0;
     float clearance = 0;          // a bound of the distance to other sheets (clearances.h)
-    std::uint32_t attempt = 0;    // whose rim passes here,
-    std::uint32_t rim_place = 0;  // and the place in it of the edge that leaves here
-    bool is_suspect = false;      // a corner of a triangle that lies far off the surface (crossing_guard.h)
+    std::uint32_t attempt = 0;    // the last attempt whose rim has this vertex
+    std::uint32_t rim_place = 0;  // and the position in that rim of the edge that leaves this vertex
+    // Whether it is a corner of a triangle that lies far off the surface (crossing_guard.h).
+    bool is_suspect = false;
   };
-  // Side i of a triangle runs from corner i + 1 to corner i + 2; a neighbour is that same edge as the triangle across
-  // knows it.
+  // Side i of a triangle runs from corner i + 1 to corner i + 2. A neighbour is the same edge as a side of the triangle
+  // across.
   struct alignas(64) Triangle {
     std::array<std::uint32_t, 3> corners{};
     std::array<TriangleSide, 3> neighbours{};
     SurfaceDelaunayBall ball;
     std::uint32_t state = 0;    // the flags below, and above them the generation of the slot
-    std::uint32_t attempt = 0;  // that took the triangle into its disk E
+    std::uint32_t attempt = 0;  // the last attempt that took the triangle into its disk E
 
-    static constexpr std::uint32_t kRefused = 1;   // waits for a change around it
-    static constexpr std::uint32_t kNoHit = 2;     // its dual line has no falling hit: it stays as it is
-    static constexpr std::uint32_t kTooSmall = 4;  // r_min alone keeps it as it is
+    static constexpr std::uint32_t kRefused = 1;   // refused; waits for a change around it
+    static constexpr std::uint32_t kNoHit = 2;     // its dual line has no falling hit: it is not refined
+    static constexpr std::uint32_t kTooSmall = 4;  // it is not refined only because of r_min
     static constexpr std::uint32_t kCoarse = 8;    // it is to be refined
     static constexpr std::uint32_t kFlags = kRefused | kNoHit | kTooSmall | kCoarse;
     [[nodiscard]] bool is_refused() const { return (state & kRefused) != 0; }
@@ -48,9 +49,9 @@ struct RefinementMesh {
     [[nodiscard]] bool is_too_small() const { return (state & kTooSmall) != 0; }
     [[nodiscard]] bool is_coarse() const { return (state & kCoarse) != 0; }
     void set(std::uint32_t flag, bool is_so) { state = is_so ? state | flag : state & ~flag; }
-    // Whether the slot has been taken anew since the mesh was made or joined.
+    // Whether the slot has been reused since the mesh was made or joined.
     [[nodiscard]] bool is_renewed() const { return state > kFlags; }
-    // The slot is taken anew.
+    // Marks the slot as reused.
     void renew() { state = (state | kFlags) + 1; }
   };
   static_assert(sizeof(Triangle) == 64);
@@ -68,7 +69,7 @@ struct RefinementMesh {
     return {vertices[corners[0]].point, vertices[corners[1]].point, vertices[corners[2]].point};
   }
 
-  // From where to where a triangle reaches along an axis.
+  // The interval that a triangle spans along an axis.
   struct Extent {
     double low = 0, high = 0;
     [[nodiscard]] bool holds(double x) const { return low <= x && x <= high; }
@@ -84,14 +85,14 @@ struct RefinementMesh {
     return box;
   }
 
-  // Fetches the neighbours of a triangle ahead.
+  // Prefetches the neighbours of a triangle.
   void prefetch_around(std::uint32_t triangle) const {
     for (const TriangleSide side : triangles[triangle].neighbours) {
       if (side != kNoSide) __builtin_prefetch(&triangles[side >> 2]);
     }
   }
 
-  // Clears what a refinement that is over has noted: attempts and generations.
+  // Clears the attempts and generations of a finished refinement.
   void forget_attempts(int threads = 1);
   // Writes points and triangles to `mesh`, and pole heights and neighbours, if they are to be kept; this mesh is empty
   // afterwards.

@@ -15,16 +15,16 @@ namespace deliso {
 
 namespace {
 
-// Vertices nearer than this (mesh-space units) lie on top of each other.
+// Vertices nearer to each other than this (mesh-space units) count as doubled.
 constexpr double kOnTop = 2e-3;
-// No clearance is trusted at the corners of a triangle whose box is this near to a suspect (mesh-space units).
+// Clearances become 0 at the corners of a triangle whose box is this near to a given point (mesh-space units).
 constexpr double kSuspectReach = 3;
-// Side of the cells in which doubled vertices are sought: small beside edges, and few of its multiples are integers,
-// where samples are. Cells are counted up to so many from the origin.
+// Side of the cells in which doubled vertices are searched. It is small compared to edges, and few of its multiples are
+// integers, which are the coordinates of samples. Cells are numbered up to this distance from the origin.
 constexpr double kCellSide = 0.26;
 constexpr double kFarthestPlace = 1e15;
 
-// A number for a cell; that two cells get the same one does no harm.
+// A number for a cell; a collision of two cells does no harm.
 std::uint64_t cell_number(const std::array<std::int64_t, 3>& cell) {
   std::uint64_t number = 0;
   for (const std::int64_t place : cell) {
@@ -34,7 +34,8 @@ std::uint64_t cell_number(const std::array<std::int64_t, 3>& cell) {
   return number;
 }
 
-// Calls visit(number) for the cells around p within half of kOnTop: two points that near have one in common.
+// Calls visit(number) for the cells within half of kOnTop of p: two points nearer than kOnTop have such a cell in
+// common.
 template <class Visit>
 void for_each_cell_around(const Vec3& p, Visit&& visit) {
   const auto place = [](double x) {
@@ -49,10 +50,10 @@ void for_each_cell_around(const Vec3& p, Visit&& visit) {
   }
 }
 
-// Vertices with another one on top of them.
+// Vertices that are nearer than kOnTop to another one.
 std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
   const auto& vertices = mesh.vertices;
-  // By cell, then by x, so that crowds in a cell are looked at in short stretches.
+  // Sorted by cell, then by x, so that only short runs of a crowded cell are compared.
   using InCell = std::tuple<std::uint64_t, double, std::uint32_t>;
   std::vector<InCell> in_cells;
   in_cells.reserve(vertices.size() + vertices.size() / 4);
@@ -75,7 +76,8 @@ std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
   return doubled;
 }
 
-// No clearance at the reached vertices; from there on the bound falls off by distance along edges.
+// Sets the clearance of the reached vertices to 0. From there on a vertex's clearance is bounded by its distance along
+// edges.
 void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) {
   if (reached.empty()) return;
   auto& vertices = mesh.vertices;
@@ -109,9 +111,9 @@ void set_clearances(RefinementMesh& mesh) {
   bound_clearances(mesh, doubled_vertices(mesh));
 }
 
-void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
+void clear_clearances_near(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   if (suspects.empty()) return;
-  // Mostly all of them are in one place.
+  // Mostly all of them are close together.
   Box3 around;
   for (const Vec3& p : suspects) around.extend(p);
   around.extend(around.low - Vec3{kSuspectReach, kSuspectReach, kSuspectReach});
@@ -129,7 +131,7 @@ void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects) {
   bound_clearances(mesh, std::move(reached));
 }
 
-void distrust_all(RefinementMesh& mesh) {
+void clear_all_clearances(RefinementMesh& mesh) {
   for (RefinementMesh::Vertex& v : mesh.vertices) v.clearance = 0;
 }
 

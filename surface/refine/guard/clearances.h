@@ -1,5 +1,5 @@
-// Clearances of vertices: bounds of the distance to other sheets of the surface, which tell where triangles of stage 2
-// can come to cross (crossing_guard.h).
+// Clearances of vertices: bounds of the distance to other sheets of the surface. They tell where triangles of stage 2
+// may come to cross (crossing_guard.h).
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@ namespace deliso {
 
 // Sets the clearance of every vertex.
 void set_clearances(RefinementMesh& mesh);
-// Takes clearances away near places where triangles came to meet.
-void distrust(RefinementMesh& mesh, std::span<const Vec3> suspects);
-// Takes all clearances away: then every star is tested against all triangles around it, so that none comes to cross.
-void distrust_all(RefinementMesh& mesh);
+// Sets clearances to 0 near points where triangles came to meet, so that the guard tests all stars there.
+void clear_clearances_near(RefinementMesh& mesh, std::span<const Vec3> suspects);
+// Sets all clearances to 0: then every star is tested against all triangles around it, so no triangles come to cross.
+void clear_all_clearances(RefinementMesh& mesh);
 
 }  // namespace deliso

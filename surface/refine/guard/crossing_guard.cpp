@@ -11,13 +11,13 @@ namespace deliso {
 
 namespace {
 
-// A triangle is tight when its clearance is below so many of its longest edge.
+// A triangle is tight when its clearance is below its longest edge times this.
 constexpr double kTightness = 1.5;
-// Other sheets matter when the clearance is below so many times what the mesh moves.
+// Other sheets are tested for when the clearance is below this times the distance that the mesh moves.
 constexpr double kReach = 15;
-// The surface lies far from a triangle whose ball is so many times larger than its box.
+// The surface lies far from a triangle whose ball is larger than its box by this factor.
 constexpr double kFarBall = 1.3;
-// A star can fold over its neighbours when it moves by so much of the rim's distance from p.
+// A star can fold over its neighbours when the mesh moves by more than this fraction of the rim's distance from p.
 constexpr double kFoldingMove = 0.1;
 
 bool is_tight(double squared_longest, float clearance) {
@@ -60,7 +60,7 @@ void CrossingGuard::learn(std::uint32_t triangle) {
 }
 
 void CrossingGuard::learn(std::uint32_t triangle, double squared_longest) {
-  if (deliso::is_tight(squared_longest, trusted_clearance(mesh_.triangles[triangle].corners)))
+  if (deliso::is_tight(squared_longest, effective_clearance(mesh_.triangles[triangle].corners)))
     tight_.add(triangle, mesh_.box_of(triangle));
 }
 
@@ -69,7 +69,7 @@ void CrossingGuard::forget(std::uint32_t triangle) {
   tight_.remove(triangle, mesh_.box_of(triangle));
 }
 
-void CrossingGuard::distrust(std::uint32_t triangle) {
+void CrossingGuard::mark_if_far_off(std::uint32_t triangle) {
   const RefinementMesh::Triangle& t = mesh_.triangles[triangle];
   const Vec3 size = mesh_.box_of(triangle).size();
   if (t.has_hit() && t.ball.squared_radius < kFarBall * kFarBall * squared_norm(size)) return;
@@ -77,7 +77,7 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
     bool& is_suspect = mesh_.vertices[t.corners[i]].is_suspect;
     if (is_suspect) continue;
     is_suspect = true;
-    // All triangles around this corner are tight now.
+    // All triangles around this corner have become tight.
     const std::uint32_t first = 3 * triangle + i;
     for_each_corner_of_fan(
         first, [&](TriangleSide side) { return mesh_.triangles[side >> 2].neighbours[side & 3u]; },
@@ -90,7 +90,7 @@ void CrossingGuard::distrust(std::uint32_t triangle) {
 
 bool CrossingGuard::is_tight(std::uint32_t triangle) const {
   const auto& corners = mesh_.triangles[triangle].corners;
-  return deliso::is_tight(squared_longest_edge(mesh_.corner_points(corners)), trusted_clearance(corners));
+  return deliso::is_tight(squared_longest_edge(mesh_.corner_points(corners)), effective_clearance(corners));
 }
 
 CrossingGuard::PlacedTriangle CrossingGuard::star_triangle(const Vec3& p, const RimEdge& edge) const {
@@ -109,7 +109,7 @@ CrossingGuard::PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) cons
   return {corners, points, box_of(points)};
 }
 
-// The clearance of p by those of the rim's vertices; returns the least of all.
+// Computes the clearance of p from those of the rim's vertices; returns the least effective clearance on the rim.
 float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
   const auto bound = [&](std::uint32_t v) {
     return static_cast<float>(distance(p, mesh_.vertices[v].point)) + mesh_.vertices[v].clearance;
@@ -118,7 +118,7 @@ float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
   float mean = 0;
   float least = new_clearance_;
   for (const RimEdge& edge : rim) {
-    least = std::min(least, trusted_clearance(edge.from));
+    least = std::min(least, effective_clearance(edge.from));
     mean += mesh_.vertices[edge.from].clearance / static_cast<float>(rim.size());
     new_clearance_ = std::min(new_clearance_, bound(edge.from));
   }
@@ -126,8 +126,8 @@ float CrossingGuard::clearance_at(const Vec3& p, std::span<const RimEdge> rim) {
   return least;
 }
 
-// Where the mesh turns by more than a right angle at an edge of the rim, the whole star is tested against the triangle
-// beyond that edge.
+// Tests the whole star against the triangle beyond an edge of the rim, if the mesh turns by more than a right angle at
+// that edge.
 bool CrossingGuard::folds(const Vec3& p, std::span<const RimEdge> rim) {
   for (const RimEdge& edge : rim) {
     if (edge.outer == kNoSide) continue;
@@ -144,9 +144,9 @@ bool CrossingGuard::folds(const Vec3& p, std::span<const RimEdge> rim) {
   return false;
 }
 
-// Seen from above the star lies around p, once: then no two of its triangles meet.
+// Whether the star, projected along `up`, goes around p exactly once: then no two of its triangles meet.
 bool CrossingGuard::lies_around(const Vec3& p, const Vec3& up) const {
-  // All triangles turn to the left around p, so a star that closes passes the half-plane to one side of p once a turn.
+  // If all triangles turn left around p, a closed star passes the half-plane on one side of p once per turn.
   if (star_.front().corners[1] != star_.back().corners[2]) return false;
   const Vec3 across = cross(up, star_.front().points[1] - p);
   int turns = 0;
@@ -173,13 +173,13 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   if (moved > kFoldingMove * distance(p, mesh_.vertices[rim.front().from].point) && folds(p, rim)) return true;
   if (least > kReach * moved) return false;
 
-  // The tight triangles of the star, which must not meet the others,
+  // The tight triangles of the star must not meet other triangles of the star,
   star_.clear();
   tight_in_star_.clear();
   Box3 box;
   for (const RimEdge& edge : rim) {
     const float clearance =
-        std::min(new_clearance_, std::min(trusted_clearance(edge.from), trusted_clearance(edge.to)));
+        std::min(new_clearance_, std::min(effective_clearance(edge.from), effective_clearance(edge.to)));
     const PlacedTriangle& s = star_.emplace_back(star_triangle(p, edge));
     if (!deliso::is_tight(squared_longest_edge(s.points), clearance)) continue;
     if (!has_area(s.points)) return true;
@@ -189,7 +189,7 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
   }
   if (tight_in_star_.empty()) return false;
   if (!lies_around(p, up) && star_meets_itself()) return true;
-  // nor tight ones that stay.
+  // nor tight triangles that stay in the mesh.
   near_.clear();
   tight_.append_near(box, near_);
   return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t t) {

@@ -1,12 +1,13 @@
-// Keeps stage 2 from making triangles that cross others, where the surface comes near to itself.
+// Keeps stage 2 from making triangles that cross others, where two sheets of the surface are close to each other.
 //
-// Replacing a disk by a star moves the mesh by no more than the disk was off the surface, so it can meet another sheet
-// only where the distance between the sheets is no larger than its triangles. The guard knows a bound of that distance
-// at every vertex, its clearance: the pole height, but no more than the distance to a vertex that has another one on
-// top of it. Triangles larger than their clearance are tight, and so are those at a suspect vertex, a corner of a
-// triangle that is so thin or steep that the surface lies far from it: others may fold over it. Only tight triangles
-// are kept by place, and only stars that would have such triangles are tested against them, exactly. A star that moves
-// far can also fold over the triangles beside it, which is tested where an edge of the rim turns sharp.
+// Replacing a disk by a star moves the mesh by no more than the disk was off the surface. So the mesh can meet another
+// sheet only if the distance between the sheets is no larger than its triangles. The guard stores a bound of that
+// distance at every vertex, its clearance: the pole height, but no more than the distance along edges to a doubled
+// vertex (clearances.h). A triangle is tight if it is larger than its clearance, or has a suspect vertex. Suspect
+// vertices are the corners of a triangle that is so thin or steep that the surface lies far from it: other triangles
+// may fold over it. Only tight triangles are stored by position. Only stars with tight triangles are tested against
+// them, exactly. A star that moves far can also fold over the triangles next to it; this is tested where the mesh turns
+// sharply at an edge of the rim.
 #pragma once
 
 #include <algorithm>
@@ -27,21 +28,21 @@ class CrossingGuard {
   // Keeps a reference to a mesh with clearances, and a few bytes for each of its triangles.
   CrossingGuard(RefinementMesh& mesh, int threads);
 
-  // Whether the star of p over the rim of a disk meets itself or tight triangles of the mesh outside the disk beyond
-  // what they share, or folds over its neighbours. `moved`: how far the mesh moves at most; `up`: about a normal of the
-  // star. Also finds p's clearance.
+  // Whether the star of p over the rim of a disk meets itself beyond what its triangles share, or meets tight triangles
+  // of the mesh outside the disk, or folds over its neighbours. `moved`: a bound of the distance by which the mesh
+  // moves; `up`: approximate normal of the star. Also computes p's clearance.
   bool crosses(const Vec3& p, const Vec3& up, double moved, const RefinementDisk& disk);
   [[nodiscard]] float new_clearance() const { return new_clearance_; }
 
-  // Before a triangle goes; after a triangle has come.
+  // forget(): call before a triangle is removed. learn(): call after a triangle was added.
   void forget(std::uint32_t triangle);
   void learn(std::uint32_t triangle);
-  void learn(std::uint32_t triangle, double squared_longest);  // whose longest edge is known
-  // A triangle stays as it is: its corners become suspect if the surface lies far from it.
-  void distrust(std::uint32_t triangle);
+  void learn(std::uint32_t triangle, double squared_longest);  // given the triangle's longest edge
+  // Call when a triangle is not refined: its corners become suspect if the surface lies far from it.
+  void mark_if_far_off(std::uint32_t triangle);
 
  private:
-  // A triangle, of the mesh or of a star, that is tested against others.
+  // A triangle, of the mesh or of a star, with its corner points and box.
   struct PlacedTriangle {
     std::array<std::uint32_t, 3> corners;
     std::array<Vec3, 3> points;
@@ -55,13 +56,15 @@ class CrossingGuard {
   [[nodiscard]] PlacedTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
   [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const;
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;
-  [[nodiscard]] float trusted_clearance(std::uint32_t vertex) const {
+  // 0 for a suspect vertex.
+  [[nodiscard]] float effective_clearance(std::uint32_t vertex) const {
     const RefinementMesh::Vertex& v = mesh_.vertices[vertex];
     return v.is_suspect ? 0 : v.clearance;
   }
-  // The least of a triangle's corners.
-  [[nodiscard]] float trusted_clearance(const std::array<std::uint32_t, 3>& corners) const {
-    return std::min({trusted_clearance(corners[0]), trusted_clearance(corners[1]), trusted_clearance(corners[2])});
+  // The least effective clearance of a triangle's corners.
+  [[nodiscard]] float effective_clearance(const std::array<std::uint32_t, 3>& corners) const {
+    return std::min(
+        {effective_clearance(corners[0]), effective_clearance(corners[1]), effective_clearance(corners[2])});
   }
   [[nodiscard]] static bool meets(const PlacedTriangle& s, const PlacedTriangle& t);
 

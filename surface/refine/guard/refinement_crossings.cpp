@@ -13,7 +13,7 @@ namespace deliso {
 
 namespace {
 
-// Gives triangles whose corners are vertices of `from` the points of these.
+// Gives a mesh of triangles, whose corners are vertices of `from`, the points of these.
 void take_points(const RefinementMesh& from, TriangleMesh& mesh) {
   constexpr std::uint32_t kUnseen = 0xFFFFFFFFU;
   std::vector<std::uint32_t> numbers(from.vertices.size(), kUnseen);
@@ -28,14 +28,14 @@ void take_points(const RefinementMesh& from, TriangleMesh& mesh) {
   }
 }
 
-// A coarse grid over a box, whose first and last cells along each axis hold what lies beyond.
+// A coarse grid over a box. Points beyond the box count with the first or the last cell of an axis.
 class CoarseGrid {
  public:
   static constexpr std::array<unsigned, 3> kCells = {64, 256, 256};  // along each axis
   struct Cell {
     std::array<std::uint8_t, 3> at{};
   };
-  // Those that a box reaches into.
+  // The range of cells that a box meets.
   struct Cells {
     std::array<unsigned, 3> low{}, high{};
   };
@@ -89,16 +89,16 @@ class CellMarks {
   }
 
  private:
-  static constexpr std::size_t kSide = 8;  // of a bundle, in rows: most boxes reach into two at most along either axis
+  static constexpr std::size_t kSide = 8;  // in rows; most boxes meet at most two bundles along either axis
   static constexpr std::size_t kBundles = CoarseGrid::kCells[1] / kSide;
   static_assert(CoarseGrid::kCells[1] == CoarseGrid::kCells[2]);
 
   static std::size_t bundle(std::size_t y, std::size_t z) { return kBundles * (z / kSide) + y / kSide; }
-  // The bits low[0] to high[0].
+  // A word with the bits low[0] to high[0] set.
   static std::uint64_t row(const Cells& cells) {
     return ~std::uint64_t{0} >> (CoarseGrid::kCells[0] - 1 - cells.high[0] + cells.low[0]) << cells.low[0];
   }
-  // What the bundles have that cells reach into, or everything when these are many.
+  // The marks in the bundles that the cells meet; all bits if these bundles are many.
   [[nodiscard]] std::uint64_t in_bundles(const Cells& cells) const {
     if (cells.high[1] - cells.low[1] > kSide || cells.high[2] - cells.low[2] > kSide) return ~std::uint64_t{0};
     return bundles_[bundle(cells.low[1], cells.low[2])] | bundles_[bundle(cells.high[1], cells.low[2])] |
@@ -111,7 +111,7 @@ class CellMarks {
 
 using Places = std::vector<std::uint32_t>;
 
-// The triangles that reach into a cell of a grid that a renewed one reaches into: all that meet one are among them.
+// The triangles that share a grid cell with a renewed triangle: all triangles that meet a renewed one are among them.
 Places near_renewed(const RefinementMesh& mesh, int threads) {
   const std::size_t count = mesh.triangles.size();
   const Places renewed = collect_in_blocks<std::uint32_t>(count, threads, [&](std::size_t t, Places& found) {

@@ -1,4 +1,4 @@
-// Which triangles of a mesh in refinement meet where they should not: the exact check after what the guard let pass.
+// Which triangles of a mesh in refinement meet beyond what they share: the exact check after the guard.
 #pragma once
 
 #include "surface/intersection/self_intersection.h"
@@ -6,7 +6,7 @@
 
 namespace deliso {
 
-// At most so many pairs of a kind are kept.
+// At most this many pairs of each kind are kept.
 inline constexpr std::size_t kMostMeetingPairs = 1000;
 
 // All pairs.

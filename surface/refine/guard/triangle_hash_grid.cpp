@@ -13,22 +13,22 @@ namespace deliso {
 namespace {
 
 constexpr double kSmallest = 0.5;  // boxes smaller than this (mesh-space units) share a level
-// Cells are numbered up to this far from the origin, which is what their keys have room for; beyond it they run
-// together.
+// Cells are numbered up to this far from the origin, because the keys have no room for more; cells beyond share the
+// numbers of the outermost ones.
 constexpr double kFarthest = 0x1p18 - 1;
-// Where a box meets more cells than this, only those are looked at that blocks of eight along each axis hold; where it
-// meets many blocks, all blocks are gone through. (A fourth of these numbers or four times as many take as long.)
+// If a box meets more cells than this, only the cells in used blocks (eight cells along each axis) are visited; if it
+// meets many blocks, all used blocks are visited. (A fourth or four times of these numbers take the same time.)
 constexpr double kFewCells = 64;
 constexpr double kManyBlocks = 512;
 constexpr int kBlockShift = 3;
 
-// Of a normal number above zero, also an infinite one.
+// The exponent of a normal number above zero, or of infinity.
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
 
-// 2^-level, for a level that triangles are kept at.
+// 2^-level, for a level at which triangles are stored.
 double scale_of(int level) { return std::bit_cast<double>(std::uint64_t(1023 - level) << 52); }
 
-// std::floor, which may be a call, for numbers that an integer holds.
+// std::floor for numbers in the range of an integer; std::floor itself may be a function call.
 std::int32_t floored(double x) {
   const auto towards_zero = static_cast<std::int32_t>(x);
   return towards_zero - (towards_zero > x ? 1 : 0);
@@ -114,7 +114,7 @@ TriangleHashGrid::Place TriangleHashGrid::place_of(const Vec3& point, int level)
   return {place(point.x), place(point.y), place(point.z)};
 }
 
-// Where the low corners of boxes are that meet `box`: such a box is smaller than half a cell.
+// The cells that may hold the low corners of the boxes that meet `box`: such a box is smaller than half a cell.
 TriangleHashGrid::Range TriangleHashGrid::cells_near(const Box3& box, int level) {
   const double half = 0.5 / scale_of(level);
   return {place_of(box.low - Vec3{half, half, half}, level), place_of(box.high, level)};
@@ -139,7 +139,7 @@ std::uint64_t TriangleHashGrid::block_key(int level, const Place& place) {
   return std::uint64_t{1} << 63 | cell_key(level, place);
 }
 
-// Calls visit(cell) for those cells of a level that have been used, and maybe for others.
+// Calls visit(cell) for all used cells of a range at a level, and possibly for others.
 template <class Visit>
 void TriangleHashGrid::for_each_used_cell(const Range& cells, int level, Visit&& visit) const {
   const auto look_at = [&](const Place& place) { visit(cells_[slot_of(cell_key(level, place))]); };
@@ -168,7 +168,7 @@ void TriangleHashGrid::for_each_used_cell(const Range& cells, int level, Visit&&
   }
 }
 
-// Where a key is, or the free slot where it belongs.
+// The slot of a key, or the free slot where it belongs.
 std::size_t TriangleHashGrid::slot_of(std::uint64_t key) const {
   const std::size_t mask = cells_.size() - 1;
   std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> 32 & mask;
@@ -176,7 +176,7 @@ std::size_t TriangleHashGrid::slot_of(std::uint64_t key) const {
   return slot;
 }
 
-// False when it is there already; `slot` is where it is then.
+// Returns false when the key is present already; then `slot` is its slot.
 bool TriangleHashGrid::insert(std::uint64_t key, std::size_t& slot) {
   slot = slot_of(key);
   if (cells_[slot].key == key) return false;
@@ -194,7 +194,7 @@ TriangleHashGrid::Cell& TriangleHashGrid::cell_at(int level, const Place& place)
   if (insert(key, slot)) {
     const Place block = {place[0] >> kBlockShift, place[1] >> kBlockShift, place[2] >> kBlockShift};
     if (insert(block_key(level, block), of_block)) blocks_[static_cast<std::size_t>(level)].push_back(block);
-    slot = slot_of(key);  // the block may have made the table grow
+    slot = slot_of(key);  // adding the block may have resized the table
   }
   return cells_[slot];
 }
@@ -227,7 +227,7 @@ void TriangleHashGrid::remove(std::uint32_t triangle, const Box3& box) {
   for (Row& row : rows) {
     const auto place = std::find(row.triangles.begin(), row.triangles.end(), triangle);
     if (place == row.triangles.end()) continue;
-    // The last one takes its place.
+    // The last triangle takes its slot.
     const std::size_t last = rows.back().count() - 1;
     row.set(static_cast<std::size_t>(place - row.triangles.begin()), rows.back(), last);
     rows.back().clear(last);
@@ -242,7 +242,7 @@ void TriangleHashGrid::append_near(const Box3& box, std::vector<std::uint32_t>& 
     const int level = std::countr_zero(levels);
     for_each_used_cell(cells_near(box, level), level, [&](const Cell& cell) {
       if (cell.rows.empty()) return;
-      // Which of them are found cannot be foretold: all are written, and what is not found is overwritten.
+      // Which of them are found is unpredictable: all are written, and those not found are overwritten.
       std::size_t count = found.size();
       found.resize(count + kPerRow * cell.rows.size());
       for (const Row& row : cell.rows) {

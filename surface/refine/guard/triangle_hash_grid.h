@@ -1,4 +1,4 @@
-// Triangles by place: which of them may meet a box. For sets that change all the time.
+// Triangles in a hierarchical hash grid: which of them may meet a box. For sets that change all the time.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace deliso {
 
-// Cells of 2^level mesh-space units; a triangle is kept at the first level whose cells are more than twice as large as
-// its box, in the cell of the box's low corner.
+// Level l has cells of 2^l mesh-space units. A triangle is stored at the first level whose cells are more than twice as
+// large as its box, in the cell of the box's low corner.
 class TriangleHashGrid {
  public:
   [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < held_.size() && held_[triangle] != 0; }
-  // Precondition: not there yet; there, with the same box. Triangles of boxes that no level is large enough for are
-  // left out.
+  // Precondition of add(): not stored yet; of remove(): stored, with the same box. Triangles whose box is too large for
+  // every level are left out.
   void add(std::uint32_t triangle, const Box3& box);
   void remove(std::uint32_t triangle, const Box3& box);
 
@@ -30,7 +30,7 @@ class TriangleHashGrid {
     explicit FloatBox(const Box3& box);
     std::array<float, 3> low, high;
   };
-  // Triangles and their boxes, side by side; where there is none its box is empty.
+  // Triangles and their boxes, side by side; an unused entry has an empty box.
   struct Row {
     std::array<std::array<float, kPerRow>, 3> low, high;
     std::array<std::uint32_t, kPerRow> triangles;
@@ -73,13 +73,14 @@ class TriangleHashGrid {
   template <class Visit>
   void for_each_used_cell(const Range& cells, int level, Visit&& visit) const;
 
-  // A hash table with open addressing, of cells and of the blocks that hold some; both stay when they get empty.
+  // A hash table with open addressing, of cells and of the blocks that hold some; both stay in it when they become
+  // empty.
   std::vector<Cell> cells_ = std::vector<Cell>(64);
   std::size_t used_ = 0;
-  std::array<std::vector<Place>, kLevels> blocks_;  // those that are used
+  std::array<std::vector<Place>, kLevels> blocks_;  // the used ones
   std::array<std::size_t, kLevels> kept_at_{};      // triangles at each level
   std::uint64_t levels_ = 0;                        // bit i: whether there are any at level i
-  std::vector<std::uint8_t> held_;                  // of each triangle: whether it is there
+  std::vector<std::uint8_t> held_;                  // of each triangle: whether it is stored
 };
 
 }  // namespace deliso

@@ -15,11 +15,11 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kMostSlabs = 10;
-// A plane may move by so much of a slab's work to either side of where it would be fair, to one of so many places. What
-// it cuts is refined in a seam first, so equal shares matter more.
+// A plane may deviate from equal shares by this fraction of a slab's work to either side; kPlaces positions are
+// compared. The triangles that it cuts are refined in a seam first, so equal shares matter more than few cuts.
 constexpr double kFreedom = 0.0625;
 constexpr std::size_t kPlaces = 65;
-// Of a seam around a coarse triangle, in lengths of it along the axis.
+// The margin of a seam around a coarse triangle, in lengths of the triangle along the axis.
 constexpr double kMargin = 1;
 
 std::size_t longest_axis(const RefinementMesh& mesh) {
@@ -29,7 +29,7 @@ std::size_t longest_axis(const RefinementMesh& mesh) {
   return size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
 }
 
-// Work along an axis: how much lies below a place, by the middles of triangles.
+// The distribution of work along an axis: how much lies below a coordinate, counted at the middles of triangles.
 class WorkAlong {
  public:
   WorkAlong(const RefinementMesh& mesh, std::span<const float> work, std::size_t axis, int threads)
@@ -43,7 +43,7 @@ class WorkAlong {
     fill_bins();
   }
 
-  // Where the work below reaches a part of all.
+  // The coordinate below which this fraction of all work lies.
   [[nodiscard]] double place_of(double part) const {
     const double wanted = part * bins_.back().below;
     const auto bin = std::lower_bound(bins_.begin() + 1, bins_.end() - 1, wanted,
@@ -61,7 +61,8 @@ class WorkAlong {
     return spans.back().middle;
   }
 
-  // Of places between `low` and `high` the one whose plane cuts through the least work, the nearest to `fair` of these.
+  // The coordinate between `low` and `high` whose plane cuts through the least work; of equals the one nearest to
+  // `fair`.
   [[nodiscard]] double least_cut(double low, double fair, double high) const {
     std::array<double, kPlaces> cut{};
     const double step = (high - low) / (kPlaces - 1);
@@ -82,7 +83,7 @@ class WorkAlong {
   }
 
  private:
-  static constexpr double kTriangle = 0.5;  // in insertions: every triangle costs a little, even when nothing goes in
+  static constexpr double kTriangle = 0.5;  // in insertions: every triangle costs a little, even without an insertion
   static constexpr std::size_t kBins = 4096;
 
   struct Span {
@@ -92,13 +93,13 @@ class WorkAlong {
 
     [[nodiscard]] double all_work() const { return kTriangle + work; }
   };
-  // Where its spans end in by_bin_, and how much work they and those of all bins below are.
+  // The end of a bin's spans in by_bin_, and the work of these and of all bins below.
   struct Bin {
     std::size_t end = 0;
     double below = 0;
   };
 
-  // By their middles; so only those of one bin need be sorted when a place is asked for.
+  // Puts spans into bins by their middles, so that only the spans of one bin have to be sorted for a query.
   void fill_bins() {
     const auto [first, last] = std::minmax_element(spans_.begin(), spans_.end(),
                                                    [](const Span& a, const Span& b) { return a.middle < b.middle; });
@@ -121,7 +122,7 @@ class WorkAlong {
 
   std::vector<Span> spans_;
   std::vector<std::uint32_t> by_bin_;                    // spans in the order of their bins
-  std::vector<Bin> bins_ = std::vector<Bin>(kBins + 1);  // behind an empty one
+  std::vector<Bin> bins_ = std::vector<Bin>(kBins + 1);  // bin 0 is empty
 };
 
 using Extent = RefinementMesh::Extent;
@@ -139,7 +140,7 @@ double middle_of(const Slab& slab) { return 0.5 * slab.low + 0.5 * slab.high; }
 std::vector<Slab> slabs_of_equal_work(const RefinementMesh& mesh, std::span<const float> work,
                                       std::size_t slab_triangles, int threads) {
   std::size_t wanted = (mesh.triangles.size() + slab_triangles / 2) / slab_triangles;
-  if (wanted > 1) wanted += wanted % 2;  // for two threads to share
+  if (wanted > 1) wanted += wanted % 2;  // an even number, for two threads
   std::vector<Slab> slabs(std::clamp<std::size_t>(wanted, 1, kMostSlabs));
   if (slabs.size() == 1) return slabs;
   const std::size_t axis = longest_axis(mesh);
@@ -176,7 +177,7 @@ std::vector<Slab> seams_between(const std::vector<Slab>& slabs, const Refinement
   for (std::size_t k = 0; k + 1 < slabs.size(); ++k) {
     const double plane = slabs[k].high;
     Slab seam{slabs[k].axis, plane, plane};
-    // What a coarse triangle is replaced by has to lie in the seam, too.
+    // The new triangles that replace a coarse triangle must lie in the seam, too.
     for (const Extent& extent : coarse) {
       if (!extent.holds(plane)) continue;
       const double margin = kMargin * (extent.high - extent.low);

@@ -16,15 +16,15 @@ namespace deliso {
 
 namespace {
 
-// Arrays get room for so many times what is expected, so that they need not grow, which copies them and asks for pages
-// twice: estimates know little of small rho, and joined parts are refined further. Room that is not used takes no
+// Arrays get room for the expected size times this, so that they need not grow, which would copy them and take new
+// pages twice. The estimates are too low for small rho, and joined parts are refined further. Unused room takes no
 // pages.
 constexpr std::size_t kRoom = 2;
-// There is room for at most so many insertions per triangle from the start.
+// The largest number of insertions per initial triangle for which room is reserved.
 constexpr double kMostGrowth = 32;
 
-// Where vertices lie among the planes of disjoint slabs: a number each, which takes less of the memory that
-// triangles look all over than points do.
+// The positions of vertices relative to the planes of disjoint slabs, one number per vertex. Triangles read these at
+// random, and the numbers take less memory than points.
 class PlacesAmongPlanes {
  public:
   PlacesAmongPlanes(const RefinementMesh& mesh, const std::vector<Slab>& slabs, int threads)
@@ -44,7 +44,7 @@ class PlacesAmongPlanes {
     });
   }
 
-  // Calls visit(slab, is_within) for the slabs that a triangle meets, planes included.
+  // Calls visit(slab, is_within) for the slabs that a triangle meets; a slab includes its planes here.
   template <class Visit>
   void for_each_slab(const std::array<std::uint32_t, 3>& corners, Visit&& visit) const {
     const auto [low, high] = std::minmax({place_[corners[0]], place_[corners[1]], place_[corners[2]]});
@@ -55,9 +55,9 @@ class PlacesAmongPlanes {
   }
 
  private:
-  using Place = std::uint16_t;  // even between planes, odd on one
+  using Place = std::uint16_t;  // even: between planes; odd: on a plane
 
-  // The place of a plane that is not below those added before.
+  // Adds a plane, which must not lie below those added before, and returns its position.
   Place add_plane(double x) {
     DELISO_CHECK(planes_.empty() || planes_.back() <= x, "slabs are disjoint");
     if (planes_.empty() || planes_.back() < x) planes_.push_back(x);
@@ -73,7 +73,7 @@ class PlacesAmongPlanes {
     Place low, high;
   };
   std::vector<double> planes_;  // strictly ascending
-  std::vector<Between> slabs_;  // the places of their planes
+  std::vector<Between> slabs_;  // the positions of their two planes
   std::vector<Place> place_;    // of each vertex
 };
 
@@ -93,7 +93,7 @@ RefinementSlabs::RefinementSlabs(RefinementMesh& whole, const std::vector<Slab>&
   make_room(work);
 }
 
-// The triangles that meet each slab: those that its planes meet come first. Found block by block.
+// Finds the triangles that meet each slab; those that its planes meet come first. Works block by block.
 void RefinementSlabs::find_triangles() {
   struct Found {
     std::vector<std::uint32_t> cut, within;
@@ -120,8 +120,8 @@ void RefinementSlabs::find_triangles() {
   }
 }
 
-// In the whole for what all parts are expected to insert, and in each part for the largest, as one's arrays serve the
-// next.
+// Reserves room in the whole for the expected insertions of all parts, and in each part for those of the largest part,
+// because a part's arrays are reused by the next.
 void RefinementSlabs::make_room(std::span<const float> work) {
   std::size_t insertions = 0;
   for (const Origin& origin : origins_) {
@@ -147,8 +147,8 @@ void RefinementSlabs::refine_each(const RefinePart& refine) {
   whole_.forget_attempts(threads_);
 }
 
-// Whatever other parts have been put back by then: nothing that belongs to a part is touched by another one, and what
-// they found suspect is noted only once all are back.
+// The result does not depend on which other parts have been put back already: no part touches what belongs to another,
+// and suspect vertices are noted only after all parts are back.
 RefinementPart RefinementSlabs::cut_out(std::size_t slab) {
   const std::lock_guard lock(mutex_);
   ++cut_out_;
@@ -179,7 +179,8 @@ void RefinementSlabs::fill(RefinementMesh& mesh, Origin& origin) {
       v = local_vertex_[v];
     }
     for (TriangleSide& side : triangle.neighbours) {
-      const std::uint32_t across = side >> 2;  // beyond the end for none, and for what other parts have added
+      // Out of range for no neighbour, and for triangles that other parts have added.
+      const std::uint32_t across = side >> 2;
       const bool is_own = across < local_triangle_.size() && local_triangle_[across] != kNoSide;
       side = is_own ? 4 * local_triangle_[across] + (side & 3u) : kNoSide;
     }
@@ -189,7 +190,7 @@ void RefinementSlabs::fill(RefinementMesh& mesh, Origin& origin) {
   for (const std::uint32_t v : origin.vertices) local_vertex_[v] = kNoSide;
 }
 
-// Parts are put back in their order, so that it does not matter which was refined first.
+// Parts are put back in their order, so the result does not depend on which was finished first.
 void RefinementSlabs::hand_in(std::size_t slab, RefinementPart part) {
   const std::lock_guard lock(mutex_);
   refined_[slab] = std::move(part);
@@ -202,7 +203,7 @@ void RefinementSlabs::hand_in(std::size_t slab, RefinementPart part) {
 }
 
 void RefinementSlabs::keep_memory(RefinementMesh& mesh) {
-  if (spare_.size() == slabs_.size() - cut_out_) return;  // no more is needed
+  if (spare_.size() == slabs_.size() - cut_out_) return;  // enough for the parts still to come
   mesh.vertices.clear();
   mesh.triangles.clear();
   spare_.push_back(std::move(mesh));
@@ -210,7 +211,7 @@ void RefinementSlabs::keep_memory(RefinementMesh& mesh) {
 
 void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin) {
   const RefinementMesh& mesh = part.mesh;
-  // What is new comes behind all that is there.
+  // New vertices and triangles are appended to the whole.
   const std::size_t old_vertices = origin.vertices.size(), old_triangles = origin.triangles.size();
   const std::size_t first_vertex = whole_.vertices.size(), first_triangle = whole_.triangles.size();
   check_triangle_count(first_triangle + mesh.triangles.size() - old_triangles);
@@ -229,7 +230,7 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin)
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const RefinementMesh::Triangle& from = mesh.triangles[t];
     RefinementMesh::Triangle& to = whole_.triangles[place_of_triangle(t)];
-    // A frozen triangle stays, but may be worth another try; its sides towards the part are as the part left them.
+    // A frozen triangle is unchanged, but may be tried again; its sides towards the part are as the part left them.
     if (t >= part.frozen) {
       to = from;
       for (std::uint32_t& v : to.corners) v = place(origin.vertices, first_vertex, v);

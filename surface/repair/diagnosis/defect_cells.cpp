@@ -14,10 +14,10 @@ namespace deliso {
 
 namespace {
 
-// How many layers from a box defects are looked for, and how many all active cells are taken.
+// Defects count within kNear layers of a box; within kVeryNear layers all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::size_t kFewBoxes = 64;  // around which all active cells are taken, at most
+constexpr std::size_t kFewBoxes = 64;  // with more boxes, not all active cells around them are taken
 
 class DefectFinder {
  public:
@@ -35,7 +35,7 @@ class DefectFinder {
         near_boxes_(context.boxes.size()),
         has_defect_(context.done.size(), false) {
     for (std::size_t c = 0; context.is_near_boxes && c < boxes_.size(); ++c) {
-      // One layer more is asked for where points are not known yet, only their cells.
+      // One layer more, for tests of cells whose points are not known yet.
       if (!boxes_[c].empty()) near_boxes_[c].emplace(boxes_[c], grid_.dims(), kNear + 1);
     }
   }
@@ -45,7 +45,7 @@ class DefectFinder {
     flag_mesh();
     flag_unused_vertices();
     flag_critical_points();
-    flag_silent_components();
+    flag_components_without_defects();
     return std::move(found_);
   }
 
@@ -54,27 +54,27 @@ class DefectFinder {
   void flag_mesh();
   void flag_unused_vertices();
   void flag_critical_points();
-  void flag_silent_components();
+  void flag_components_without_defects();
   void find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const;
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
-  // What a defect tells of: of a component whose piece has the right topology only some defects matter.
-  enum class Tells { kTopology, kMissingPart, kMixing };
-  [[nodiscard]] bool matters(std::uint32_t component, Tells tells) const {
+  // What a defect concerns. For a component whose piece has the right topology only some kinds matter.
+  enum class DefectKind { kTopology, kMissingPart, kMixing };
+  [[nodiscard]] bool matters(std::uint32_t component, DefectKind kind) const {
     if (component == kNoComponent || done_[component]) return false;
     const Agreement agreement = mesh_.match.agreement[component];
-    if (agreement == Agreement::kMixed && tells != Tells::kMixing) return false;
-    return agreement != Agreement::kPartial || tells == Tells::kMissingPart;
+    if (agreement == Agreement::kMixed && kind != DefectKind::kMixing) return false;
+    return agreement != Agreement::kPartial || kind == DefectKind::kMissingPart;
   }
   [[nodiscard]] bool is_near_boxes(const CellIndex& cell, std::uint32_t component, std::int32_t layers) const {
     return !near_boxes_[component] || (*near_boxes_[component])(cell) <= layers;
   }
-  [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, Tells tells) const {
-    return matters(component, tells) && is_near_boxes(cells_.cell_of(p), component, kNear);
+  [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, DefectKind kind) const {
+    return matters(component, kind) && is_near_boxes(cells_.cell_of(p), component, kNear);
   }
-  void flag(const Vec3& p, std::uint32_t component, Tells tells) {
-    if (!matters(p, component, tells)) return;
+  void flag(const Vec3& p, std::uint32_t component, DefectKind kind) {
+    if (!matters(p, component, kind)) return;
     has_defect_[component] = true;
     cells_.append_cells_of(p, found_);
   }
@@ -105,21 +105,21 @@ void DefectFinder::flag_boxes() {
   }
 }
 
-// Split vertices, triangles between components, and strays.
+// Flags pinches, triangles between components, and stray pieces.
 void DefectFinder::flag_mesh() {
   const SurfaceMesh& surface = mesh_.built.mesh;
   const ComponentMatch& match = mesh_.match;
-  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v], Tells::kTopology);
+  for (const std::uint32_t v : mesh_.built.copies) flag(surface.points[v], mesh_.component[v], DefectKind::kTopology);
   for (const auto& v : surface.triangles) {
     const std::uint32_t piece = match.piece_of[v[0]];
     const bool is_stray = !match.is_main(piece);
     const bool is_between =
         mesh_.component[v[0]] != mesh_.component[v[1]] || mesh_.component[v[0]] != mesh_.component[v[2]];
     if (!is_stray && !is_between) continue;
-    const Tells tells = is_between ? Tells::kMixing : Tells::kMissingPart;
+    const DefectKind kind = is_between ? DefectKind::kMixing : DefectKind::kMissingPart;
     const Vec3 centroid = (surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]) / 3;
-    flag(centroid, mesh_.component[v[0]], tells);
-    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q], tells);
+    flag(centroid, mesh_.component[v[0]], kind);
+    for (const std::uint32_t q : v) flag(surface.points[q], mesh_.component[q], kind);
   }
 }
 
@@ -129,36 +129,36 @@ void DefectFinder::flag_unused_vertices() {
   for (const VertexId v : mesh_.built.vertex_of) used[v.index()] = true;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_.is_virtual(VertexId(i))) continue;
-    flag(delaunay.point(VertexId(i)), component_of_vertex_[i], Tells::kMissingPart);
+    flag(delaunay.point(VertexId(i)), component_of_vertex_[i], DefectKind::kMissingPart);
   }
 }
 
-// Critical points that the mesh leaves on the wrong side: there a tunnel is open that should be closed, or the other
-// way.
+// Flags critical points on the wrong side of the mesh. There a tunnel is open that should be closed, or closed that
+// should be open.
 void DefectFinder::flag_critical_points() {
   std::vector<CellIndex> cells;
-  std::vector<std::uint32_t> open;  // the component of each that is not done
+  std::vector<std::uint32_t> open;  // for each cell a component that is not done
   find_open_cells(cells, open);
   critical_.find(cells, threads_);
-  const std::vector<LocatedCriticalPoint>& places = critical_.places();
+  const std::vector<LocatedCriticalPoint>& points = critical_.points();
   std::vector<std::uint32_t> wanted;
-  std::vector<std::uint32_t> component_of;  // of each of these
-  for (std::size_t i = 0, at = 0; i < places.size(); ++i) {
-    while (at < cells.size() && is_before(cells[at], places[i].cell)) ++at;
+  std::vector<std::uint32_t> component_of;  // of each wanted point
+  for (std::size_t i = 0, at = 0; i < points.size(); ++i) {
+    while (at < cells.size() && is_before(cells[at], points[i].cell)) ++at;
     if (at == cells.size()) break;
-    if (cells[at] != places[i].cell || !matters(places[i].point, open[at], Tells::kTopology)) continue;
+    if (cells[at] != points[i].cell || !matters(points[i].point, open[at], DefectKind::kTopology)) continue;
     wanted.push_back(static_cast<std::uint32_t>(i));
     component_of.push_back(open[at]);
   }
   critical_.locate(wanted, threads_);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const LocatedCriticalPoint& place = places[wanted[k]];
-    if (restricted_.is_above(critical_.tet(wanted[k])) == place.is_above) continue;
-    flag(place.point, component_of[k], Tells::kTopology);
+    const LocatedCriticalPoint& critical = points[wanted[k]];
+    if (restricted_.is_above(critical_.tet(wanted[k])) == critical.is_above) continue;
+    flag(critical.point, component_of[k], DefectKind::kTopology);
   }
 }
 
-// The active cells in which critical points may matter, and a component for each.
+// The active cells whose critical points may matter, and a component for each cell.
 void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const {
   CellCrossings crossings(topology_.index);
   topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
@@ -169,13 +169,14 @@ void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<st
     } else {
       component = open_component_in(cell);
     }
-    if (!component || !matters(*component, Tells::kTopology) || !is_near_boxes(cell, *component, kNear + 1)) return;
+    if (!component || !matters(*component, DefectKind::kTopology) || !is_near_boxes(cell, *component, kNear + 1))
+      return;
     cells.push_back(cell);
     components.push_back(*component);
   });
 }
 
-// A component with a crossing on the edges of an active cell that is not done.
+// A component that is not done and has a crossing on an edge of the cell.
 std::optional<std::uint32_t> DefectFinder::open_component_in(const CellIndex& cell) const {
   std::optional<std::uint32_t> open;
   topology_.index.for_each_crossing_of_cell(cell, [&](std::uint32_t crossing) {
@@ -185,17 +186,17 @@ std::optional<std::uint32_t> DefectFinder::open_component_in(const CellIndex& ce
   return open;
 }
 
-void DefectFinder::flag_silent_components() {
+void DefectFinder::flag_components_without_defects() {
   const std::vector<bool> had_defect = has_defect_;
   for (const SurfaceSaddle& saddle : topology_.saddles) {
-    if (!had_defect[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component, Tells::kTopology);
+    if (!had_defect[saddle.component]) flag(to_mesh_space(saddle.position), saddle.component, DefectKind::kTopology);
   }
   const std::vector<bool> had_saddle = has_defect_;
   for (const EdgeCrossing& crossing : topology_.crossings) {
     if (had_saddle[crossing.component]) continue;
     const bool is_partial = mesh_.match.agreement[crossing.component] == Agreement::kPartial;
     flag(to_mesh_space(crossing_position(grid_, crossing)), crossing.component,
-         is_partial ? Tells::kMissingPart : Tells::kTopology);
+         is_partial ? DefectKind::kMissingPart : DefectKind::kTopology);
   }
 }
 

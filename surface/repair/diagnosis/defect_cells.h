@@ -1,4 +1,4 @@
-// Where a mesh differs from the isosurface, as far as signs of it can be seen.
+// The voxel cells near visible defects of a mesh.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,28 @@
 
 namespace deliso {
 
-// What defects are looked for in. References must outlive the search.
+// The data in which defects are searched. References must outlive the search.
 struct DefectContext {
   const ExactSurface& surface;
   const SignedDelaunay& restricted;
   const MatchedMesh& mesh;
   const CellLevels& cells;
-  const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
-  const std::vector<bool>& done;                          // of each exact component: needs no more work
-  const std::vector<std::vector<IndexBox>>& boxes;        // of each exact component: where it and its main piece part
-  bool is_near_boxes = true;                              // of components with boxes, defects count near these alone
-  LocatedCriticalPoints& critical;                        // of the volume, in the triangulation
+  const std::vector<std::uint32_t>& component_of_vertex;  // of each vertex of the triangulation: its exact component
+  const std::vector<bool>& done;                          // of each exact component
+  // Of each exact component: where it differs from its main piece.
+  const std::vector<std::vector<IndexBox>>& boxes;
+  // For components with boxes, only defects near the boxes count.
+  bool is_near_boxes = true;
+  LocatedCriticalPoints& critical;  // of the volume, in the triangulation
 };
 
-// The voxel cells near the defects of the components that are not done; may repeat cells. Defects are vertices that had
-// to be split; triangles between two components; pieces beside the main piece of their component; vertices of the
-// triangulation that no triangle uses; and saddles and critical samples in tetrahedra of the other sign. Of a component
-// whose piece has the right topology only what tells of its missing part, or of the vertices it shares with others,
-// counts. For a component without any defect its saddles are taken, and when there are none all its crossings. Of a
-// component with boxes only defects near them count, if wanted, and all active cells very near them are taken where the
-// boxes are few.
+// The voxel cells near the defects of the components that are not done; a cell may be listed several times. Defects
+// are: pinches, whose vertices had to be split; triangles between two components; stray pieces beside the main piece of
+// their component; vertices of the triangulation that no triangle uses; and saddles and critical samples in tetrahedra
+// of the other sign. If the piece of a component has the right topology, only those defects count that concern its
+// missing part, or the vertices that it shares with other components. For a component without any defect its saddles
+// are taken, and if there are none, all its crossings. For a component with boxes only defects near the boxes count (if
+// is_near_boxes); and if the boxes are few, all active cells very near them are added.
 std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

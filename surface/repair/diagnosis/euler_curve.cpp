@@ -10,13 +10,13 @@ namespace deliso {
 
 namespace {
 
-// A difference of one that lasts for fewer layers than this is taken for one in shape.
+// A difference of 1 over fewer layers than this is taken for a difference in shape.
 constexpr std::int64_t kLasting = 6;
-// Levels looked at beyond those of the start and the end.
+// How far levels may exceed those of the start and the end.
 constexpr std::int64_t kSlack = 1;
 
-// Where the piecewise constant function from 0 to the last value that fits `gap` best jumps: dynamic programming over
-// (place, level) with the sum of the deviations plus kLasting for each jump by one as the cost.
+// The jumps of the piecewise constant function, from 0 to the last value, that fits `gap` best. Dynamic programming
+// over (layer, level); the cost is the sum of the deviations plus kLasting for each jump by one.
 std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
   const std::int64_t low = std::min<std::int64_t>(0, gap.back()) - kSlack;
   const auto levels = static_cast<std::size_t>(std::abs(gap.back()) + 2 * kSlack + 1);
@@ -51,7 +51,7 @@ SampleLayers highest(const SampleLayers& a, const SampleLayers& b) {
   return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
 }
 
-// The first sample layer along each axis that a point in mesh space does not lie above.
+// Along each axis the first sample layer that is not below a point in mesh space.
 SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
   SampleLayers layers{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -60,12 +60,12 @@ SampleLayers layers_at(const Vec3& p, const Vec3& step, const std::array<std::in
   return layers;
 }
 
-// Where a part of a mesh changes in V - E + F as three planes come to some layers: calls visit(part, layers, change).
-// Each simplex counts from the highest layers of its vertices on.
+// Calls visit(part, layers, change) for every simplex: V - E + F of the part changes by this amount when planes along
+// the three axes reach these layers. A simplex counts from the highest layers of its vertices on.
 template <class Visit>
 void for_each_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex, const Vec3& step,
                      const std::array<std::int32_t, 3>& dims, const Visit& visit) {
-  // A vertex counts when a triangle has it; its layers are found then.
+  // A vertex counts if a triangle uses it; its layers are computed then.
   constexpr std::int32_t kUnseen = -1;
   std::vector<SampleLayers> layers(mesh.points.size(), {kUnseen, 0, 0});
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -78,7 +78,7 @@ void for_each_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& 
       visit(part, layers[q], 1);
     }
     for (unsigned i = 0; i < 3; ++i) {
-      const TriangleSide across = mesh.neighbours[t][i];  // an edge counts from the larger of its two sides
+      const TriangleSide across = mesh.neighbours[t][i];  // an edge is counted at the larger of its two sides
       if (across != kNoSide && across > 4 * t + i) continue;
       visit(part, highest(layers[v[(i + 1) % 3]], layers[v[(i + 2) % 3]]), -1);
     }

@@ -1,9 +1,9 @@
-// Where a mesh and the exact surface part in topology, when no other sign tells.
+// Where the topology of a mesh differs from the exact one, found when no other defect shows it.
 //
-// Sweep a plane along an axis and compare the Euler characteristic of what the mesh and a mesh with the exact topology
-// have below it. A local difference in shape makes the two part for a moment; a tunnel more or less makes them part for
-// good. The places where they part for good, along the three axes, are found as the jumps of the piecewise constant
-// function that fits best.
+// An Euler curve gives, for a plane swept along an axis, the Euler characteristic of the part below the plane. We
+// compare the curve of the mesh with that of a mesh with the exact topology. A local difference in shape makes the
+// curves differ for a few layers; an additional or missing tunnel makes them differ from there on. The layers of such
+// lasting differences are the jumps of the piecewise constant function that fits the difference of the curves best.
 #pragma once
 
 #include <array>
@@ -14,20 +14,21 @@
 
 namespace deliso {
 
-// Along each axis, for each sample layer, the Euler characteristic of what lies below it.
+// Along each axis, for each sample layer: the Euler characteristic of the part below it.
 using EulerCurves = std::array<std::vector<std::int64_t>, 3>;
 
 // A sample layer along each axis.
 using SampleLayers = std::array<std::int32_t, 3>;
 
-// The part of a vertex that does not count.
+// Stands for no part: such vertices are not counted.
 inline constexpr std::uint32_t kNoPart = 0xFFFFFFFFu;
-// Of several parts of a mesh, in one go over its triangles. `part_of_vertex`: the same for all vertices of a piece,
-// below `parts` or kNoPart. `step` is the size of a voxel in mesh space, `dims` the number of samples.
+// The Euler curves of several parts of a mesh, in one pass over its triangles. `part_of_vertex` is the same for all
+// vertices of a piece, below `parts` or kNoPart. `step` is the size of a voxel in mesh space, `dims` the number of
+// samples.
 std::vector<EulerCurves> euler_curves(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
                                       std::size_t parts, const Vec3& step, const std::array<std::int32_t, 3>& dims);
 
-// Along each axis the sample layers (ascending) at which the two part for good or meet again.
+// Along each axis, ascending: the sample layers at which the two curves begin or cease to differ lastingly.
 std::array<std::vector<std::int32_t>, 3> jumps_between(const EulerCurves& mesh, const EulerCurves& exact);
 
 }  // namespace deliso

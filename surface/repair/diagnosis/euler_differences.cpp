@@ -6,9 +6,9 @@ namespace deliso {
 
 namespace {
 
-// So many components are swept in one go.
+// The number of components handled in one pass.
 constexpr std::size_t kAtOnce = 256;
-// Jumps nearer than this (as Euler curves err by some layers) belong together.
+// Jumps nearer to each other than this form one range: Euler curves err by a few layers.
 constexpr std::int32_t kCloseLayers = 4;
 
 std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
@@ -64,11 +64,11 @@ void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::ui
   for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
     if (match.piece_of[v] != kNoPiece) part_of_vertex[v] = part_of_piece[match.piece_of[v]];
   }
-  const ExactSurface& surface = facts_.surface();
+  const ExactSurface& surface = cache_.surface();
   const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, part_of_vertex, components.size(),
                                                        surface.isosurface.step(), surface.grid().dims());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    boxes_[components[i]] = boxes_at(jumps_between(curves[i], facts_.sweeps().of(components[i])), most_);
+    boxes_[components[i]] = boxes_at(jumps_between(curves[i], cache_.euler_curves().of(components[i])), most_);
   }
 }
 

@@ -1,4 +1,4 @@
-// Where the meshes of repair differ from the surface in topology, as far as Euler curves tell.
+// Where the topology of repair's meshes differs from the surface's, according to Euler curves.
 #pragma once
 
 #include <array>
@@ -15,28 +15,28 @@
 
 namespace deliso {
 
-// A jump of an Euler curve tells a layer. Where there are several jumps along each axis, the boxes in which they meet
-// are all taken: most of them by chance, which costs samples but misses nothing. None where an axis has no jump, or
-// where there would be more than `most`.
+// The boxes in which jumps of Euler curves meet. A jump gives a layer along its axis. If there are several jumps along
+// each axis, all combinations are taken: most of these boxes contain no difference, which costs samples, but none is
+// missed. Empty if an axis has no jump, or if there would be more than `most` boxes.
 std::vector<IndexBox> boxes_at(const std::array<std::vector<std::int32_t>, 3>& jumps, std::size_t most);
 
 class EulerDifferences {
  public:
   // Keeps a reference.
-  explicit EulerDifferences(const ExactSurfaceCache& facts) : facts_(facts) {}
+  explicit EulerDifferences(const ExactSurfaceCache& cache) : cache_(cache) {}
 
-  // For each component that is not done and whose main piece has another topology: the boxes in which the two part,
-  // none where there are more than `most`. Known when asked for again.
+  // For each component that is not done and whose main piece has another topology: the boxes in which the two differ,
+  // or none if there are more than `most`. The last result is stored and returned for equal arguments.
   const std::vector<std::vector<IndexBox>>& find(const std::shared_ptr<MatchedMesh>& mesh,
                                                  const std::vector<bool>& done, std::size_t most);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
 
-  const ExactSurfaceCache& facts_;
-  std::vector<std::vector<IndexBox>> boxes_;  // as last found
-  std::weak_ptr<MatchedMesh> of_;             // in this mesh,
-  std::size_t most_ = 0;                      // no more than this
+  const ExactSurfaceCache& cache_;
+  std::vector<std::vector<IndexBox>> boxes_;  // the last result
+  std::weak_ptr<MatchedMesh> of_;             // for this mesh
+  std::size_t most_ = 0;                      // with this limit
 };
 
 }  // namespace deliso

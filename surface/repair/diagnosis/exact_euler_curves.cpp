@@ -14,13 +14,14 @@ namespace deliso {
 
 namespace {
 
-// Calls visit(crossing, layers) for all crossings: the first sample layers that these do not lie above.
+// Calls visit(crossing, layers) for all crossings; `layers` are the first sample layers that are not below the
+// crossing.
 template <class Visit>
 void for_each_crossing(const IsosurfaceTopology& topology, const Dims& dims, const Visit& visit) {
-  // Crossings come row by row, so no sample need be divided by the length of rows.
+  // Crossings come row by row, so the row of a sample is tracked instead of computed by division.
   SampleLayers row{0, 0, 0};
   const auto length = static_cast<std::uint64_t>(dims[0]);
-  std::uint64_t first = 0;  // sample of the row
+  std::uint64_t first = 0;  // first sample of the row
   for (const EdgeCrossing& crossing : topology.crossings) {
     for (; crossing.sample >= first + length; first += length) {
       if (++row[1] < dims[1]) continue;
@@ -33,10 +34,10 @@ void for_each_crossing(const IsosurfaceTopology& topology, const Dims& dims, con
   }
 }
 
-// The surface is made of crossings, of arcs in which it meets grid faces and of pieces in cells, each with an Euler
-// characteristic of its own: 1, -1, and 1 or 0. An arc is visited with the cell that it lies below along the axis
-// across it; on the far side of the box, with the one that it lies above. `Changes` takes what is visited: add(), and
-// add_disk() for what nearly all cells are.
+// The surface consists of crossings, of arcs on grid faces and of pieces in cells, whose Euler characteristics are 1,
+// -1, and 1 or 0. An arc is visited together with the cell above it along the axis across its face; at the far side of
+// the box, with the cell below. Passes everything visited to `Changes`: to add_disk() for the cells with a single disk,
+// which are nearly all, and otherwise to add().
 template <class Changes>
 class ExactChanges {
  public:
@@ -101,21 +102,22 @@ class ExactChanges {
   const ScalarGrid& grid_;
   double isovalue_;
   const IsosurfaceTopology& topology_;
-  CellCrossings crossings_;  // of the present cell
+  CellCrossings crossings_;  // of the current cell
   Changes& changes_;
 };
 
 }  // namespace
 
-// Adds up what is visited by layers.
+// Adds up the changes by layer.
 class ExactEulerCurves::Changes {
  public:
-  explicit Changes(ExactEulerCurves& sweeps) : sweeps_(sweeps) {}
+  explicit Changes(ExactEulerCurves& curves) : euler_curves_(curves) {}
 
   void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
     for (std::size_t axis = 0; axis < 3; ++axis) *from(component, axis, at[axis]) += twice;
   }
-  // The disk counts from the upper layers of its cell on, an arc below it along an axis from the lower one along that.
+  // The disk counts from the upper layers of its cell on. An arc below the cell along an axis counts from the lower
+  // layer along that axis on.
   void add_disk(std::uint32_t component, const CellIndex& cell, const std::array<unsigned, 3>& has_arc_below) {
     const auto arcs = static_cast<std::int32_t>(has_arc_below[0] + has_arc_below[1] + has_arc_below[2]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,11 +130,11 @@ class ExactEulerCurves::Changes {
 
  private:
   [[nodiscard]] std::int32_t* from(std::uint32_t component, std::size_t axis, std::int32_t layer) {
-    const Layers& layers = sweeps_.layers_[component][axis];
-    return &sweeps_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
+    const Layers& layers = euler_curves_.layers_[component][axis];
+    return &euler_curves_.twice_changes_[layers.begin + static_cast<std::size_t>(layer - layers.first)];
   }
 
-  ExactEulerCurves& sweeps_;
+  ExactEulerCurves& euler_curves_;
 };
 
 ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.grid().dims()) {
@@ -141,7 +143,8 @@ ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.
   ExactChanges(surface, changes).visit();
 }
 
-// Those that the crossings of each component are in, as arcs and pieces are, and the ones below these.
+// Finds the layers of each component: those of its crossings, which are also those of its arcs and pieces, and the ones
+// before.
 void ExactEulerCurves::find_layers(const IsosurfaceTopology& topology) {
   using Reach = std::pair<std::int32_t, std::int32_t>;
   std::vector<std::array<Reach, 3>> reach(topology.components.size());

@@ -1,5 +1,4 @@
-// What lies of the isosurface below a plane that sweeps along an axis: the exact side of
-// surface/repair/diagnosis/euler_curve.h.
+// The exact Euler curves of the isosurface (surface/repair/diagnosis/euler_curve.h).
 #pragma once
 
 #include <array>
@@ -12,8 +11,8 @@
 
 namespace deliso {
 
-// The swept characteristics of each exact component: those that a mesh has that keeps to the cells as the surface does,
-// such as its marching-cubes mesh. Found cell by cell, and kept for the layers only that a component reaches.
+// The Euler curves of each exact component. They are those of any mesh that lies in the same cells as the surface, such
+// as the marching-cubes mesh. Computed cell by cell, and stored only for the layers that a component reaches.
 class ExactEulerCurves {
  public:
   explicit ExactEulerCurves(const ExactSurface& surface);
@@ -22,7 +21,7 @@ class ExactEulerCurves {
 
  private:
   struct Layers {
-    std::size_t begin = 0;  // in twice_changes_
+    std::size_t begin = 0;  // index of its first layer in twice_changes_
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
@@ -30,8 +29,9 @@ class ExactEulerCurves {
   void find_layers(const IsosurfaceTopology& topology);
 
   Dims dims_;
-  std::vector<std::array<Layers, 3>> layers_;  // that each component may reach, along each axis
-  std::vector<std::int32_t> twice_changes_;    // of the Euler characteristic, when the plane comes to a layer
+  std::vector<std::array<Layers, 3>> layers_;  // the layers that each component may reach, along each axis
+  // Changes of the Euler characteristic when the plane reaches a layer, times two.
+  std::vector<std::int32_t> twice_changes_;
 };
 
 }  // namespace deliso

@@ -17,7 +17,8 @@ ExactPolygonization exact_polygonization(const ExactSurface& exact) {
       marching_cubes(exact.grid(), exact.isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
   ExactPolygonization surface;
 
-  // A triangle belongs to the component of its crossings; one of inner points alone to that of a triangle beside it.
+  // A triangle belongs to the component of its crossings; a triangle with only inner points to that of a neighbouring
+  // triangle.
   std::vector<std::uint32_t>& component = surface.component;
   component.assign(cubes.points.size(), kNoSide);
   for (std::size_t v = 0; v < cubes.crossing_count; ++v) component[v] = topology.crossings[v].component;
@@ -39,7 +40,7 @@ ExactPolygonization exact_polygonization(const ExactSurface& exact) {
     }
   }
 
-  // From world to mesh space, in place: there may be many.
+  // From world to mesh space, in place, because there may be many points.
   for (std::uint32_t v = 0; v < cubes.points.size(); ++v) {
     Vec3& p = cubes.points[v];
     p = v < cubes.crossing_count ? exact.position(topology.crossings[v]) : from_world(p, exact.isosurface);

@@ -1,4 +1,4 @@
-// The surface by marching cubes, whose topology is exact: what repair compares its meshes with, and its last resort.
+// The marching-cubes mesh of the surface, whose topology is exact. Repair takes components from it as a last resort.
 #pragma once
 
 #include <cstdint>

@@ -7,16 +7,16 @@ namespace deliso {
 
 ExactSurfaceCache::ExactSurfaceCache(const ExactSurface& surface)
     : surface_(surface),
-      sweeps_(std::async(std::launch::deferred, [surface] { return ExactEulerCurves(surface); })),
+      euler_curves_(std::async(std::launch::deferred, [surface] { return ExactEulerCurves(surface); })),
       polygonized_(std::async(std::launch::deferred, [surface] { return exact_polygonization(surface); })) {
   if (surface.threads < 2) return;
   try {
-    // Through futures of its own; what a search throws is thrown to those who ask.
-    finder_ = std::jthread([sweeps = sweeps_](const std::stop_token& stop) {
-      if (!stop.stop_requested()) sweeps.wait();  // else nobody will ask any more
+    // The thread has futures of its own; an exception is rethrown to those who request the result.
+    finder_ = std::jthread([curves = euler_curves_](const std::stop_token& stop) {
+      if (!stop.stop_requested()) curves.wait();  // otherwise nothing will be requested any more
     });
   } catch (const std::exception&) {
-    // No thread to be had: facts are found when they are asked for.
+    // No thread can be created: the data are computed when requested.
   }
 }
 

@@ -1,4 +1,4 @@
-// What repair may want to know of an isosurface whatever the mesh: facts that take time to find.
+// Data of an isosurface that repair may need, that do not depend on the mesh and take time to compute.
 #pragma once
 
 #include <future>
@@ -10,22 +10,22 @@
 
 namespace deliso {
 
-// Each fact is found when it is first asked for; with more than one thread a thread of its own finds the sweeps
-// beforehand, while others build the mesh that they are for. The facts are the same either way.
+// Each item is computed when it is first requested. If there is more than one thread, a thread of its own computes the
+// Euler curves in advance, while others build the mesh for which they are needed. The results are the same either way.
 class ExactSurfaceCache {
  public:
-  // Keeps what `surface` refers to.
+  // Keeps the references in `surface`.
   explicit ExactSurfaceCache(const ExactSurface& surface);
 
   [[nodiscard]] const ExactSurface& surface() const { return surface_; }
-  [[nodiscard]] const ExactEulerCurves& sweeps() const { return sweeps_.get(); }
-  // Needed by few surfaces, and large: never found beforehand.
+  [[nodiscard]] const ExactEulerCurves& euler_curves() const { return euler_curves_.get(); }
+  // Few surfaces need this, and it is large: so it is never computed in advance.
   [[nodiscard]] const ExactPolygonization& polygonized() const { return polygonized_.get(); }
 
  private:
   ExactSurface surface_;
-  // Deferred: whoever asks first does the work, anyone else waits for it.
-  std::shared_future<ExactEulerCurves> sweeps_;
+  // Deferred: the first caller computes it, other callers wait.
+  std::shared_future<ExactEulerCurves> euler_curves_;
   std::shared_future<ExactPolygonization> polygonized_;
   std::jthread finder_;
 };

@@ -1,4 +1,4 @@
-// Places in a volume near which repair has something to mend.
+// Boxes of sample layers in a volume, near which repair looks for defects.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace deliso {
 
-// Sample layers, from the first to the last.
+// Sample layers from `first` to `last`, inclusive.
 struct LayerRange {
   std::int32_t first = 0;
   std::int32_t last = 0;
@@ -20,18 +20,19 @@ struct LayerRange {
 // A range along each axis.
 using IndexBox = std::array<LayerRange, 3>;
 
-// How many layers a cell is away from the nearest of some places, along the axis along which it is farthest: for many
-// cells of a volume with so many samples.
+// The distance of a cell from the nearest of some boxes, in layers along the axis along which it is largest. For
+// queries of many cells of a volume with so many samples.
 class DistanceFromRanges {
  public:
-  DistanceFromRanges(std::vector<IndexBox> places, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
-  // Exact as far as the reach, which is all that is asked of what is farther away.
+  DistanceFromRanges(std::vector<IndexBox> boxes, const std::array<std::int32_t, 3>& dims, std::int32_t reach);
+  // Exact up to `reach`; a larger result only says that the distance is above `reach`.
   [[nodiscard]] std::int32_t operator()(const CellIndex& cell) const;
 
  private:
-  std::vector<IndexBox> places_;
+  std::vector<IndexBox> boxes_;
   std::int32_t reach_;
-  std::array<std::vector<std::int32_t>, 3> at_least_;  // along each axis, of each layer: what that axis alone tells
+  // Along each axis, of each layer: the distance along this axis alone.
+  std::array<std::vector<std::int32_t>, 3> at_least_;
 };
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-// A mesh, the exact component of each of its vertices, and what each of its pieces was matched with.
+// A mesh, the exact component of each of its vertices, and the match of its pieces with the exact components.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace deliso {
 
-// A mesh of the whole surface and what it was matched with.
+// A mesh of the whole surface and its match.
 struct MatchedMesh {
   BuiltMesh built;
-  std::vector<std::uint32_t> component;  // of each mesh vertex: the exact component it lies on
+  std::vector<std::uint32_t> component;  // of each mesh vertex: its exact component
   ComponentMatch match;
 };
 

@@ -13,8 +13,8 @@ namespace deliso {
 
 namespace {
 
-// The vertices of pieces that do not lie on the component of most; and the triangles of the pieces on each component
-// that has some.
+// The vertices that lie on another component than most vertices of their piece; and, for each component with such
+// vertices, the triangles of the pieces that lie on it.
 struct Found {
   std::vector<std::uint32_t> vertices;
   std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_on;
@@ -46,16 +46,16 @@ Found find_foreign_vertices(const SurfaceMesh& mesh, std::span<const std::uint32
 ForeignVertices remove_foreign_vertices(SurfaceMesh& mesh, std::span<const std::uint32_t> component_of) {
   const Found found = find_foreign_vertices(mesh, component_of);
   ForeignVertices counted{0, static_cast<std::int64_t>(found.vertices.size())};
-  std::vector<std::uint32_t> intruders = found.vertices;
-  std::erase_if(intruders, [&](std::uint32_t v) {
+  std::vector<std::uint32_t> removable = found.vertices;
+  std::erase_if(removable, [&](std::uint32_t v) {
     const std::vector<std::uint32_t>& own = found.triangles_on.at(component_of[v]);
     return std::none_of(own.begin(), own.end(),
                         [&](std::uint32_t t) { return is_covered_by(mesh.points[v], mesh, t); });
   });
-  if (intruders.empty()) return counted;
+  if (removable.empty()) return counted;
   VertexDecimation fans(mesh);
-  fans.take_out(intruders);
-  counted.removed = std::count_if(intruders.begin(), intruders.end(), [&](std::uint32_t v) { return !fans.has(v); });
+  fans.take_out(removable);
+  counted.removed = std::count_if(removable.begin(), removable.end(), [&](std::uint32_t v) { return !fans.has(v); });
   counted.left -= counted.removed;
   if (counted.removed > 0) fans.drop_free_slots();
   return counted;

@@ -17,12 +17,12 @@ namespace deliso {
 
 namespace {
 
-// An inverted umbrella that matters has an edge longer than this (mesh-space units).
+// Only inverted umbrellas with an edge longer than this (mesh-space units) are considered.
 constexpr double kLeastEdge = 1;
 
-// So many vertices are a thread's at a time.
+// The number of vertices that a thread takes at a time.
 constexpr std::size_t kVerticesAtOnce = 2048;
-// So many triangles share a box when they are looked for all over the mesh: most lie near those before them.
+// The number of consecutive triangles that share a box in searches of the whole mesh: most lie near their predecessors.
 constexpr std::size_t kTrianglesAtOnce = 32;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -35,8 +35,8 @@ class InvertedUmbrellas {
   InvertedUmbrellaRemoval remove_all(int threads);
 
  private:
-  // A vertex whose triangles face against the surface, and all triangles that meet a box around it, as far as they have
-  // not been replaced.
+  // A vertex whose triangles face against the surface, and all triangles that meet a box around it, except those
+  // replaced since.
   struct Apex {
     std::uint32_t vertex = 0;
     Box3 box;
@@ -44,8 +44,8 @@ class InvertedUmbrellas {
   };
   void find_apexes(int threads);
   void find_surroundings();
-  std::vector<Box3> boxes_of_dents();
-  void look_around(Apex& apex, const Box3& box);
+  std::vector<Box3> boxes_of_remaining();
+  void update_surroundings(Apex& apex, const Box3& box);
   bool remove(Apex& apex);
   void append_apexes(const std::vector<std::uint32_t>& link);
   [[nodiscard]] Triangles triangles_of(const VertexFan& fan) const;
@@ -54,7 +54,7 @@ class InvertedUmbrellas {
   [[nodiscard]] double far_area(const Triangles& triangles);
   [[nodiscard]] bool is_covered(const Apex& apex, const Triangles& filling) const;
   [[nodiscard]] bool is_free(const Apex& apex, const Triangles& filling) const;
-  // Whether something holds for a triangle that may be in the way.
+  // Whether holds(t) is true for some triangle t around the apex that is not at the apex itself.
   template <class Holds>
   [[nodiscard]] bool any_around(const Apex& apex, const Holds& holds) const {
     const auto stays_and_holds = [&](std::uint32_t i) {
@@ -77,7 +77,7 @@ class InvertedUmbrellas {
   const Isosurface& isosurface_;
   VertexDecimation fans_;
   std::vector<Apex> apexes_;
-  std::vector<Box3> boxes_;  // of kTrianglesAtOnce triangles each, as the mesh was
+  std::vector<Box3> boxes_;  // of kTrianglesAtOnce triangles each, of the mesh before any removal
   SearchCounters search_;
 };
 
@@ -85,7 +85,8 @@ InvertedUmbrellaRemoval InvertedUmbrellas::remove_all(int threads) {
   find_apexes(threads);
   if (apexes_.empty()) return {};
   find_surroundings();
-  // A ridge goes vertex by vertex; what was in the way of one may be gone the next time.
+  // Neighbouring inverted umbrellas are removed one by one; repeat, because what prevented one removal may be gone
+  // after another.
   InvertedUmbrellaRemoval result;
   for (std::int64_t before = -1; before != result.removed;) {
     before = result.removed;
@@ -93,13 +94,13 @@ InvertedUmbrellaRemoval InvertedUmbrellas::remove_all(int threads) {
       if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++result.removed;
     }
   }
-  result.left = boxes_of_dents();
+  result.left = boxes_of_remaining();
   if (result.removed > 0) fans_.drop_free_slots();
   return result;
 }
 
-// Of the apexes there are, those with triangles far from the surface.
-std::vector<Box3> InvertedUmbrellas::boxes_of_dents() {
+// The boxes around the remaining apexes that have triangles far from the surface.
+std::vector<Box3> InvertedUmbrellas::boxes_of_remaining() {
   std::vector<Box3> boxes;
   for (const Apex& apex : apexes_) {
     VertexFan fan;
@@ -115,7 +116,7 @@ Triangles InvertedUmbrellas::triangles_of(const VertexFan& fan) const {
   return triangles;
 }
 
-// Inner vertices with a long edge whose triangles face against the surface on the whole.
+// Finds the inner vertices with a long edge whose triangles face against the surface on the whole.
 void InvertedUmbrellas::find_apexes(int threads) {
   std::vector<bool> is_long(mesh_.points.size(), false), is_open(mesh_.points.size(), false);
   std::vector<Vec3> normals(mesh_.points.size());  // sums over the triangles at a vertex
@@ -138,7 +139,7 @@ void InvertedUmbrellas::find_apexes(int threads) {
   }
 }
 
-// That of any cell at the vertex tells.
+// The gradients of all cells at the vertex are tried; one is enough.
 bool InvertedUmbrellas::is_against(std::uint32_t v, const Vec3& normals) const {
   bool is_against = false;
   for_each_gradient_at(isosurface_, mesh_.points[v],
@@ -146,7 +147,7 @@ bool InvertedUmbrellas::is_against(std::uint32_t v, const Vec3& normals) const {
   return is_against;
 }
 
-// For all apexes at once: what is near them or meets the box of their links.
+// Finds, for all apexes in one pass, the triangles that meet the box of each.
 void InvertedUmbrellas::find_surroundings() {
   std::vector<Box3> boxes;
   for (Apex& apex : apexes_) {
@@ -165,7 +166,7 @@ void InvertedUmbrellas::find_surroundings() {
   }
 }
 
-// The box in which all lies that may replace the triangles at a vertex or cover it.
+// A box that holds everything that may replace the triangles at a vertex or cover it.
 Box3 InvertedUmbrellas::box_around(std::uint32_t v, const VertexFan& fan) const {
   Box3 box;
   for (const std::uint32_t w : fan.link) box.extend(mesh_.points[w]);
@@ -175,9 +176,9 @@ Box3 InvertedUmbrellas::box_around(std::uint32_t v, const VertexFan& fan) const 
   return box;
 }
 
-// The same for one whose link is no longer the one it had. Triangles that are not where they were are among the renewed
-// ones, whatever the boxes say.
-void InvertedUmbrellas::look_around(Apex& apex, const Box3& box) {
+// Finds the triangles around an apex again if its link has grown beyond its box. Triangles that have been replaced are
+// among the renewed ones, so the boxes of the old mesh suffice.
+void InvertedUmbrellas::update_surroundings(Apex& apex, const Box3& box) {
   if (apex.box.contains(box.low) && apex.box.contains(box.high)) return;
   apex.box = box;
   apex.surroundings.clear();
@@ -199,14 +200,14 @@ bool InvertedUmbrellas::remove(Apex& apex) {
   Triangles filling;
   for (const auto& [i, k, j] : least.triangles()) filling.push_back({fan.link[i], fan.link[k], fan.link[j]});
   if (!(far_area(filling) < far_area(triangles_of(fan)))) return false;
-  look_around(apex, box_around(apex.vertex, fan));
+  update_surroundings(apex, box_around(apex.vertex, fan));
   if (!is_covered(apex, filling) || !is_free(apex, filling)) return false;
   fans_.replace(apex.vertex, fan, least);
   append_apexes(fan.link);
   return true;
 }
 
-// The next ones of a ridge may show only now.
+// A removal may make neighbouring vertices into inverted umbrellas.
 void InvertedUmbrellas::append_apexes(const std::vector<std::uint32_t>& link) {
   for (const std::uint32_t v : link) {
     const bool is_known = std::any_of(apexes_.begin(), apexes_.end(), [v](const Apex& a) { return a.vertex == v; });
@@ -215,7 +216,7 @@ void InvertedUmbrellas::append_apexes(const std::vector<std::uint32_t>& link) {
   }
 }
 
-// Also, what went around the vertex has not made it one that faces the right way.
+// Whether the link can be filled, and the vertex is still an inverted umbrella after the removals around it.
 bool InvertedUmbrellas::can_be_filled(std::uint32_t v, const VertexFan& fan) const {
   if (!fans_.can_be_filled(fan)) return false;
   Vec3 sum;
@@ -223,7 +224,7 @@ bool InvertedUmbrellas::can_be_filled(std::uint32_t v, const VertexFan& fan) con
   return is_against(v, sum);
 }
 
-// The area of those of some triangles that have no surface which faces the same way near their middles.
+// The area of those triangles that have no part of the surface which faces the same way near their centroid.
 double InvertedUmbrellas::far_area(const Triangles& triangles) {
   double area = 0;
   for (const auto& t : triangles) {
@@ -234,7 +235,7 @@ double InvertedUmbrellas::far_area(const Triangles& triangles) {
   return area;
 }
 
-// Whether the mesh without the vertex is still there where the vertex was: the surface is.
+// Whether the mesh without the vertex is still near the vertex, which lies on the surface.
 bool InvertedUmbrellas::is_covered(const Apex& apex, const Triangles& filling) const {
   const auto is_near = [&](const std::array<std::uint32_t, 3>& t) {
     return nearness::is_near(mesh_.points[apex.vertex], mesh_, t, nearness::kRemoved);
@@ -242,7 +243,7 @@ bool InvertedUmbrellas::is_covered(const Apex& apex, const Triangles& filling) c
   return std::any_of(filling.begin(), filling.end(), is_near) || any_around(apex, is_near);
 }
 
-// Whether some triangles meet no other than those at their apex, nor each other, beyond what they share.
+// Whether the filling meets no triangle around the apex, nor itself, beyond what the triangles share.
 bool InvertedUmbrellas::is_free(const Apex& apex, const Triangles& filling) const {
   const auto meets = [&](const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
     return has_area_at(t) && triangle_contact(mesh_.points, s, t) != TriangleContact::kNone;

@@ -12,10 +12,10 @@ namespace deliso {
 
 namespace {
 
-// Of so many pairs the pieces are looked at together.
+// The largest number of pairs whose pieces are examined in one pass.
 constexpr std::size_t kMostPairs = 4096;
 
-// Drops the pieces of the pairs whose components are not polygonized yet; these are marked and returned.
+// Drops the pieces of the pairs whose components are not polygonized yet; marks these components, and returns them.
 std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurface& surface,
                               std::vector<bool>& is_polygonized) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
@@ -34,7 +34,7 @@ std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& 
   return dropped;
 }
 
-// Drops the pieces that count for one of these components, or for none at all.
+// Drops the pieces assigned to one of these components, or to none at all.
 void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurface& surface) {
   std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
@@ -49,29 +49,30 @@ void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, cons
 
 }  // namespace
 
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized) {
-  const AssignmentFaults faults = assignment_faults(mesh, facts.surface());
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized) {
+  const AssignmentFaults faults = assignment_faults(mesh, cache.surface());
   if (faults.is_empty()) return false;
   std::vector<bool> replaced(is_polygonized.size(), false);
   for (const auto* components : {&faults.without, &faults.repeated, &faults.unlike, &faults.overrunning}) {
     for (const std::uint32_t c : *components) replaced[c] = is_polygonized[c] = true;
   }
-  drop_pieces_of(replaced, mesh, facts.surface());
-  const ExactPolygonization& cubes = facts.polygonized();
+  drop_pieces_of(replaced, mesh, cache.surface());
+  const ExactPolygonization& cubes = cache.polygonized();
   append_pieces(cubes.mesh, cubes.component, replaced, mesh);
   return true;
 }
 
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized,
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized,
                                 Controls& controls) {
   while (!controls.poll()) {
     const SelfIntersections found =
-        self_intersections(mesh.points, mesh.triangles, kMostPairs, facts.surface().threads);
+        self_intersections(mesh.points, mesh.triangles, kMostPairs, cache.surface().threads);
     if (found.crossing_pairs == 0) return;
-    const ExactPolygonization& cubes = facts.polygonized();
-    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, facts.surface(), is_polygonized);
+    const ExactPolygonization& cubes = cache.polygonized();
+    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, cache.surface(), is_polygonized);
     if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
-      // Nothing more can be told apart; dents may have been removed from what there is of marching cubes.
+      // No further piece can be blamed. Inverted umbrellas may have been removed from pieces of marching cubes, so even
+      // these may cross: take all components from marching cubes anew.
       is_polygonized.assign(is_polygonized.size(), true);
       mesh = cubes.mesh;
       return;

@@ -1,5 +1,5 @@
-// The end of repair: pieces of its mesh that cross, or lie where others belong, are replaced by what marching cubes
-// makes of their components.
+// The end of repair: pieces of the mesh that cross, or lie on the wrong component, are replaced by the marching-cubes
+// mesh of their components.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace deliso {
 
-// Pieces of Delaunay meshes may cross where they come from different ones or where copies of a vertex could not be
-// moved apart. The component of a piece is the one that most of its vertices lie on. Marching cubes does not cross
-// itself, so with enough of it nothing crosses; where it is not told which pieces are to blame, all components are
-// polygonized. `is_polygonized`, of each component: it comes from marching cubes; kept up to date. The mesh has pole
-// heights. A run that has to stop keeps what there is.
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized,
+// Replaces pieces that cross. Pieces may cross if they come from different Delaunay meshes, or if copies of a vertex
+// could not be moved apart. The component of a piece is the one on which most of its vertices lie. Marching cubes does
+// not cross itself, so with enough of it nothing crosses. If the crossing pieces cannot be determined, all components
+// are taken from marching cubes. `is_polygonized` tells, for each component, whether it comes from marching cubes; it
+// is updated. Precondition: the mesh has pole heights. A run that must stop leaves the mesh as it is.
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized,
                                 Controls& controls);
 
-// The same for pieces that are in the wrong place (component_assignment.h): that lie on another component as much as
-// its own piece does, share a component, or are of another topology. True when there were any.
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& facts, std::vector<bool>& is_polygonized);
+// The same for pieces with assignment faults (component_assignment.h): pieces that have as many vertices on another
+// component as its own piece has, that share a component, or whose topology is wrong. True if there were any.
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized);
 
 }  // namespace deliso

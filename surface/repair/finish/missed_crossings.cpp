@@ -30,17 +30,17 @@ std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<c
     inside.push_back(i);
     points.push_back(p);
   }
-  // Most have a triangle close by; the others are worth a tree of all triangles.
+  // Most crossings have a triangle close by. Only for the others a tree of all triangles is worth its cost.
   const auto any = [](std::uint32_t) { return true; };
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh, any, surface.threads);
   if (std::find(covering.begin(), covering.end(), kNoTriangle) == covering.end()) return {};
   const CoverageQuery cover(mesh, surface.threads);
-  std::vector<std::uint32_t> left_out;
+  std::vector<std::uint32_t> missed;
   std::uint32_t guess = 0;
   for (std::size_t k = 0; k < inside.size(); ++k) {
-    if (covering[k] == kNoTriangle && !cover.covers(points[k], guess)) left_out.push_back(inside[k]);
+    if (covering[k] == kNoTriangle && !cover.covers(points[k], guess)) missed.push_back(inside[k]);
   }
-  return left_out;
+  return missed;
 }
 
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ExactSurface& surface,

@@ -1,7 +1,8 @@
-// Parts of the surface that a repaired mesh has lost at its dents.
+// Parts of the surface that a repaired mesh misses near its inverted umbrellas.
 //
-// Where repair joins two sheets at the wrong place, a tunnel for a tunnel, the topology may be right and yet one sheet
-// drawn far through a wall. Its vertices have to stay (inverted_umbrellas.h), and no refinement brings it back.
+// If repair connects two sheets at a wrong place, one tunnel replaces another. Then the topology may be right although
+// one sheet reaches far through a wall. The vertices of such an inverted umbrella have to stay (inverted_umbrellas.h),
+// and no refinement corrects it.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +16,12 @@
 
 namespace deliso {
 
-// The grid-edge crossings (places in topology.crossings) in some boxes of mesh space that a mesh does not cover (see
-// coverage_query.h), ascending.
+// The grid-edge crossings in some boxes of mesh space that a mesh does not cover (see coverage_query.h), as indices
+// into topology.crossings, ascending.
 std::vector<std::uint32_t> missed_crossings(const SurfaceMesh& mesh, std::span<const Box3> boxes,
                                             const ExactSurface& surface);
 
-// The active cells within three layers of one that holds a crossing, for some crossings; may repeat cells.
+// The active cells within three layers of the cell of some crossing; a cell may be listed several times.
 std::vector<CellName> cells_around(std::span<const std::uint32_t> crossings, const ExactSurface& surface,
                                    const CellLevels& cells);
 

@@ -9,7 +9,7 @@ namespace deliso {
 
 namespace {
 
-// From this level on neighbouring cells may differ by one level only.
+// From this level on the levels of neighbouring cells differ by at most one.
 constexpr int kGradedLevel = 3;
 // A point this near to a side of its cell (in index space) lies on that side.
 constexpr double kOnSide = 1e-6;
@@ -54,7 +54,7 @@ void CellLevels::append_active_cells(const CrossingIndex& index, const CellIndex
   }
 }
 
-void CellLevels::raise(std::vector<CellName> cells) {
+void CellLevels::refine(std::vector<CellName> cells) {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   for (const CellName cell : cells) {
@@ -88,7 +88,7 @@ std::vector<CellName> CellLevels::extend(Zone& zone) const {
     if (zone.cells.insert(name).second) added.push_back(name);
   };
   for (const auto& [at, level] : level_) {
-    if (!zone.raised.insert(at).second) continue;
+    if (!zone.refined.insert(at).second) continue;
     add(at);
     for_each_neighbour(cell(at), [&](const CellIndex& neighbour) { add(name(neighbour)); });
   }

@@ -1,4 +1,4 @@
-// Voxel cells that repair samples by a lattice, each at a level of the lattice.
+// The refined voxel cells: those that repair samples by a lattice, each at a level of the lattice.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace deliso {
 
-// The linear index of a cell's lowest sample names it.
+// A cell's number: the linear index of its lowest sample.
 using CellName = std::uint64_t;
 
 class CellLevels {
@@ -23,27 +23,27 @@ class CellLevels {
   [[nodiscard]] const Dims& dims() const { return grid_.dims(); }
   [[nodiscard]] CellName name(const CellIndex& c) const { return grid_.index(c[0], c[1], c[2]); }
   [[nodiscard]] CellIndex cell(CellName name) const;
-  // The cell that holds a point of mesh space; points beyond the box count to the nearest cell.
+  // The cell that holds a point of mesh space; for a point beyond the box the nearest cell.
   [[nodiscard]] CellIndex cell_of(const Vec3& p) const;
   // All cells that hold a point, sides included (within 1e-6 of the cell's size).
   void append_cells_of(const Vec3& p, std::vector<CellName>& cells) const;
 
-  // All active cells of the box from one cell to another, as far as it lies in the volume.
+  // Appends the active cells of the box from cell `low` to cell `high`, inclusive; the box may exceed the volume.
   void append_active_cells(const CrossingIndex& index, const CellIndex& low, const CellIndex& high,
                            std::vector<CellName>& cells) const;
 
-  // Raises each of the cells one level, up to the lattice's highest; from level 3 on the neighbours of a cell are
-  // brought within one level of it. `cells` may repeat names.
-  void raise(std::vector<CellName> cells);
-  [[nodiscard]] bool is_raised(CellName cell) const { return level_.contains(cell); }
-  // Level of each raised cell, by name.
+  // Refines each of the cells by one level, up to the lattice's highest. The neighbours of a cell at level 3 or more
+  // are then refined to within one level of it. `cells` may repeat names.
+  void refine(std::vector<CellName> cells);
+  [[nodiscard]] bool is_refined(CellName cell) const { return level_.contains(cell); }
+  // The level of each refined cell, by name.
   [[nodiscard]] const std::map<CellName, int>& levels() const { return level_; }
 
-  // The raised cells, and with the ring of cells around them, at some time.
+  // The refined cells at some time; and these together with the ring of cells around them.
   struct Zone {
-    std::unordered_set<CellName> raised, cells;
+    std::unordered_set<CellName> refined, cells;
   };
-  // Brings a zone up to date. Returns the cells that have come to it.
+  // Brings a zone up to date. Returns the cells that are new in it.
   std::vector<CellName> extend(Zone& zone) const;
 
  private:

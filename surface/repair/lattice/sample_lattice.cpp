@@ -8,10 +8,10 @@ namespace deliso {
 
 namespace {
 
-// Lines are named in units of 1/8 cell.
+// The coordinates of lines are stored in units of 1/8 cell.
 constexpr int kFinest = 8;
 
-// Keys: a kind in the two highest bits (0-2: a line along that axis, 3: an arc or a saddle), then a place.
+// A key has the kind in its highest bits (0-2: a line along that axis, 3: an arc or a saddle), then the position.
 constexpr std::uint64_t kind_bits(std::uint64_t kind) { return (kind + 1) << 61; }
 
 std::uint64_t line_key(std::size_t axis, const std::array<std::uint64_t, 3>& eighths) {
@@ -33,7 +33,7 @@ void SampleLattice::append(const CellIndex& cell, int level, std::vector<Lattice
   append_saddles(cell, samples);
 }
 
-// Crossings of the lines at multiples of 1 / parts along each axis.
+// Appends the crossings of the lines at multiples of 1 / parts along each axis.
 void SampleLattice::append_lines(const CellIndex& cell, int parts, std::vector<LatticeSample>& samples) const {
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -82,8 +82,8 @@ void SampleLattice::append_arcs(const CellIndex& cell, std::vector<LatticeSample
   }
 }
 
-// A point inside an arc. On a face g is bilinear and an arc is monotone between its ends: halfway along the axis in
-// which the ends lie farther apart, the other coordinate is the root of a linear function.
+// A point inside an arc. On a face g is bilinear, and an arc is monotone between its ends. Take the middle of the ends
+// along the axis in which they lie farther apart; the other coordinate is the root of a linear function.
 Vec3 SampleLattice::arc_point(const FaceArc& arc) const {
   const Vec3 a = crossing_position(grid_, topology_.crossings[arc.crossings[0]]);
   const Vec3 b = crossing_position(grid_, topology_.crossings[arc.crossings[1]]);

@@ -1,7 +1,8 @@
 // Lattice samples: points of the isosurface that determine it up to topology as the lattice gets finer.
 //
-// g is linear along axis-parallel lines within a cell, so the crossings of such lines are exact; and a thin sheet is
-// always crossed on both sides. Where random points of the surface leave the topology open, these settle it.
+// The interpolant g is linear along axis-parallel lines within a cell. So the crossings of such lines are exact, and a
+// line through a thin sheet crosses it on both sides. Where random points of the surface do not determine the topology,
+// these points do.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace deliso {
 
-// A point of the isosurface in index space. Equal keys: the same point, bit by bit, whichever cell asked for it.
+// A point of the isosurface in index space. Equal keys mean the same point, bit by bit, from whichever cell it was
+// computed.
 struct LatticeSample {
   std::uint64_t key = 0;  // never 0
   Vec3 point;
@@ -27,9 +29,9 @@ class SampleLattice {
   // Keeps references.
   explicit SampleLattice(const ExactSurface& surface);
 
-  // Appends the samples of one cell at a level: 1, the crossings of its grid edges; 2, also a point inside each arc on
-  // its faces and the saddles of the surface in the cell; 3, 4, 5, also the crossings of the axis-parallel lines at
-  // multiples of 1/2, 1/4, 1/8 of the cell.
+  // Appends the samples of one cell at a level. Level 1: the crossings of its grid edges. Level 2: also a point inside
+  // each arc on its faces, and the saddles of the surface in the cell. Levels 3, 4, 5: also the crossings of the
+  // axis-parallel lines at multiples of 1/2, 1/4, 1/8 of the cell.
   void append(const CellIndex& cell, int level, std::vector<LatticeSample>& samples) const;
 
  private:

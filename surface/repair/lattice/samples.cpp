@@ -6,7 +6,7 @@ namespace deliso {
 
 namespace {
 
-// Samples are exchanged in place when they are fewer than this share of all.
+// Samples are exchanged in the present triangulation when they are fewer than all divided by this.
 constexpr std::size_t kExchangeShare = 4;
 
 std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
@@ -30,7 +30,7 @@ RepairSamples::RepairSamples(const SignedDelaunay& restricted) {
 
 std::vector<Vec3> RepairSamples::points() const { return points_of(samples_); }
 
-Resampling RepairSamples::resampling(const CellLevels& raised, const SampleLattice& lattice,
+Resampling RepairSamples::resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
                                      const Isosurface& isosurface) const {
   Resampling resampling;
   std::vector<std::uint64_t> have;
@@ -38,14 +38,14 @@ Resampling RepairSamples::resampling(const CellLevels& raised, const SampleLatti
     const RepairSample& sample = samples_[i];
     if (sample.key != 0) {
       have.push_back(sample.key);
-    } else if (raised.is_raised(raised.name(raised.cell_of(sample.point))) &&
+    } else if (cell_levels.is_refined(cell_levels.name(cell_levels.cell_of(sample.point))) &&
                !SignedDelaunay::on_box(isosurface.box(), sample.point)) {
       resampling.leaving.push_back(VertexId(i));
     }
   }
   std::sort(have.begin(), have.end());
   std::vector<LatticeSample> found;
-  for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, found);
+  for (const auto& [name, level] : cell_levels.levels()) lattice.append(cell_levels.cell(name), level, found);
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
   std::uint64_t last = 0;
   for (const LatticeSample& sample : found) {
@@ -60,7 +60,7 @@ bool RepairSamples::changes_few(const Resampling& resampling) const {
   return resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
 }
 
-// A lattice sample that equals a vertex is not kept: should the vertex go, it is found again.
+// A lattice sample that equals a vertex is not stored: if that vertex is removed, the lattice sample comes again.
 void RepairSamples::exchange(const Resampling& resampling, std::span<const VertexId> vertex_of) {
   remove(resampling.leaving);
   for (std::size_t i = 0; i < resampling.coming.size(); ++i) {

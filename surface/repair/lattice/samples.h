@@ -1,4 +1,4 @@
-// The samples of repair's triangulation: free points of the surface, and lattice samples in raised cells.
+// The samples of repair's triangulation: free points of the surface, and lattice samples in refined cells.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace deliso {
 
 struct RepairSample {
   Vec3 point;             // in mesh space
-  std::uint64_t key = 0;  // of a lattice sample; 0 for a free one
+  std::uint64_t key = 0;  // the key of a lattice sample; 0 for a free sample
 };
 
 // Samples to exchange.
@@ -24,27 +24,28 @@ struct Resampling {
   [[nodiscard]] std::vector<Vec3> coming_points() const;
 };
 
-// Always the vertices of the triangulation, in order, but for virtual ones, once the calls below have told of a change.
+// The samples are the vertices of the triangulation except virtual ones, in the same order. After every change of the
+// triangulation one of the functions below must be called.
 class RepairSamples {
  public:
-  // All of them free.
+  // All vertices become free samples.
   explicit RepairSamples(const SignedDelaunay& restricted);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] std::vector<Vec3> points() const;
 
-  // What raised cells ask for: free samples in them go, lattice samples come. Free samples on the box stay: they carry
-  // its boundary curves.
-  [[nodiscard]] Resampling resampling(const CellLevels& raised, const SampleLattice& lattice,
+  // The exchange that the refined cells need: free samples in them leave, and lattice samples come. Free samples on the
+  // box stay, because they lie on its boundary curves.
+  [[nodiscard]] Resampling resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
                                       const Isosurface& isosurface) const;
-  // Whether so few samples change that they are best exchanged in the triangulation as it is.
+  // Whether so few samples change that it is better to exchange them in the present triangulation.
   [[nodiscard]] bool changes_few(const Resampling& resampling) const;
 
-  // The triangulation was changed in place; vertex_of: of each that comes (ExchangedPoints).
+  // Call after the triangulation was changed in place; vertex_of is that of ExchangedPoints.
   void exchange(const Resampling& resampling, std::span<const VertexId> vertex_of);
-  // A triangulation is to be made of points(), with those that come at the end;
+  // Call before a new triangulation is built of points(); the new samples come last.
   void replace(const Resampling& resampling);
-  // it was made, and has these vertices for them.
+  // Call after it was built; vertex_of gives the vertices of the samples.
   void take_vertices(std::span<const VertexId> vertex_of);
 
  private:

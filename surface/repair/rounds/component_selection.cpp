@@ -14,14 +14,14 @@ namespace deliso {
 
 namespace {
 
-// A mesh is cut down to a part when that is smaller so many times.
+// A mesh is reduced to the pieces still needed if these have fewer vertices by this factor.
 constexpr std::int64_t kWorthCutting = 2;
 
-// The wanted pieces and all that hang together with them by copies of one vertex.
+// The wanted pieces, and all pieces connected to them, directly or not, by copies of one vertex.
 std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector<bool>& wanted) {
   const std::vector<VertexId>& vertex_of = mesh.built.vertex_of;
   DisjointSets sets(wanted.size());
-  std::vector<std::uint32_t> piece_at;  // the first one at each vertex of the triangulation
+  std::vector<std::uint32_t> piece_at;  // of each vertex of the triangulation: the first piece there
   for (std::size_t v = 0; v < vertex_of.size(); ++v) {
     const std::uint32_t piece = mesh.match.piece_of[v];
     if (piece == kNoPiece) continue;
@@ -38,7 +38,7 @@ std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector
   return is_touched;
 }
 
-// Some pieces of a mesh, under their numbers.
+// Some pieces of a mesh; they keep their numbers.
 MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
   MatchedMesh part;
   const std::vector<std::uint32_t>& piece_of = whole.match.piece_of;
@@ -57,52 +57,52 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
     if (stays(v)) part.built.copies.push_back(name[v]);
   }
   for (const PinchGroup& group : whole.built.groups) {
-    if (!stays(group.front().vertex)) continue;  // nor do the others
+    if (!stays(group.front().vertex)) continue;  // the other copies of the group do not stay either
     part.built.groups.push_back(group);
     for (Copy& copy : part.built.groups.back()) copy.vertex = name[copy.vertex];
   }
   return part;
 }
 
-// The homes on the surface of the copies that have another one, too.
-class TrueHomes {
+// The positions on the surface of those copies that also have a position off the surface.
+class PositionsOnSurface {
  public:
-  // Of copies that still are at their first homes.
-  explicit TrueHomes(const BuiltMesh& built) {
+  // Precondition: every copy is still at its own position.
+  explicit PositionsOnSurface(const BuiltMesh& built) {
     for (const PinchGroup& group : built.groups) {
       for (const Copy& copy : group) {
-        if (!copy.has_false_home) continue;
-        std::vector<Vec3> homes = copy.other_homes;
-        homes.insert(homes.begin(), built.mesh.points[copy.vertex]);
-        homes.pop_back();
-        homes_.emplace_back(copy.vertex, std::move(homes));
+        if (!copy.has_position_off_surface) continue;
+        std::vector<Vec3> positions = copy.other_positions;
+        positions.insert(positions.begin(), built.mesh.points[copy.vertex]);
+        positions.pop_back();
+        positions_.emplace_back(copy.vertex, std::move(positions));
       }
     }
   }
-  // The copies that were moved away from all of theirs, by more than a hair's breadth.
-  [[nodiscard]] std::vector<std::uint32_t> left_by(const std::vector<Vec3>& points) const {
+  // The copies that ended at least kPinchSeparation away from all their positions on the surface.
+  [[nodiscard]] std::vector<std::uint32_t> copies_away_from_all(const std::vector<Vec3>& points) const {
     std::vector<std::uint32_t> left;
-    for (const auto& [v, homes] : homes_) {
+    for (const auto& [v, positions] : positions_) {
       const Vec3& p = points[v];
-      const auto is_near = [&](const Vec3& home) {
-        return squared_distance(p, home) < kPinchSeparation * kPinchSeparation;
+      const auto is_near = [&](const Vec3& position) {
+        return squared_distance(p, position) < kPinchSeparation * kPinchSeparation;
       };
-      if (std::none_of(homes.begin(), homes.end(), is_near)) left.push_back(v);
+      if (std::none_of(positions.begin(), positions.end(), is_near)) left.push_back(v);
     }
     return left;
   }
 
  private:
-  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> homes_;
+  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> positions_;
 };
 
-// A mesh that gives some of its pieces, with the component and the piece of each vertex.
+// A mesh from which some pieces are taken, with the component and the piece of each vertex.
 struct GivenMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
   std::vector<std::uint32_t> piece_of;
 
-  // Pieces in which one of these has to stay are wanted no more.
+  // Removes vertices. A piece that needs one of these vertices to stay is not wanted any more.
   void take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted);
 };
 
@@ -113,7 +113,7 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
   for (const std::uint32_t v : vertices) {
     if (fans.has(v)) wanted[piece_of[v]] = false;
   }
-  // The others keep their order.
+  // The remaining vertices keep their order.
   std::size_t vertex_count = 0;
   for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
     if (!fans.has(v)) continue;
@@ -130,10 +130,10 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 void ComponentSelection::reopen(std::uint32_t component) {
   done_[component] = false;
   best_[component] = Agreement::kPartial;
-  drop_outdone();
+  drop_superseded();
 }
 
-// Keeps a mesh when some component agrees with it that agreed with no earlier one.
+// Keeps a mesh if some component agrees with it better than with every earlier mesh.
 void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
@@ -144,12 +144,12 @@ void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs)
   }
   if (!helps) return;
   kept_.push_back({std::move(mesh), std::move(signs)});
-  drop_outdone();
+  drop_superseded();
 }
 
-// Every component is taken from the latest mesh that may give it; drops the meshes from which none will be, and of the
-// others all that will not.
-void ComponentSelection::drop_outdone() {
+// Every component is taken from the latest mesh that may give it. Drops the meshes that give no component, and reduces
+// the others to the pieces that they give.
+void ComponentSelection::drop_superseded() {
   std::vector<bool> given(done_.size(), false);
   for (auto kept = kept_.end(); kept != kept_.begin();) {
     --kept;
@@ -166,8 +166,8 @@ void ComponentSelection::drop_outdone() {
   }
 }
 
-// To the main pieces of the components that the mesh gives, and those that touch them: copies are going to be moved
-// apart.
+// Reduces a mesh to the main pieces of the components that it gives and the pieces that touch them. The latter are
+// needed when pinches are separated.
 void ComponentSelection::cut_down(KeptMesh& kept, const std::vector<bool>& gives) const {
   const MatchedMesh& whole = *kept.mesh;
   std::vector<bool> wanted(whole.match.pieces.size(), false);
@@ -184,8 +184,8 @@ void ComponentSelection::cut_down(KeptMesh& kept, const std::vector<bool>& gives
   }
 }
 
-// Pole heights for the kept meshes of this round, before its triangulation goes: of the components that may be taken
-// from them.
+// Computes the pole heights of the kept meshes of this round, for the components that may be taken from them.
+// Afterwards the triangulation may be destroyed.
 void ComponentSelection::give_poles(RepairRound& round) {
   if (std::all_of(kept_.begin(), kept_.end(), [](const KeptMesh& kept) { return kept.signs.empty(); })) return;
   const TetSigns signs = round.restricted().signs();
@@ -213,7 +213,7 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& 
                                            RepairStats& stats) const {
   left.assign(done_.size(), true);
   stats.components_mixed = stats.components_stray = 0;
-  std::vector<std::vector<bool>> wanted(kept_.size());  // pieces of each mesh
+  std::vector<std::vector<bool>> wanted(kept_.size());  // the wanted pieces of each mesh
   std::vector<std::size_t> giver(done_.size(), kept_.size());
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const ComponentMatch& match = kept_[i].mesh->match;
@@ -233,9 +233,9 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& 
     };
     given[i] = {built.mesh, component, match.piece_of};
     separate_pinches(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
-    std::vector<std::uint32_t> homeless = TrueHomes(built).left_by(given[i].mesh.points);
-    std::erase_if(homeless, [&](std::uint32_t v) { return !is_wanted(v); });
-    given[i].take_out(homeless, wanted[i]);
+    std::vector<std::uint32_t> off_surface = PositionsOnSurface(built).copies_away_from_all(given[i].mesh.points);
+    std::erase_if(off_surface, [&](std::uint32_t v) { return !is_wanted(v); });
+    given[i].take_out(off_surface, wanted[i]);
   });
   for (std::size_t c = 0; c < done_.size(); ++c) {
     if (giver[c] == kept_.size()) continue;

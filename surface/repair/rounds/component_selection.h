@@ -1,4 +1,4 @@
-// The meshes of repair that brought some component further, and what is taken from them at last.
+// The meshes of repair that improved some component, and the selection of components from them.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace deliso {
 
-// A mesh, and the exact component that the sample of each vertex lies on.
+// A mesh, and for each vertex the exact component on which its sample lies.
 struct AssembledMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;
@@ -24,41 +24,42 @@ class ComponentSelection {
  public:
   explicit ComponentSelection(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
 
-  // Of each exact component: needs no more work.
+  // Of each exact component: whether it is done.
   [[nodiscard]] const std::vector<bool>& done() const { return done_; }
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
-  // Whether every component is done, or has the right topology with vertices of others mixed in.
+  // Whether every component is done, or has the right topology but foreign vertices.
   [[nodiscard]] bool is_done_but_for_mixing() const {
     return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
   }
-  // A component is to be mended further; no mesh kept so far may give it. Precondition: the meshes have pole heights.
+  // Marks a component as not done and no longer taken from the meshes kept so far. Precondition: the meshes have pole
+  // heights.
   void reopen(std::uint32_t component);
-  // Keeps a mesh, made with these signs, when it helps some component. Of all of them no more stays than may still be
-  // taken.
+  // Keeps a mesh, made with these signs, if it improves some component. Meshes, and parts of meshes, from which no
+  // component can be taken any more are dropped.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
-  // Finds pole heights for the meshes of a round, before its triangulation goes.
+  // Computes the pole heights of the meshes of this round. Call before its triangulation is changed or destroyed.
   void give_poles(RepairRound& round);
-  // Every component as the latest mesh that agrees with it at its best has it, less the copies of vertices that find no
-  // place on the surface; unless no mesh has all of it or such a copy cannot be taken out: then it is `left`.
-  // Precondition: the meshes have pole heights.
+  // Takes every component from the latest mesh that agrees with it best. A copy of a vertex that is near none of its
+  // positions on the surface is removed. A component is `left` if no mesh has it completely, or if such a copy cannot
+  // be removed. Precondition: the meshes have pole heights.
   AssembledMesh assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const;
 
  private:
   struct KeptMesh {
     std::shared_ptr<MatchedMesh> mesh;
-    TetSigns signs;  // that it was made with; empty once it has its pole heights
+    TetSigns signs;  // the signs it was made with; empty once it has pole heights
   };
-  void drop_outdone();
+  void drop_superseded();
   void cut_down(KeptMesh& kept, const std::vector<bool>& gives) const;
   [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
     return best_[component] > Agreement::kPartial && mesh.match.agreement[component] >= best_[component];
   }
 
   std::vector<bool> done_;       // of each exact component
-  std::vector<Agreement> best_;  // of each: the best, kWithStrays at most, reached by some mesh
-  std::vector<KeptMesh> kept_;   // in the order in which they came
+  std::vector<Agreement> best_;  // of each exact component: the best agreement of any mesh so far, at most kWithStrays
+  std::vector<KeptMesh> kept_;   // in the order of keep()
 };
 
 }  // namespace deliso

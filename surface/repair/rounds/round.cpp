@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
 constexpr std::size_t kVerticesAtOnce = 2048;
 
-// Of a component whose main piece has the right topology, and yet not all of it.
+// Marks a component whose main piece has the right topology but misses a part of it.
 void make_partial(ComponentMatch& match, std::uint32_t component) {
   if (match.agreement[component] <= Agreement::kPartial) return;
   match.agreement[component] = Agreement::kPartial;
@@ -26,19 +26,19 @@ void make_partial(ComponentMatch& match, std::uint32_t component) {
 
 }  // namespace
 
-RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& raised,
+RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& cell_levels,
                          std::unique_ptr<SignedDelaunay> restricted)
     : surface_(surface),
-      raised_(raised),
+      cell_levels_(cell_levels),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
       flat_(*restricted_, surface.threads),
-      unfounded_(*restricted_, surface.grid(), surface.threads),
+      pockets_(*restricted_, surface.grid(), surface.threads),
       poles_(*restricted_) {
   find_components(0);
 }
 
-// Of the vertices from this one on.
+// Finds the exact components of the vertices from this one on.
 void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), kNoComponent);
   const Isosurface& isosurface = restricted_->isosurface();
@@ -75,7 +75,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
     rule_->update();
   }
   flat_.renew(exchanged);
-  unfounded_.renew(exchanged);
+  pockets_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
   if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
@@ -85,7 +85,7 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
 
 void RepairRound::settle_signs() {
   flat_.settle(*restricted_);
-  unfounded_.overturn(*restricted_);
+  pockets_.flip(*restricted_);
 }
 
 void RepairRound::take_plain_signs() {
@@ -94,17 +94,17 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs() {
-  if (!rule_) rule_.emplace(*restricted_, surface_.grid(), raised_, surface_.threads);
+  if (!rule_) rule_.emplace(*restricted_, surface_.grid(), cell_levels_, surface_.threads);
   rule_->take_signs(at_circumcenters_);
   settle_signs();
 }
 
-void RepairRound::overturn(TetId t) {
-  restricted_->overturn_sign(t);
+void RepairRound::flip_sign(TetId t) {
+  restricted_->flip_sign(t);
   settle_signs();
 }
 
-// None when they would be the same as the last time in this round.
+// Pairs the facets for the present signs. Nothing if the triangles would be the same as the last time in this round.
 std::optional<PairedTriangles> RepairRound::take_triangles() {
   const TetSigns signs = restricted_->signs();
   if (!pairing_) {
@@ -129,8 +129,9 @@ std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
   return mesh;
 }
 
-// A piece can have the right topology and still lack a branch that was cut off. Samples that the main pieces leave out
-// tell: each must have one of their triangles near. `facets`: of the triangles, ascending, but for the last ones.
+// Finds components whose main piece has the right topology but misses a part, for example a branch that was cut off.
+// Every sample that is no vertex of a main piece must have a triangle of a main piece near it. `facets` holds the
+// facets of the mesh's triangles, ascending; the last triangles have none.
 void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets) {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
@@ -142,27 +143,27 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
     if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
   }
-  // Most are covered by the triangle that covered them in an earlier mesh.
+  // Most samples are covered by the triangle that covered them in an earlier mesh.
   const auto is_still_covered = [&](std::size_t vertex, std::uint32_t facet) {
     const auto at = std::lower_bound(facets.begin(), facets.end(), FacetId(facet));
     if (facet == kNoFacet || at == facets.end() || *at != FacetId(facet)) return false;
     const auto t = static_cast<std::uint32_t>(at - facets.begin());
     return takes(t) && is_covered_by(restricted_->delaunay().point(VertexId(vertex)), mesh.built.mesh, t);
   };
-  std::vector<std::size_t> left_out;
+  std::vector<std::size_t> unused;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
     const std::uint32_t component = component_of_vertex_[i];
     if (component == kNoComponent || match.agreement[component] <= Agreement::kPartial) continue;
     if (is_still_covered(i, covered_by_[i])) continue;
-    left_out.push_back(i);
+    unused.push_back(i);
     points.push_back(restricted_->delaunay().point(VertexId(i)));
   }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, surface_.threads);
-  for (std::size_t i = 0; i < left_out.size(); ++i) {
-    covered_by_[left_out[i]] = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
-    if (covering[i] == kNoTriangle) make_partial(match, component_of_vertex_[left_out[i]]);
+  for (std::size_t i = 0; i < unused.size(); ++i) {
+    covered_by_[unused[i]] = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
+    if (covering[i] == kNoTriangle) make_partial(match, component_of_vertex_[unused[i]]);
   }
 }
 

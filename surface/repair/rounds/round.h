@@ -1,7 +1,7 @@
-// The triangulation of repair and the meshes that its signs make of it.
+// The triangulation of a round of repair, and the meshes that follow from its signs.
 //
-// Most rounds differ in few points from what was before. So whatever depends on the triangulation alone is found once,
-// and again only where points have been exchanged; and what depends on signs only where they have changed.
+// Most rounds change few points. So data that depend on the triangulation alone are updated only where points were
+// exchanged, and data that depend on signs only where signs have changed.
 #pragma once
 
 #include <cstdint>
@@ -28,46 +28,46 @@ namespace deliso {
 
 class RepairRound {
  public:
-  // The signs of `restricted` are those of the circumcenters. Keeps references to the others. Nothing but the
-  // time depends on the number of threads.
-  RepairRound(const ExactSurface& surface, const CellLevels& raised, std::unique_ptr<SignedDelaunay> restricted);
+  // Precondition: the signs of `restricted` are those of the circumcenters. Keeps references to the other arguments.
+  // Only the time depends on the number of threads.
+  RepairRound(const ExactSurface& surface, const CellLevels& cell_levels, std::unique_ptr<SignedDelaunay> restricted);
 
-  // Exchanges points and takes account of that and of the cells raised by now: from here on it is another round. See
-  // SignedDelaunay::exchange; when that says no, this round is of no more use.
+  // Exchanges points and updates all data for them and for the cells refined meanwhile: this begins a new round.
+  // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more.
   bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
 
-  // Takes the signs of the circumcenters, less folds (sliver_signs.h) and signs without foundation
+  // Sets the signs of the circumcenters, then corrects the signs of slivers (sliver_signs.h) and of spurious pockets
   // (spurious_pockets.h).
   void take_plain_signs();
-  // Takes signs by the rule for raised cells (sign_rule.h), less the same.
+  // Sets the signs by the rule for refined cells (sign_rule.h), then makes the same two corrections.
   void take_signs();
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
-  // Before meshes are put together, after which there is hardly ever another round: what can be found again goes.
-  void rest() { pairing_.reset(); }
-  // Turns a sign over; then those of folds and those without foundation.
-  void overturn(TetId t);
-  // What that would change (euler_change.h).
+  // Frees data that can be computed again. Called before meshes are assembled, after which a further round is rare.
+  void drop_pairing() { pairing_.reset(); }
+  // Flips a sign, then makes the same two corrections.
+  void flip_sign(TetId t);
+  // By how much a flip of the sign of t alone would change the Euler characteristic (euler_change.h).
   [[nodiscard]] std::int64_t euler_change(TetId t) { return deliso::euler_change(*restricted_, t); }
 
-  // The mesh for the signs as they stand and its match with the exact components; none when that would be the same mesh
-  // as the last time in this round, or is of no use: is_of_use(mesh) may be asked before missing parts have been looked
-  // for, which can only make the error larger and agreements partial.
+  // The mesh for the present signs, matched with the exact components. Nothing if it would be the same mesh as the last
+  // time in this round, or if is_of_use(mesh) is false. is_of_use is asked before missing parts are searched; that
+  // search can only increase the error and make agreements partial.
   using IsOfUse = std::function<bool(const MatchedMesh&)>;
   std::optional<MatchedMesh> assemble(const IsOfUse& is_of_use = {});
-  // The saddles and critical samples of the volume in the triangulation, as far as they are asked for.
+  // The saddles and critical samples of the volume with their tetrahedra, as far as they have been requested.
   LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_); }
-  // The pole heights of the wanted vertices for the signs as they stand.
+  // The pole heights of the wanted vertices for the present signs.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) {
     return poles_.heights(wanted, surface_.threads);
   }
 
   [[nodiscard]] int threads() const { return surface_.threads; }
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
-  // Of each vertex: the exact component it lies on, or kNoComponent.
+  // The exact component on which each vertex lies, or kNoComponent.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
-  // What is known of the sides in the tetrahedra (sign_constraints.h); empty before signs are taken by the rule.
-  [[nodiscard]] std::span<const std::uint8_t> evidence() const {
-    return rule_ ? std::span<const std::uint8_t>(rule_->evidence()) : std::span<const std::uint8_t>();
+  // The sign constraints of the tetrahedra, by slot (sign_constraints.h); empty before signs are set by the rule.
+  [[nodiscard]] std::span<const std::uint8_t> sign_constraints() const {
+    return rule_ ? std::span<const std::uint8_t>(rule_->constraints()) : std::span<const std::uint8_t>();
   }
 
  private:
@@ -77,16 +77,17 @@ class RepairRound {
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets);
 
   ExactSurface surface_;
-  const CellLevels& raised_;
+  const CellLevels& cell_levels_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
   std::vector<std::uint32_t> component_of_vertex_;
-  std::optional<SignRule> rule_;  // when first needed
+  std::optional<SignRule> rule_;  // made when first needed
   SliverSigns flat_;
-  SpuriousPockets unfounded_;
+  SpuriousPockets pockets_;
   std::optional<FacetPairing> pairing_;
-  bool has_assembled_ = false;  // in this round
-  // Of each vertex: the facet of a triangle that covered it when it was last left out; kNoFacet when there was none.
+  bool has_assembled_ = false;  // whether assemble() was called in this round
+  // Of each vertex: the facet of the triangle that covered it when no main piece used it the last time; kNoFacet when
+  // there was none.
   std::vector<std::uint32_t> covered_by_;
   std::optional<LocatedCriticalPoints> located_;
   KnownPoles poles_;

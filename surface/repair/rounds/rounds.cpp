@@ -18,27 +18,27 @@ namespace deliso {
 
 namespace {
 
-// What Euler curves find counts unless it is more than kMostBoxes; in the first round, when other defects tell more,
-// unless it is more than kFewBoxes.
+// The boxes found by Euler curves are ignored if there are more than kMostBoxes of them; in the first round, where
+// other defects are more reliable, if there are more than kFewBoxes.
 constexpr std::size_t kFewBoxes = 30;
 constexpr std::size_t kMostBoxes = 512;
 
-// Euler curves may err, and then nothing would ever be mended if no defect counted but near what they find. In one
-// round all defects count; in several the samples would grow too many.
+// Normally only defects near the boxes found by Euler curves count. These boxes may be wrong, and then repair would
+// never succeed. So in this round all defects count. In more than one such round there would be too many samples.
 constexpr std::int32_t kRoundOfAllDefects = 3;
 
 }  // namespace
 
-RepairRounds::RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted,
+RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted,
                            RepairStats& stats)
-    : surface_(facts.surface()),
+    : surface_(cache.surface()),
       stats_(stats),
       lattice_(surface_),
-      raised_(surface_.isosurface),
-      round_(std::in_place, surface_, raised_, std::move(restricted)),
+      cell_levels_(surface_.isosurface),
+      round_(std::in_place, surface_, cell_levels_, std::move(restricted)),
       samples_(round_->restricted()),
       kept_(surface_.topology.components.size()),
-      differences_(facts) {
+      differences_(cache) {
   round_->take_plain_signs();
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble().value());
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
@@ -54,16 +54,16 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
     const std::vector<std::vector<IndexBox>>& boxes =
         differences_.find(mesh_, kept_.done(), round == 1 ? kFewBoxes : kMostBoxes);
-    mend_once(defect_cells({surface_, round_->restricted(), *mesh_, raised_, round_->component_of_vertex(),
+    mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
                             kept_.done(), boxes, round != kRoundOfAllDefects, round_->located()}),
               controls);
   }
   return false;
 }
 
-// With these cells raised.
+// Makes a round in which these cells are refined.
 void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
-  raised_.raise(std::move(cells));
+  cell_levels_.refine(std::move(cells));
   resample();
   release_free_memory();
   take_signs();
@@ -74,11 +74,11 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
 
 void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
   reopen(crossings);
-  mend_once(cells_around(crossings, surface_, raised_), controls);
+  mend_once(cells_around(crossings, surface_, cell_levels_), controls);
   ++rounds_around_;
 }
 
-// Their components.
+// Marks the components of some crossings as not done.
 void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
   std::set<std::uint32_t> components;
   for (const std::uint32_t crossing : crossings) components.insert(surface_.topology.crossings[crossing].component);
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
   }
   std::vector<std::uint32_t> found;
   for (const TrianglePair& pair : pairs) {
-    surface_.topology.index.for_each_crossing_of_cell(raised_.cell_of(pair.position), [&](std::uint32_t crossing) {
+    surface_.topology.index.for_each_crossing_of_cell(cell_levels_.cell_of(pair.position), [&](std::uint32_t crossing) {
       if (is_met[surface_.topology.crossings[crossing].component]) found.push_back(crossing);
     });
   }
@@ -104,8 +104,8 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
   return found;
 }
 
-// Its copies moved apart, with the poles of the samples as they are.
-SurfaceMesh RepairRounds::as_it_is() {
+// The latest mesh with its pinches separated, and the pole heights for the present samples.
+SurfaceMesh RepairRounds::unrepaired_mesh() {
   BuiltMesh built = mesh_->built;
   separate_pinches(built.mesh, built.groups, built.vertex_of, surface_.isosurface.box());
   const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
@@ -114,10 +114,10 @@ SurfaceMesh RepairRounds::as_it_is() {
   return std::move(built.mesh);
 }
 
-// Exchanges samples: in the triangulation as it is when few change, else in one made anew, before the present one goes
-// where there are threads for both.
+// Exchanges samples. If few change, they are exchanged in the present triangulation; otherwise a new one is built. With
+// several threads the new one is built while the pole heights of the present one are computed.
 void RepairRounds::resample() {
-  const Resampling resampling = samples_.resampling(raised_, lattice_, surface_.isosurface);
+  const Resampling resampling = samples_.resampling(cell_levels_, lattice_, surface_.isosurface);
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || surface_.threads == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
@@ -134,11 +134,11 @@ void RepairRounds::resample() {
       next = std::make_unique<SignedDelaunay>(surface_.isosurface, samples_.points(), surface_.threads, &vertex_of);
     if (task == 1 && round_) kept_.give_poles(*round_);
   });
-  round_.emplace(surface_, raised_, std::move(next));
+  round_.emplace(surface_, cell_levels_, std::move(next));
   samples_.take_vertices(vertex_of);
 }
 
-// Takes signs by the rule; keeps the mesh if it helps.
+// Sets the signs by the rule, and keeps the mesh if it improves some component.
 void RepairRounds::take_signs() {
   round_->take_signs();
   std::optional<MatchedMesh> mesh = round_->assemble();
@@ -147,11 +147,11 @@ void RepairRounds::take_signs() {
   kept_.keep(mesh_, round_->restricted().signs());
 }
 
-// Single signs near the boxes in which a component is wrong.
+// Tries to flip single signs near the boxes in which a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
   const std::vector<std::vector<IndexBox>> boxes = differences_.find(mesh_, kept_.done(), kMostBoxes);
-  SignSearch search(*round_, surface_.topology, raised_, boxes);
+  SignSearch search(*round_, surface_.topology, cell_levels_, boxes);
   for (std::uint32_t c = 0; c < boxes.size(); ++c) {
     if (kept_.done()[c] || boxes[c].empty()) continue;
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {

@@ -1,4 +1,4 @@
-// The rounds of repair: from one triangulation of samples to the next, until every component has been made right.
+// The rounds of repair: each round changes samples and signs of the triangulation, until every component is right.
 #pragma once
 
 #include <cstddef>
@@ -25,41 +25,42 @@ namespace deliso {
 
 class RepairRounds {
  public:
-  // `restricted` is what stage 1 left: its mesh is the first one kept. Keeps references to facts and counts.
-  RepairRounds(const ExactSurfaceCache& facts, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
+  // `restricted` is the result of stage 1; its mesh is the first mesh kept. Keeps references to the cache and the
+  // counters.
+  RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
 
-  // Until every component is done, there have been `max_rounds`, or ends(), asked before each of them, says so: true
-  // for that.
+  // Makes rounds until every component is done or there have been `max_rounds`. Before each round it asks ends(), and
+  // stops if that is true. Returns whether ends() stopped it.
   bool mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls);
-  // Reopens the components of some crossings that the mesh leaves out, with a round that samples the surface around
-  // these. Then mend() may go on.
+  // Marks the components of some missed crossings as not done, and makes a round that samples the surface around these
+  // crossings. Afterwards mend() may continue.
   void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
-  // The grid-edge crossings (places in topology.crossings) of the cells in which triangles of a mesh meet, ascending;
-  // of the components that corners of these lie on.
+  // The grid-edge crossings of the cells in which triangles of a mesh meet (indices into topology.crossings,
+  // ascending). Only crossings of the components on which corners of these triangles lie are returned.
   [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
                                                         const SurfaceMesh& mesh) const;
 
-  // ComputePoles, for what the rounds have kept so far.
+  // ComputePoles for the meshes kept so far.
   void give_poles() {
     if (!round_) return;
     kept_.give_poles(*round_);
-    round_->rest();
+    round_->drop_pairing();
   }
-  // What the rounds have kept. To be put together once it has pole heights.
+  // The meshes kept so far. Their components can be assembled once the meshes have pole heights.
   [[nodiscard]] const ComponentSelection& selection() const { return kept_; }
-  // Whether another round may follow a mesh that seemed to be right.
+  // Whether another round is still possible after a mesh that seemed to be right.
   [[nodiscard]] bool may_go_on(std::int32_t max_rounds) const {
     return round_ && stats_.rounds > 0 && stats_.rounds < max_rounds;
   }
   [[nodiscard]] bool is_done() const { return kept_.is_done(); }
   [[nodiscard]] bool is_done_but_for_mixing() const { return kept_.is_done_but_for_mixing(); }
-  // There will be no more of them: what they would need goes.
+  // No further round will follow: frees the triangulation and the mesh.
   void end() {
     mesh_.reset();
     round_.reset();
   }
-  // The first mesh, right or not, of a run that had to end before any round.
-  SurfaceMesh as_it_is();
+  // The mesh of stage 1, right or wrong, for a run that was stopped before the first round.
+  SurfaceMesh unrepaired_mesh();
 
  private:
   void mend_once(std::vector<CellName> cells, Controls& controls);
@@ -70,12 +71,12 @@ class RepairRounds {
 
   const ExactSurface& surface_;
   RepairStats& stats_;
-  std::int64_t rounds_around_ = 0;  // of them by mend_around()
+  std::int64_t rounds_around_ = 0;  // rounds made by mend_around()
   SampleLattice lattice_;
-  CellLevels raised_;
+  CellLevels cell_levels_;
   std::optional<RepairRound> round_;
-  RepairSamples samples_;              // its vertices
-  std::shared_ptr<MatchedMesh> mesh_;  // the latest
+  RepairSamples samples_;              // the vertices of its triangulation
+  std::shared_ptr<MatchedMesh> mesh_;  // the latest mesh
   ComponentSelection kept_;
   EulerDifferences differences_;
 };

@@ -13,9 +13,9 @@ namespace deliso {
 
 namespace {
 
-// How many layers from the boxes tetrahedra are tried.
+// Tetrahedra within this many layers of the boxes are tried.
 constexpr std::int32_t kReach = 3;
-// Meshes built for one component at most.
+// The largest number of meshes built for one component.
 constexpr int kMostTrials = 16;
 
 Vec3 centre_of(const SignedDelaunay& restricted, TetId t) {
@@ -29,7 +29,8 @@ Vec3 centre_of(const SignedDelaunay& restricted, TetId t) {
   return sum / count;
 }
 
-// Whether some neighbour has the sign that the tetrahedron would take: otherwise it would be but a pocket.
+// Whether some neighbour has the sign that the tetrahedron would get. Without such a neighbour it would become a pocket
+// of its own.
 bool has_neighbour_of_other_sign(const SignedDelaunay& restricted, TetId t) {
   const auto is_restricted = [&](unsigned face) { return restricted.is_restricted(FacetId(t, face)); };
   return is_restricted(0) || is_restricted(1) || is_restricted(2) || is_restricted(3);
@@ -41,14 +42,14 @@ bool touches_box(const SignedDelaunay& restricted, TetId t) {
                      [&](VertexId v) { return !restricted.is_virtual(v) && restricted.is_on_box(v); });
 }
 
-// How much is missing or too much in all.
+// The size of the difference.
 std::int64_t amount(const ComponentTopology& missing) {
   return std::abs(missing.euler_characteristic) + std::abs(missing.boundary_loops);
 }
 
 }  // namespace
 
-// What the component has more than its main piece.
+// The topology of the component minus that of its main piece.
 ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t component) const {
   ComponentTopology missing = topology_.components[component];
   const std::uint32_t main = mesh.match.main_piece[component];
@@ -58,11 +59,11 @@ ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t com
   return missing;
 }
 
-// Of all components at once: most of the time goes into asking where tetrahedra are.
+// Finds them for all components in one pass, because most of the time is spent on the distances of tetrahedra.
 void SignSearch::find_undecided() {
   const SignedDelaunay& restricted = round_.restricted();
-  const std::span<const std::uint8_t> evidence = round_.evidence();
-  std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the boxes of components
+  const std::span<const std::uint8_t> constraints = round_.sign_constraints();
+  std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the boxes of each component
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
     if (!boxes_[c].empty()) distances.emplace_back(c, DistanceFromRanges(boxes_[c], cells_.dims(), kReach));
   }
@@ -73,7 +74,7 @@ void SignSearch::find_undecided() {
   };
   const auto append_if_near = [&](std::size_t i, std::vector<Near>& near) {
     const TetId t(i);
-    const bool is_decided = evidence[i] == kAbove || evidence[i] == kBelow;
+    const bool is_decided = constraints[i] == kAbove || constraints[i] == kBelow;
     if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
     const CellIndex cell = cells_.cell_of(centre_of(restricted, t));
     for (const auto& [component, distance] : distances) {
@@ -81,7 +82,7 @@ void SignSearch::find_undecided() {
       if (layers <= kReach) near.push_back({t, component, layers});
     }
   };
-  std::vector<Near> near = collect_in_blocks<Near>(evidence.size(), round_.threads(), append_if_near);
+  std::vector<Near> near = collect_in_blocks<Near>(constraints.size(), round_.threads(), append_if_near);
   std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.layers < b.layers; });
   undecided_.resize(boxes_.size());
   for (const Near& one : near) undecided_[one.component].push_back(one.tet);
@@ -97,7 +98,7 @@ void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh
     if (lacks.euler_characteristic == 0 || trials == kMostTrials || controls.poll()) return;
     if (!is_worth_trying(t, lacks)) continue;
     ++trials;
-    round_.overturn(t);
+    round_.flip_sign(t);
     const auto is_better = [&](const MatchedMesh& trial) {
       return amount(missing(trial, component)) < amount(lacks) && trial.match.error <= mesh->match.error;
     };
@@ -112,8 +113,8 @@ void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh
   }
 }
 
-// Whether the Euler characteristic changes the right way: by no more than what is missing, unless loops of the boundary
-// may come right, too.
+// Whether a flip changes the Euler characteristic in the right direction, by no more than what is missing. A larger
+// change is allowed where the tetrahedron touches the box, because it may correct the boundary loops.
 bool SignSearch::is_worth_trying(TetId t, const ComponentTopology& lacks) {
   if (!has_neighbour_of_other_sign(round_.restricted(), t)) return false;
   const std::int64_t change = round_.euler_change(t);

@@ -1,9 +1,9 @@
-// Mends the topology of a component by turning over the signs of single tetrahedra.
+// Corrects the topology of a component by flipping the signs of single tetrahedra.
 //
-// A rule that is right nearly everywhere leaves a few handles too many or too few, and sampling more finely does not
-// always help there. Euler curves tell about where they are, and each is a matter of a few tetrahedra. So tetrahedra
-// near there of whose side nothing is known are turned over one after the other, but only those that change the Euler
-// characteristic the right way: nearly all do not, which is seen without building a mesh.
+// A sign rule that is right nearly everywhere leaves a few handles too many or too few, and finer sampling does not
+// always help. Euler curves show about where these handles are, and each depends on few tetrahedra. So the signs of
+// tetrahedra near there that have no sign constraint are flipped one after the other. Only flips that change the Euler
+// characteristic in the right direction are tried. Nearly all flips do not, which is computed without building a mesh.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,16 @@ namespace deliso {
 
 class SignSearch {
  public:
-  // Keeps references. `boxes`: of each component, those in which its main piece parts from it.
+  // Keeps references. `boxes`: for each component the boxes in which it differs from its main piece.
   SignSearch(RepairRound& round, const IsosurfaceTopology& topology, const CellLevels& cells,
              const std::vector<std::vector<IndexBox>>& boxes)
       : round_(round), topology_(topology), cells_(cells), boxes_(boxes) {}
 
-  // Gets a mesh that is better than the one before, the round's signs being its own; returns whether that is enough.
+  // Called with a mesh that is better than the one before; the round's signs are those of this mesh. Returns whether it
+  // is good enough.
   using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
-  // Tries near the boxes of a component. `mesh` is the mesh of the round's signs; afterwards the signs are those of the
-  // best mesh.
+  // Tries flips near the boxes of a component. `mesh` is the mesh of the round's present signs; afterwards the signs
+  // are those of the best mesh.
   void mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved, Controls& controls);
 
  private:
@@ -41,8 +42,8 @@ class SignSearch {
   const IsosurfaceTopology& topology_;
   const CellLevels& cells_;
   const std::vector<std::vector<IndexBox>>& boxes_;
-  // Of each component, when first needed: tetrahedra very near its boxes of whose side nothing is known, the nearest
-  // first.
+  // Of each component: the tetrahedra near its boxes without a sign constraint, the nearest first. Filled when first
+  // needed.
   std::vector<std::vector<TetId>> undecided_;
 };
 

@@ -13,14 +13,14 @@ namespace deliso {
 
 namespace {
 
-// A few tetrahedra, at times many: where samples lie in planes far apart, hundreds meet at a vertex.
+// A hash set of tetrahedra. Mostly there are few, but hundreds meet at a vertex where samples lie in planes far apart.
 class TetSet {
  public:
   void clear() {
     std::fill(table_.begin(), table_.end(), kFree);
     size_ = 0;
   }
-  // Returns whether it was not there yet.
+  // Returns whether t was not in the set yet.
   bool insert(TetId t) {
     if (2 * ++size_ > table_.size()) grow();
     std::uint32_t& slot = slot_of(t.value);
@@ -35,7 +35,7 @@ class TetSet {
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
 
-  // Where a number is, or is to go.
+  // The slot of a number, or the free slot where it belongs.
   std::uint32_t& slot_of(std::uint32_t number) {
     const std::size_t last = table_.size() - 1;
     std::size_t at = (number * std::size_t{0x9E3779B97F4A7C15} >> 32) & last;
@@ -49,15 +49,16 @@ class TetSet {
     }
   }
 
-  std::vector<std::uint32_t> table_ = std::vector(64, kFree);  // a power of two of them, half of it in use at most
+  std::vector<std::uint32_t> table_ = std::vector(64, kFree);  // size: a power of two, at most half of it used
   std::size_t size_ = 0;
 };
 
-// Whether turning over the sign of a tetrahedron moves the mesh from one part of its boundary to the other and changes
-// nothing else, as at a simple point of a digital image (Kong and Rosenfeld, Digital topology, 1989). Certain only when
-// true: one, two or three of its facets are in the mesh, a disk; every edge on the rim of this disk has one facet more,
-// and no other facet is at an edge of the tetrahedron. So each edge keeps what two facets it has, or gets or loses
-// both, and each vertex keeps its umbrellas but for one of three facets that comes or goes with its three edges.
+// Whether a flip of the tetrahedron's sign only moves the mesh from one part of its boundary to the other, as at a
+// simple point of a digital image (Kong and Rosenfeld, Digital topology, 1989). Certain only when true. The condition:
+// one, two or three of its facets are in the mesh (a disk); every edge on the rim of this disk has exactly one further
+// facet; and no other facet is at an edge of the tetrahedron. So an edge keeps its two facets, or gains or loses both.
+// A vertex keeps its umbrellas; only the common vertex of three facets gains or loses one, together with its three
+// edges.
 class SimpleTet {
  public:
   explicit SimpleTet(const SignedDelaunay& restricted) : restricted_(restricted), delaunay_(restricted.delaunay()) {}
@@ -80,13 +81,13 @@ class SimpleTet {
  private:
   static constexpr int kMany = 3;
 
-  // How many facets of the mesh are at the edge that faces i and j of t have in common; kMany for more than two and
-  // where there are virtual vertices.
+  // The number of facets of the mesh at the common edge of faces i and j of t; kMany for more than two, or if there are
+  // virtual vertices around the edge.
   [[nodiscard]] int facets_around(TetId t, unsigned i, unsigned j) const {
     int count = 0;
     bool is_above = restricted_.is_above(t);
     FacetId out(t, i);
-    VertexId third = delaunay_.vertices(t)[j];  // of `out`, beside the edge
+    VertexId third = delaunay_.vertices(t)[j];  // the vertex of `out` that is not on the edge
     for (;;) {
       const FacetId in = delaunay_.mirror(out);
       if (restricted_.is_above(in.tet()) != is_above && ++count == kMany) return kMany;
@@ -102,8 +103,9 @@ class SimpleTet {
   const Tetrahedralization& delaunay_;
 };
 
-// V - E + F of the simplices of the mesh whose vertices all belong to a tetrahedron. Its sign changes nothing
-// else: an umbrella, which is a vertex of the mesh, lies in the star of its vertex, an edge's facets around the edge.
+// V - E + F of those simplices of the mesh whose vertices all belong to a tetrahedron. The tetrahedron's sign
+// influences no other simplex: the umbrellas of a vertex (the vertices of the mesh) lie in its star, the facets at an
+// edge around the edge.
 class LocalMesh {
  public:
   LocalMesh(const SignedDelaunay& restricted, TetId t) : restricted_(restricted), delaunay_(restricted.delaunay()) {
@@ -112,7 +114,7 @@ class LocalMesh {
     }
   }
 
-  // Twice the characteristic: an edge counts half for each of its two sides.
+  // Twice the characteristic: each of the two sides of an edge counts half.
   [[nodiscard]] std::int64_t doubled_characteristic() {
     std::int64_t doubled = 0;
     for (const Star& star : vertices_) {
@@ -127,7 +129,7 @@ class LocalMesh {
  private:
   struct Star {
     VertexId vertex;
-    std::size_t first, last;  // of the tetrahedra around it, in stars_
+    std::size_t first, last;  // range of the tetrahedra around it in stars_
   };
 
   [[nodiscard]] bool holds(VertexId v) const {
@@ -151,7 +153,7 @@ class LocalMesh {
   DisjointSets umbrellas_;       // of these
 };
 
-// A vertex with the tetrahedra around it, one of which is known.
+// Adds a vertex and the tetrahedra around it, one of which is `from`.
 void LocalMesh::add(VertexId v, TetId from) {
   const std::size_t first = stars_.size();
   in_star_.clear();
@@ -181,7 +183,7 @@ void LocalMesh::find_facets_around(const Star& star) {
   }
 }
 
-// Classes of the facets around v that are joined across edges at v.
+// Counts the classes of facets around v that are joined across edges at v.
 std::int64_t LocalMesh::count_umbrellas(VertexId v) {
   umbrellas_.reset(facets_.size());
   auto umbrellas = static_cast<std::int64_t>(facets_.size());
@@ -197,7 +199,8 @@ std::int64_t LocalMesh::count_umbrellas(VertexId v) {
   return umbrellas;
 }
 
-// What a facet counts for, with its sides; at one of its vertices only, the first of those that are held.
+// The contribution of a facet and its sides. It is counted at one vertex only: the first of its vertices that belongs
+// to the tetrahedron.
 std::int64_t LocalMesh::doubled_facet(FacetId f, VertexId at) const {
   const std::array<VertexId, 3> v = delaunay_.facet_vertices(f);
   if (*std::find_if(v.begin(), v.end(), [&](VertexId q) { return holds(q); }) != at) return 0;
@@ -217,9 +220,9 @@ std::int64_t euler_change(SignedDelaunay& restricted, TetId t) {
   if (SimpleTet(restricted)(t)) return 0;  // nearly always
   LocalMesh local(restricted, t);
   const std::int64_t before = local.doubled_characteristic();
-  restricted.overturn_sign(t);
+  restricted.flip_sign(t);
   const std::int64_t after = local.doubled_characteristic();
-  restricted.overturn_sign(t);
+  restricted.flip_sign(t);
   return (after - before) / 2;
 }
 

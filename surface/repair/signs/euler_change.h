@@ -1,4 +1,5 @@
-// How the Euler characteristic of the mesh changes with the sign of a tetrahedron, without building the mesh.
+// The change of the mesh's Euler characteristic when the sign of a tetrahedron is flipped, computed without building
+// the mesh.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,8 @@
 
 namespace deliso {
 
-// By how much the Euler characteristic of the mesh (build_triangle_mesh.h), all its pieces together, changes when the
-// sign of this tetrahedron is turned over. `restricted` is the same afterwards as before.
+// The change of the Euler characteristic of the mesh (build_triangle_mesh.h), all its pieces together, when the sign of
+// this tetrahedron is flipped. `restricted` is unchanged afterwards.
 std::int64_t euler_change(SignedDelaunay& restricted, TetId t);
 
 }  // namespace deliso

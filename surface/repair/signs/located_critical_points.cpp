@@ -10,14 +10,14 @@ namespace deliso {
 
 namespace {
 
-// Places that one thread looks for at a time.
-constexpr std::size_t kPlacesAtOnce = 4096;
+// The number of points that a thread locates at a time.
+constexpr std::size_t kPointsAtOnce = 4096;
 
-void append_places(const Isosurface& isosurface, const CellIndex& cell, std::vector<LocatedCriticalPoint>& places) {
+void append_points(const Isosurface& isosurface, const CellIndex& cell, std::vector<LocatedCriticalPoint>& points) {
   const ScalarGrid& grid = isosurface.grid();
   const auto append = [&](const Vec3& uvw, bool is_above) {
     const Vec3 p{cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z};
-    places.push_back({scaled(p, isosurface.step()), cell, is_above});
+    points.push_back({scaled(p, isosurface.step()), cell, is_above});
   };
   const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
   std::vector<CriticalPoint> saddles;
@@ -36,36 +36,36 @@ void append_places(const Isosurface& isosurface, const CellIndex& cell, std::vec
 }  // namespace
 
 void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) {
-  // A cell whose places are known is left alone; one that was found to have none is asked again.
+  // Cells whose points are known are skipped; cells without points are searched again.
   std::vector<CellIndex> asked;
-  auto known = places_.begin();
+  auto known = points_.begin();
   for (const CellIndex& cell : cells) {
-    while (known != places_.end() && is_before(known->cell, cell)) ++known;
-    if (known == places_.end() || known->cell != cell) asked.push_back(cell);
+    while (known != points_.end() && is_before(known->cell, cell)) ++known;
+    if (known == points_.end() || known->cell != cell) asked.push_back(cell);
   }
   const Isosurface& isosurface = restricted_.isosurface();
   add(collect_in_blocks<LocatedCriticalPoint>(
       asked.size(), threads,
-      [&](std::size_t i, std::vector<LocatedCriticalPoint>& places) { append_places(isosurface, asked[i], places); }));
+      [&](std::size_t i, std::vector<LocatedCriticalPoint>& points) { append_points(isosurface, asked[i], points); }));
 }
 
-// Those of cells that had none.
+// Merges the points of cells that had none before.
 void LocatedCriticalPoints::add(const std::vector<LocatedCriticalPoint>& found) {
-  std::vector<LocatedCriticalPoint> places;
+  std::vector<LocatedCriticalPoint> points;
   std::vector<TetId> tets;
-  places.reserve(places_.size() + found.size());
-  tets.reserve(places.capacity());
+  points.reserve(points_.size() + found.size());
+  tets.reserve(points.capacity());
   auto next = found.begin();
-  for (std::size_t i = 0; i <= places_.size(); ++i) {
-    for (; next != found.end() && (i == places_.size() || is_before(next->cell, places_[i].cell)); ++next) {
-      places.push_back(*next);
+  for (std::size_t i = 0; i <= points_.size(); ++i) {
+    for (; next != found.end() && (i == points_.size() || is_before(next->cell, points_[i].cell)); ++next) {
+      points.push_back(*next);
       tets.push_back(TetId::none());
     }
-    if (i == places_.size()) break;
-    places.push_back(places_[i]);
+    if (i == points_.size()) break;
+    points.push_back(points_[i]);
     tets.push_back(tets_[i]);
   }
-  places_ = std::move(places);
+  points_ = std::move(points);
   tets_ = std::move(tets);
 }
 
@@ -83,11 +83,11 @@ void LocatedCriticalPoints::locate(std::span<const std::uint32_t> wanted, int th
       [&](std::size_t first, std::size_t last) {
         TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
         for (const std::uint32_t i : wanted.subspan(first, last - first)) {
-          if (tets_[i].is_none()) tets_[i] = located(places_[i], hint);
+          if (tets_[i].is_none()) tets_[i] = located(points_[i], hint);
           hint = tets_[i];
         }
       },
-      kPlacesAtOnce);
+      kPointsAtOnce);
 }
 
 TetId LocatedCriticalPoints::located(const LocatedCriticalPoint& place, TetId hint) const {

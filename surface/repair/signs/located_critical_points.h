@@ -1,8 +1,8 @@
 // Saddles and critical samples of the field, and the tetrahedra that hold them.
 //
-// There the topology of the isosurface is decided, and the exact side of each is known. Where they are depends on the
-// volume alone: they are found once, in the cells that are asked for. A tetrahedron is looked for when it is asked for,
-// and again only as points are exchanged.
+// The topology of the isosurface is decided at these points, and the side of each is known exactly. Their positions
+// depend on the volume alone: they are computed once, in the cells that are requested. The tetrahedron of a point is
+// searched when it is requested, and again only after an exchange of points.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace deliso {
 
 struct LocatedCriticalPoint {
   Vec3 point;      // in mesh space
-  CellIndex cell;  // that it was found in; a sample is found in each of its cells
+  CellIndex cell;  // the cell in which it was found; a sample is found in each of its cells
   bool is_above = false;
 };
 
@@ -32,16 +32,16 @@ class LocatedCriticalPoints {
   // Keeps a reference.
   explicit LocatedCriticalPoints(const SignedDelaunay& restricted) : restricted_(restricted) {}
 
-  // Takes account of an exchange of points.
+  // Updates the stored tetrahedra after an exchange of points.
   void renew(const ExchangedPoints& exchanged);
 
-  // Finds those of some cells (x fastest); the same for any number of threads.
+  // Finds the points of some cells (x fastest); the same for any number of threads.
   void find(std::span<const CellIndex> cells, int threads);
-  // Of all cells that have been asked for, cell by cell, x fastest.
-  [[nodiscard]] const std::vector<LocatedCriticalPoint>& places() const { return places_; }
-  // Finds the tetrahedra of these places (ascending); the same for any number of threads.
+  // The points of all cells requested so far, cell by cell, x fastest.
+  [[nodiscard]] const std::vector<LocatedCriticalPoint>& points() const { return points_; }
+  // Finds the tetrahedra of these points (ascending indices); the same for any number of threads.
   void locate(std::span<const std::uint32_t> wanted, int threads);
-  // That holds a place which has been located, towards its cell's center.
+  // The tetrahedron that holds a located point, in the direction of its cell's center.
   [[nodiscard]] TetId tet(std::uint32_t place) const { return tets_[place]; }
 
  private:
@@ -49,8 +49,8 @@ class LocatedCriticalPoints {
   [[nodiscard]] TetId located(const LocatedCriticalPoint& place, TetId hint) const;
 
   const SignedDelaunay& restricted_;
-  std::vector<LocatedCriticalPoint> places_;
-  std::vector<TetId> tets_;  // of each place, as far as it has been asked for
+  std::vector<LocatedCriticalPoint> points_;
+  std::vector<TetId> tets_;  // of each point, as far as it was requested
 };
 
 }  // namespace deliso

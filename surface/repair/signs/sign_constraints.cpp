@@ -14,13 +14,13 @@ namespace deliso {
 
 namespace {
 
-// Segments are followed down to this length (mesh-space units); shorter passages through a tetrahedron may be missed.
+// Segments are halved down to this length (mesh-space units); a shorter passage through a tetrahedron may be missed.
 constexpr double kShortest = 1.0 / 64;
 
-// Cells that one thread takes at a time.
+// The number of cells that a thread takes at a time.
 constexpr std::size_t kCellsAtOnce = 64;
 
-Vec3 corner_place(unsigned corner) {
+Vec3 corner_position(unsigned corner) {
   return {static_cast<double>(corner & 1u), static_cast<double>(corner >> 1 & 1u), static_cast<double>(corner >> 2)};
 }
 
@@ -33,7 +33,7 @@ class Collector {
         sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
-  // Returns the tetrahedra that the evidence was found in.
+  // Notes the constraints from the segments of a cell; returns the tetrahedra that the segments cross.
   std::vector<TetId> collect(const CellIndex& cell);
 
  private:
@@ -42,15 +42,15 @@ class Collector {
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   TetId note(const Vec3& p, std::uint8_t side);
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-    return note(place(cell, corner_place(corner)), side);
+    return note(position(cell, corner_position(corner)), side);
   }
   void note_located(const Vec3& p, std::uint8_t side);
-  // Several collectors may note at once; what is noted does not depend on the order.
+  // Several collectors may call this at the same time; the result does not depend on the order.
   void note_at(TetId t, std::uint8_t side) {
     const std::atomic_ref<std::uint8_t> noted(sides_[t.index()]);
     if ((noted.load(std::memory_order_relaxed) & side) == 0) noted.fetch_or(side, std::memory_order_relaxed);
   }
-  [[nodiscard]] Vec3 place(const CellIndex& cell, const Vec3& uvw) const {
+  [[nodiscard]] Vec3 position(const CellIndex& cell, const Vec3& uvw) const {
     return scaled({cell[0] + uvw.x, cell[1] + uvw.y, cell[2] + uvw.z}, restricted_.isosurface().step());
   }
   [[nodiscard]] std::uint8_t side_of(double value) const {
@@ -60,17 +60,17 @@ class Collector {
   const SignedDelaunay& restricted_;
   const Tetrahedralization& delaunay_;
   const ScalarGrid& grid_;
-  std::vector<std::uint8_t>& sides_;  // shared
+  std::vector<std::uint8_t>& sides_;  // shared by all collectors
   TetId hint_;
   std::vector<CriticalPoint> critical_;
-  // Of the present cell:
+  // State of the current cell:
   Vec3 center_;
   std::vector<TetId> trace_;
 };
 
 std::vector<TetId> Collector::collect(const CellIndex& cell) {
   trace_.clear();
-  center_ = place(cell, {0.5, 0.5, 0.5});
+  center_ = position(cell, {0.5, 0.5, 0.5});
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   collect_edges(cell, corners);
   collect_critical_points(cell, corners);
@@ -87,12 +87,13 @@ void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners)
       if (side != side_of(corners[corner | axis])) continue;
       const TetId at_a = note_corner(cell, corner, side);
       const TetId at_b = note_corner(cell, corner | axis, side);
-      follow(place(cell, corner_place(corner)), at_a, place(cell, corner_place(corner | axis)), at_b, side);
+      follow(position(cell, corner_position(corner)), at_a, position(cell, corner_position(corner | axis)), at_b, side);
     }
   }
 }
 
-// Saddles of faces, joined to the corners of their face that lie farther on their side; saddles of the body alone.
+// Saddles of faces with the segments to the corners of their face that lie farther on their side; saddles of the body
+// as points.
 void Collector::collect_critical_points(const CellIndex& cell, const CellCorners& corners) {
   critical_.clear();
   append_critical_points(corners, critical_);
@@ -100,7 +101,7 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
     const int known = side_of_saddle(corners, restricted_.isosurface().isovalue(), c);
     if (known == 0) continue;
     const std::uint8_t side = known > 0 ? kAbove : kBelow;
-    const Vec3 p = place(cell, c.uvw);
+    const Vec3 p = position(cell, c.uvw);
     note(p, side);
     if (c.face < 0) continue;
     for (const int corner : face_corners(c.face)) {
@@ -108,13 +109,13 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
       if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
         const TetId at_p = note(p, side);
         const TetId at_corner = note_corner(cell, static_cast<unsigned>(corner), side);
-        follow(p, at_p, place(cell, corner_place(static_cast<unsigned>(corner))), at_corner, side);
+        follow(p, at_p, position(cell, corner_position(static_cast<unsigned>(corner))), at_corner, side);
       }
     }
   }
 }
 
-// Halves the segment until both ends lie in one tetrahedron.
+// Halves the segment until both ends lie in one tetrahedron, and notes the middle points.
 void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
   if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest) return;
   const Vec3 middle = 0.5 * (a + b);
@@ -129,8 +130,8 @@ TetId Collector::note(const Vec3& p, std::uint8_t side) {
   return hint_;
 }
 
-// The tetrahedron that holds p takes note, and so does the ghost behind a facet on the box that p lies on. Other ghosts
-// do not: what lies beyond the hull says nothing about it.
+// Notes the side at the tetrahedron that holds p and, if p lies on the box, at the ghost behind a facet that contains
+// p. Other ghosts get no constraint: points beyond the hull say nothing about the hull.
 void Collector::note_located(const Vec3& p, std::uint8_t side) {
   trace_.push_back(hint_);
   if (delaunay_.is_ghost(hint_)) return;
@@ -158,7 +159,7 @@ void SignConstraints::renew(const ExchangedPoints& exchanged) {
   for (const TetId t : exchanged.renewed) {
     forget(t);
     if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
-    // What a ghost took note of came from the tetrahedron before it.
+    // The constraints of a ghost came from the tetrahedron in front of it.
     for (unsigned face = 0; face < 4; ++face) {
       if (delaunay.is_ghost(delaunay.neighbour(t, face))) forget(delaunay.neighbour(t, face));
     }
@@ -170,14 +171,14 @@ void SignConstraints::renew(const ExchangedPoints& exchanged) {
   }
 }
 
-void SignConstraints::update(const CellLevels& raised, int threads) {
+void SignConstraints::update(const CellLevels& cell_levels, int threads) {
   sides_.resize(restricted_.delaunay().tet_slots(), kNoConstraint);
-  // Cells that have been raised once stay so.
+  // Refined cells stay refined.
   std::vector<Trace> traces;
-  traces.reserve(raised.levels().size());
+  traces.reserve(cell_levels.levels().size());
   std::vector<std::size_t> stale;
   auto old = traces_.begin();
-  for (const auto& [name, level] : raised.levels()) {
+  for (const auto& [name, level] : cell_levels.levels()) {
     if (old != traces_.end() && old->cell == name) {
       traces.push_back(std::move(*old++));
     } else {
@@ -187,14 +188,14 @@ void SignConstraints::update(const CellLevels& raised, int threads) {
   }
   traces_ = std::move(traces);
 
-  // What a cell notes in tetrahedra that are as they were has been noted before.
+  // Constraints that a cell notes again in unchanged tetrahedra are the same as before.
   for_each_block(
       stale.size(), threads,
       [&](std::size_t first, std::size_t last) {
         Collector collector(restricted_, grid_, sides_);
         for (std::size_t i = first; i < last; ++i) {
           Trace& trace = traces_[stale[i]];
-          trace.tets = collector.collect(raised.cell(trace.cell));
+          trace.tets = collector.collect(cell_levels.cell(trace.cell));
           trace.is_stale = false;
         }
       },

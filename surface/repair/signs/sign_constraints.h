@@ -1,10 +1,11 @@
-// Where the field is known to keep to one side of the isovalue, and which tetrahedra that concerns.
+// Segments along which the field stays on one side of the isovalue, and the sign constraints that follow for the
+// tetrahedra they cross.
 //
-// Between two samples on the same side a grid edge keeps to that side, for the interpolant is linear there. From a
-// saddle of a cell face the interpolant is monotone along the segments to the corners of the face, so those to the
-// corners that lie farther on the saddle's own side keep to it. These segments tell what is joined to what within a
-// cell: a tetrahedron that one of them crosses must have its sign, or the mesh cuts apart what belongs together. All
-// vertices lie on the isosurface, so a tetrahedron that segments of both sides cross is too large for the surface
+// Between two samples on the same side a grid edge stays on that side, because the interpolant is linear along it. From
+// a saddle of a cell face the interpolant is monotone along the segments to the corners of the face. So the segments to
+// the corners that lie farther on the saddle's own side stay on that side. These segments show what is connected within
+// a cell. A tetrahedron that one of them crosses must have its sign, or the mesh would separate connected regions. All
+// vertices lie on the isosurface, so a tetrahedron crossed by segments of both sides is too large for the surface
 // around it.
 #pragma once
 
@@ -17,26 +18,26 @@
 
 namespace deliso {
 
-// Of each tetrahedron (by slot): which sides segments of the raised cells that cross it lie on.
+// The constraint of a tetrahedron: the sides of the segments of refined cells that cross it.
 enum SignConstraint : std::uint8_t { kNoConstraint = 0, kAbove = 1, kBelow = 2, kConflict = 3 };
 
-// Keeps the evidence of the raised cells up to date as points are exchanged and cells raised: only cells that are new,
-// or whose segments cross tetrahedra that are, are gone through.
+// Keeps the constraints up to date while points are exchanged and cells refined. Only cells that are new, or whose
+// segments cross new tetrahedra, are visited.
 class SignConstraints {
  public:
   // Keeps references.
   SignConstraints(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
 
-  // Takes account of an exchange of points; update() is to follow.
+  // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
-  // Takes account of the cells that are raised by now. The same for any number of threads.
-  void update(const CellLevels& raised, int threads = 1);
+  // Updates the constraints for the cells refined by now. The same for any number of threads.
+  void update(const CellLevels& cell_levels, int threads = 1);
 
-  // Of each slot.
+  // The constraint of each slot.
   [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }
 
  private:
-  // The tetrahedra, ghosts included, that a cell's evidence was found in, ascending.
+  // The tetrahedra, ghosts included, that the segments of a cell cross, ascending.
   struct Trace {
     CellName cell = 0;
     std::vector<TetId> tets;
@@ -46,7 +47,7 @@ class SignConstraints {
   const SignedDelaunay& restricted_;
   const ScalarGrid& grid_;
   std::vector<std::uint8_t> sides_;
-  std::vector<Trace> traces_;  // of the raised cells, ascending
+  std::vector<Trace> traces_;  // of the refined cells, ascending
 };
 
 }  // namespace deliso

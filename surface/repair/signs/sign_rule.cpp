@@ -11,15 +11,17 @@ namespace deliso {
 
 namespace {
 
-// Tetrahedra with an edge longer than this (mesh-space units) keep the sign of their circumcenter everywhere.
+// A tetrahedron is small if no edge is longer than this (mesh-space units). The others keep the sign of their
+// circumcenter everywhere.
 constexpr double kLongEdge = 2;
 
 struct Shape {
-  Vec3 centroid;  // of a small one
+  Vec3 centroid;  // set if it is small
   bool is_small = false;
 };
 
-// Of a ghost behind a facet on the box: that of the facet, for there the surface's boundary curve is decided.
+// The shape of a tetrahedron. A ghost behind a facet on the box has the shape of this facet: its sign decides the
+// boundary curve of the surface.
 Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   const Tetrahedralization& delaunay = restricted.delaunay();
   const auto& v = delaunay.vertices(t);
@@ -38,7 +40,7 @@ Shape shape_of(const SignedDelaunay& restricted, TetId t) {
   return {centroid, true};
 }
 
-// A set of cells behind a sieve that holds back nearly all others.
+// A set of cells with a bit table in front (a Bloom filter), which rejects nearly all cells that are not in the set.
 class CellSet {
  public:
   explicit CellSet(const std::vector<CellName>& cells) : cells_(cells.begin(), cells.end()), sieve_(kHoles, false) {
@@ -57,65 +59,65 @@ class CellSet {
 
 }  // namespace
 
-SignRule::SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads)
-    : restricted_(restricted), raised_(raised), threads_(threads), evidence_(restricted, grid) {
+SignRule::SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& cell_levels, int threads)
+    : restricted_(restricted), cell_levels_(cell_levels), threads_(threads), constraints_(restricted, grid) {
   update();
 }
 
 void SignRule::renew(const ExchangedPoints& exchanged) {
-  evidence_.renew(exchanged);
+  constraints_.renew(exchanged);
   renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
 }
 
 void SignRule::update() {
-  evidence_.update(raised_, threads_);
-  by_evidence_.clear();
-  const std::vector<std::uint8_t>& sides = evidence_.sides();
+  constraints_.update(cell_levels_, threads_);
+  by_constraint_.clear();
+  const std::vector<std::uint8_t>& sides = constraints_.sides();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i] != kAbove && sides[i] != kBelow) continue;
-    if (shape_of(restricted_, TetId(i)).is_small) by_evidence_.emplace_back(TetId(i), sides[i] == kAbove);
+    if (shape_of(restricted_, TetId(i)).is_small) by_constraint_.emplace_back(TetId(i), sides[i] == kAbove);
   }
   update_by_centroid();
 }
 
-void SignRule::update_homes() {
-  const auto find_home = [&](TetId t) {
+void SignRule::update_centroid_cells() {
+  const auto find_cell = [&](TetId t) {
     const Shape shape = restricted_.delaunay().is_live(t) ? shape_of(restricted_, t) : Shape{};
-    homes_[t.index()] = shape.is_small ? raised_.name(raised_.cell_of(shape.centroid)) : kNoCell;
+    centroid_cells_[t.index()] = shape.is_small ? cell_levels_.name(cell_levels_.cell_of(shape.centroid)) : kNoCell;
   };
-  const bool is_first = homes_.empty();
-  homes_.resize(restricted_.delaunay().tet_slots(), kNoCell);
+  const bool is_first = centroid_cells_.empty();
+  centroid_cells_.resize(restricted_.delaunay().tet_slots(), kNoCell);
   if (!is_first) {
-    for (const TetId t : renewed_) find_home(t);
+    for (const TetId t : renewed_) find_cell(t);
     return;
   }
-  for_each_block(homes_.size(), threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) find_home(TetId(i));
+  for_each_block(centroid_cells_.size(), threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) find_cell(TetId(i));
   });
 }
 
-// Only tetrahedra that are new or whose cell has come into the zone have anything new to say.
+// Only the tetrahedra that are new or whose cell has entered the zone need a sign at their centroid.
 void SignRule::update_by_centroid() {
-  const CellSet added(raised_.extend(zone_));
-  update_homes();
-  std::vector<bool> is_renewed(homes_.size(), false);
+  const CellSet added(cell_levels_.extend(zone_));
+  update_centroid_cells();
+  std::vector<bool> is_renewed(centroid_cells_.size(), false);
   for (const TetId t : renewed_) is_renewed[t.index()] = true;
   renewed_.clear();
   std::erase_if(by_centroid_, [&](const auto& sign) { return is_renewed[sign.first.index()]; });
   const auto append_if_new = [&](std::size_t i, Signs& signs) {
     const TetId t(i);
-    if (homes_[i] == kNoCell) return;
-    if (!added.contains(homes_[i]) && !(is_renewed[i] && zone_.cells.contains(homes_[i]))) return;
+    if (centroid_cells_[i] == kNoCell) return;
+    if (!added.contains(centroid_cells_[i]) && !(is_renewed[i] && zone_.cells.contains(centroid_cells_[i]))) return;
     signs.emplace_back(t, restricted_.isosurface().is_above(shape_of(restricted_, t).centroid));
   };
-  const Signs found = collect_in_blocks<Signs::value_type>(homes_.size(), threads_, append_if_new);
+  const Signs found = collect_in_blocks<Signs::value_type>(centroid_cells_.size(), threads_, append_if_new);
   by_centroid_.insert(by_centroid_.end(), found.begin(), found.end());
 }
 
 void SignRule::take_signs(const TetSigns& at_circumcenters) {
   restricted_.set_signs(at_circumcenters);
   for (const auto& [tet, is_above] : by_centroid_) restricted_.set_sign(tet, is_above);
-  for (const auto& [tet, is_above] : by_evidence_) restricted_.set_sign(tet, is_above);
+  for (const auto& [tet, is_above] : by_constraint_) restricted_.set_sign(tet, is_above);
 }
 
 }  // namespace deliso

@@ -1,8 +1,8 @@
-// Which sign a tetrahedron takes where repair has sampled finely.
+// The sign of a tetrahedron in cells that repair has refined.
 //
-// The circumcenter of a flat tetrahedron in a thin wedge lies far outside the wedge, so in raised cells and the ring
-// around them the centroid of a small tetrahedron is asked. Elsewhere the circumcenter is right: on a smooth, densely
-// sampled sheet flat tetrahedra get random signs from their centroids.
+// The circumcenter of a flat tetrahedron in a thin wedge lies far outside the wedge. So in refined cells and the ring
+// of cells around them a small tetrahedron takes the sign of the field at its centroid. Elsewhere the sign at the
+// circumcenter is right: on a smooth, densely sampled sheet the centroids of flat tetrahedra give random signs.
 #pragma once
 
 #include <utility>
@@ -14,40 +14,41 @@
 
 namespace deliso {
 
-// For one triangulation and the raised cells. What is found is found again only where points have been exchanged or
-// cells raised.
+// The rule for one triangulation and its refined cells. Data are updated only where points were exchanged or cells
+// refined.
 class SignRule {
  public:
-  // Keeps references. What is found does not depend on the number of threads.
-  SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& raised, int threads);
+  // Keeps references. The result does not depend on the number of threads.
+  SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& cell_levels, int threads);
 
-  // Takes account of an exchange of points; update() is to follow.
+  // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
-  // Takes account of the cells that are raised by now.
+  // Updates the data for the cells refined by now.
   void update();
 
-  // Gives every tetrahedron its sign: by `at_circumcenters` (SignedDelaunay::signs) or by its centroid; then each small
-  // one that segments of known side cross takes their side, which the rule may not overrule.
+  // Sets the sign of every tetrahedron: first that in `at_circumcenters` (SignedDelaunay::signs) or, in the zone of
+  // refined cells, that at its centroid. Then a small tetrahedron whose sign constraint is one side takes this side,
+  // whatever the rule says.
   void take_signs(const TetSigns& at_circumcenters);
 
-  // What is known of the sides in each tetrahedron (sign_constraints.h).
-  [[nodiscard]] const std::vector<std::uint8_t>& evidence() const { return evidence_.sides(); }
+  // The sign constraint of each tetrahedron, by slot (sign_constraints.h).
+  [[nodiscard]] const std::vector<std::uint8_t>& constraints() const { return constraints_.sides(); }
 
  private:
-  using Signs = std::vector<std::pair<TetId, bool>>;  // tetrahedra, and whether they are above
+  using Signs = std::vector<std::pair<TetId, bool>>;  // tetrahedra, and whether their sign is above
   static constexpr CellName kNoCell = ~CellName{0};
-  void update_homes();
+  void update_centroid_cells();
   void update_by_centroid();
 
   SignedDelaunay& restricted_;
-  const CellLevels& raised_;
+  const CellLevels& cell_levels_;
   int threads_;
-  SignConstraints evidence_;
-  Signs by_evidence_;            // of small tetrahedra with evidence of one side
-  Signs by_centroid_;            // of small tetrahedra in the zone
-  std::vector<CellName> homes_;  // of each slot: the cell that holds a small tetrahedron's centroid
-  CellLevels::Zone zone_;        // as of the last update
-  std::vector<TetId> renewed_;   // since then
+  SignConstraints constraints_;
+  Signs by_constraint_;                   // of small tetrahedra whose constraint is one side
+  Signs by_centroid_;                     // of small tetrahedra in the zone
+  std::vector<CellName> centroid_cells_;  // of each slot: the cell of the centroid of a small tetrahedron, or kNoCell
+  CellLevels::Zone zone_;                 // as of the last update
+  std::vector<TetId> renewed_;            // slots renewed since the last update
 };
 
 }  // namespace deliso

@@ -15,10 +15,10 @@ namespace deliso {
 
 namespace {
 
-// A tetrahedron is flat when its height is below so much of its size: far more than rounding makes of a plane, and far
-// less than where signs mean something.
+// A tetrahedron is flat when its height is below this fraction of its size. This is far more than the rounding of a
+// plane, and far less than the height from which signs are meaningful.
 constexpr double kFlatness = 1e-9;
-// What it is worth to keep a sign, as a part of the area of the tetrahedron's facets: more than rounding makes of equal
+// The cost of changing a sign, as a fraction of the area of the tetrahedron's facets: more than the rounding of equal
 // areas.
 constexpr double kWorthOfKeeping = 1e-6;
 
@@ -34,7 +34,7 @@ bool is_flat(const Tetrahedralization& delaunay, TetId t) {
   const Vec3& a = delaunay.point(v[0]);
   const Vec3 b = delaunay.point(v[1]) - a, c = delaunay.point(v[2]) - a, d = delaunay.point(v[3]) - a;
   const double determinant = std::abs(dot(cross(b, c), d));  // the height over any facet times twice its area
-  // Most are far from flat. No edge is longer than 2 size, so no facet has more than 4 size^2 of twice its area.
+  // Most tetrahedra are far from flat. No edge is longer than 2 size, so twice the area of a facet is at most 4 size^2.
   const double size = std::sqrt(std::max({squared_norm(b), squared_norm(c), squared_norm(d)}));
   if (determinant > 4 * kFlatness * size * size * size) return false;
   double largest = 0;
@@ -42,16 +42,16 @@ bool is_flat(const Tetrahedralization& delaunay, TetId t) {
   return determinant < kFlatness * size * largest;
 }
 
-// Its place in an ascending array.
-std::optional<std::uint32_t> place_of(std::span<const TetId> tets, TetId t) {
+// The index of t in an ascending array.
+std::optional<std::uint32_t> index_of(std::span<const TetId> tets, TetId t) {
   const auto at = std::lower_bound(tets.begin(), tets.end(), t);
   if (at == tets.end() || *at != t) return std::nullopt;
   return static_cast<std::uint32_t>(at - tets.begin());
 }
 
-// The signs of some tetrahedra with the least area of restricted facets, those around them being given: a least cut
-// between above and below of the graph whose nodes are the tetrahedra and whose edges are their facets. It is found by
-// flow along shortest paths (Edmonds and Karp 1972).
+// The signs of some tetrahedra for which the restricted facets have the least area, with the signs around them fixed.
+// This is a minimum cut between above and below in the graph whose nodes are the tetrahedra and whose edges are their
+// facets. It is found by augmenting flow along shortest paths (Edmonds and Karp 1972).
 class LeastCut {
  public:
   // `tets`: ascending.
@@ -63,7 +63,7 @@ class LeastCut {
         const double area = twice_area(delaunay, FacetId(tets[i], face));
         const TetId across = delaunay.neighbour(tets[i], face);
         all += area;
-        if (const auto j = place_of(tets, across); !j) {
+        if (const auto j = index_of(tets, across); !j) {
           join(i, restricted.is_above(across), area);
         } else if (*j > i) {
           add_arcs(kFirst + i, kFirst + *j, area, area);
@@ -85,7 +85,7 @@ class LeastCut {
     double room = 0;
   };
 
-  // The arc back has the number next to it.
+  // The reverse arc has the next number.
   void add_arcs(std::uint32_t from, std::uint32_t to, double there, double back) {
     arcs_of_[from].push_back(static_cast<std::uint32_t>(arcs_.size()));
     arcs_.push_back({to, there});
@@ -100,7 +100,8 @@ class LeastCut {
     }
   }
 
-  // From above to below where there is room; or else all that can be reached from above.
+  // Searches a path with remaining capacity from above to below. If there is none, reached_by_ marks the nodes that can
+  // be reached from above.
   bool finds_path() {
     reached_by_.assign(arcs_of_.size(), kNone);
     std::vector<std::uint32_t> open = {kAbove};
@@ -165,7 +166,7 @@ void SliverSigns::find_layers() {
     take(seed);
     for (std::size_t at = 0; at < layer.size(); ++at) {
       for (unsigned face = 0; face < 4; ++face) {
-        const auto next = place_of(flat_, restricted_.delaunay().neighbour(layer[at], face));
+        const auto next = index_of(flat_, restricted_.delaunay().neighbour(layer[at], face));
         if (next && !is_in_layer[*next]) take(*next);
       }
     }

@@ -1,4 +1,4 @@
-// Signs of tetrahedra that are flat but for rounding: they must not fold the surface back on itself.
+// Signs of slivers, tetrahedra that are flat but for rounding: they must not fold the surface back on itself.
 #pragma once
 
 #include <vector>
@@ -7,22 +7,22 @@
 
 namespace deliso {
 
-// Where the isosurface is plane, as that of a mask is, samples lie in one plane, and often on one circle, but for the
-// last bits of their coordinates; then tetrahedra of four of them have next to no height. Where their circumcenters and
-// centroids lie is a matter of rounding, and so are their signs. With the wrong ones the restricted facets pass through
-// a layer of such tetrahedra not once but three times: a fold by half a turn, whose triangles are apart only as long as
-// nobody rounds their corners again. So flat tetrahedra take those signs with which the restricted facets have the
-// least area; where that leaves a choice, they keep their own.
+// If the isosurface is plane, as that of a mask is, samples lie in one plane and often on one circle, except for the
+// last bits of their coordinates. Then a tetrahedron of four such samples has almost no height. Rounding alone decides
+// where its circumcenter and centroid lie, and so its sign. With wrong signs the restricted facets pass through a layer
+// of such tetrahedra three times instead of once: a fold by half a turn, whose triangles cross as soon as their corners
+// are rounded again. So the flat tetrahedra take those signs for which the restricted facets have the least area. Among
+// signs of equal area they keep their own.
 class SliverSigns {
  public:
   // Keeps a reference. The same for any number of threads.
   explicit SliverSigns(const SignedDelaunay& restricted, int threads = 1);
 
-  // Takes account of an exchange of points.
+  // Updates the list of flat tetrahedra after an exchange of points.
   void renew(const ExchangedPoints& exchanged);
-  // Gives the flat tetrahedra such signs, the others being as they are. `restricted` is that of the constructor.
+  // Sets these signs of the flat tetrahedra; the others keep theirs. `restricted` is that of the constructor.
   void settle(SignedDelaunay& restricted) const;
-  // The flat ones, ascending.
+  // The flat tetrahedra, ascending.
   [[nodiscard]] const std::vector<TetId>& tets() const { return flat_; }
 
  private:
@@ -30,7 +30,7 @@ class SliverSigns {
 
   const SignedDelaunay& restricted_;
   std::vector<TetId> flat_;
-  std::vector<std::vector<TetId>> layers_;  // sets that hang together over common facets, each ascending
+  std::vector<std::vector<TetId>> layers_;  // sets connected across common facets, each ascending
 };
 
 }  // namespace deliso

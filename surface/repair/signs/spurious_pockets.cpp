@@ -26,8 +26,8 @@ bool holds(const SignedDelaunay& restricted, TetId t, const Vec3& p) {
   return true;
 }
 
-// Whether a tetrahedron holds a sample on the side of its sign.
-bool is_founded(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId t) {
+// Whether a tetrahedron contains a sample whose side is the tetrahedron's sign.
+bool has_sample_of_its_sign(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId t) {
   const Isosurface& isosurface = restricted.isosurface();
   const Vec3& step = isosurface.step();
   Box3 box;
@@ -62,7 +62,7 @@ void SpuriousPockets::renew(const ExchangedPoints& exchanged) {
 }
 
 void SpuriousPockets::update() {
-  if (signs_.empty()) return look_everywhere();
+  if (signs_.empty()) return search_all();
   std::vector<bool> touched(signs_.size(), false);
   std::vector<TetId> seeds;
   const auto seed_at = [&](TetId t) {
@@ -80,43 +80,43 @@ void SpuriousPockets::update() {
   std::erase_if(pockets_, [&](const Pocket& pocket) {
     return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });
   });
-  Look look(signs_.size());
+  Search search(signs_.size());
   for (const TetId t : seeds) {
-    if (floods_pocket(t, look) && is_unfounded(look.flood)) pockets_.push_back(look.flood);
+    if (floods_pocket(t, search) && is_spurious(search.flood)) pockets_.push_back(search.flood);
   }
 }
 
-// Every share of the slots is looked at apart from the others, also beyond its ends; a pocket belongs to the one that
-// holds its first slot, from which that one floods it.
-void SpuriousPockets::look_everywhere() {
+// Every share of the slots is searched independently; its floods may leave the share. A pocket is found by the share
+// that holds its lowest slot, when that slot is the seed.
+void SpuriousPockets::search_all() {
   signs_.assign(delaunay_.tet_slots(), 0);
   restricted_.for_each_change(signs_, [](TetId) {});
   const Shares shares(signs_.size(), threads_);
   std::vector<std::vector<Pocket>> found(shares.count());
   shares.for_each(threads_, [&](std::size_t share, std::size_t first, std::size_t last) {
-    Look look(signs_.size());
+    Search search(signs_.size());
     for (std::size_t i = first; i < last; ++i) {
-      if (!floods_pocket(TetId(i), look)) continue;
-      const bool is_own = *std::min_element(look.flood.begin(), look.flood.end()) == TetId(i);
-      if (is_own && is_unfounded(look.flood)) found[share].push_back(look.flood);
+      if (!floods_pocket(TetId(i), search)) continue;
+      const bool is_own = *std::min_element(search.flood.begin(), search.flood.end()) == TetId(i);
+      if (is_own && is_spurious(search.flood)) found[share].push_back(search.flood);
     }
   });
   for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets_));
 }
 
-// Floods the face-connected set of tetrahedra of one sign around a seed that has not been seen, until it turns out to
-// be left alone.
-bool SpuriousPockets::floods_pocket(TetId seed, Look& look) const {
-  if (look.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
-  Pocket& flood = look.flood;
+// Floods the face-connected set of tetrahedra of one sign around an unseen seed. Returns false as soon as the set turns
+// out to be too large or to have a ghost.
+bool SpuriousPockets::floods_pocket(TetId seed, Search& search) const {
+  if (search.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
+  Pocket& flood = search.flood;
   flood.assign(1, seed);
-  look.state[seed.index()] = State::kPocket;
+  search.state[seed.index()] = State::kPocket;
   bool is_pocket = true;
   for (std::size_t at = 0; at < flood.size() && is_pocket; ++at) {
     is_pocket = !delaunay_.is_ghost(flood[at]);
     for (unsigned face = 0; face < 4 && is_pocket; ++face) {
       const TetId next = delaunay_.neighbour(flood[at], face);
-      State& state = look.state[next.index()];
+      State& state = search.state[next.index()];
       if (restricted_.is_above(next) != restricted_.is_above(seed) || state == State::kPocket) continue;
       is_pocket = state == State::kUnseen && flood.size() < kLargestPocket;
       if (!is_pocket) break;
@@ -125,19 +125,20 @@ bool SpuriousPockets::floods_pocket(TetId seed, Look& look) const {
     }
   }
   if (!is_pocket) {
-    for (const TetId t : flood) look.state[t.index()] = State::kLeftAlone;
+    for (const TetId t : flood) search.state[t.index()] = State::kExcluded;
   }
   return is_pocket;
 }
 
-bool SpuriousPockets::is_unfounded(const Pocket& pocket) const {
-  return std::none_of(pocket.begin(), pocket.end(), [&](TetId t) { return is_founded(restricted_, grid_, t); });
+bool SpuriousPockets::is_spurious(const Pocket& pocket) const {
+  return std::none_of(pocket.begin(), pocket.end(),
+                      [&](TetId t) { return has_sample_of_its_sign(restricted_, grid_, t); });
 }
 
-std::int64_t SpuriousPockets::overturn(SignedDelaunay& restricted) {
+std::int64_t SpuriousPockets::flip(SignedDelaunay& restricted) {
   update();
   for (const auto& pocket : pockets_) {
-    for (const TetId t : pocket) restricted.overturn_sign(t);
+    for (const TetId t : pocket) restricted.flip_sign(t);
   }
   return static_cast<std::int64_t>(pockets_.size());
 }

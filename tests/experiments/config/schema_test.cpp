@@ -1,5 +1,5 @@
-// The schema of parameters and their parser come from one table, but are they of one mind? A small validator of our own
-// decides.
+// The schema of parameters and their parser come from one table; these tests check that they accept the same documents,
+// with a small validator of our own.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -19,8 +19,8 @@ BuiltMesh checked_build(const SignedDelaunay& restricted) {
   EXPECT_EQ(built.vertex_of.size(), built.mesh.points.size());
   EXPECT_TRUE(std::is_sorted(built.copies.begin(), built.copies.end()));
 
-  // Copies share their vertex with another one and lie a hair from it; all others lie exactly on theirs, but for
-  // those put on a subdivided edge.
+  // Copies share their vertex with another one and lie at most 2e-4 from it; all others lie exactly on theirs, except
+  // those on a subdivided edge.
   const Tetrahedralization& delaunay = restricted.delaunay();
   std::map<std::uint32_t, int> uses;
   for (const VertexId v : built.vertex_of) ++uses[v.value];
@@ -64,7 +64,7 @@ TEST(BuildTriangleMesh, RandomSignsGiveOrientedManifoldsToo) {
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     Rng rng(seed);
     for (std::size_t i = 0; i < restricted.delaunay().tet_slots(); ++i) {
-      if (restricted.delaunay().is_live(TetId(i)) && rng.below(2 + seed % 5) == 0) restricted.overturn_sign(TetId(i));
+      if (restricted.delaunay().is_live(TetId(i)) && rng.below(2 + seed % 5) == 0) restricted.flip_sign(TetId(i));
     }
     checked_build(restricted);
   }
@@ -99,8 +99,8 @@ TEST(BuildTriangleMesh, TrianglesFaceLowerValues) {
   EXPECT_LE(against, built.mesh.triangles.size() / 200);
 }
 
-// Two tetrahedra above, edge to edge, all else below: the surface touches itself along one edge, and each side becomes
-// a closed sphere of its own or both one, but never an edge with four triangles.
+// Two tetrahedra above that share an edge, all others below: the surface touches itself along one edge. It may become
+// two closed spheres or one, but no edge may have four triangles.
 TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
   const auto scene = field_scene("sphere", 12);
   std::size_t pinched = 0;
@@ -110,7 +110,7 @@ TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
     std::vector<TetId> finite;
     for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
       if (!delaunay.is_live(TetId(i))) continue;
-      if (restricted.is_above(TetId(i))) restricted.overturn_sign(TetId(i));
+      if (restricted.is_above(TetId(i))) restricted.flip_sign(TetId(i));
       if (!delaunay.is_ghost(TetId(i))) finite.push_back(TetId(i));
     }
     Rng rng(seed);
@@ -121,8 +121,8 @@ TEST(BuildTriangleMesh, AnEdgeSharedByFourFacetsIsPulledApart) {
     const auto b = testing::name_of(delaunay, two);
     std::vector<std::uint32_t> shared;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(shared));
-    restricted.overturn_sign(one);
-    restricted.overturn_sign(two);
+    restricted.flip_sign(one);
+    restricted.flip_sign(two);
     const BuiltMesh built = checked_build(restricted);
     const auto components = test::mesh_facts(built.mesh.triangles).components;
     EXPECT_TRUE(std::all_of(components.begin(), components.end(), [](const auto& c) {

@@ -21,7 +21,7 @@ using testing::Scene;
 void turn_some(SignedDelaunay& restricted, std::uint64_t count, Rng& rng) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const TetId t(static_cast<std::size_t>(rng.below(restricted.delaunay().tet_slots())));
-    if (restricted.delaunay().is_live(t)) restricted.overturn_sign(t);
+    if (restricted.delaunay().is_live(t)) restricted.flip_sign(t);
   }
 }
 

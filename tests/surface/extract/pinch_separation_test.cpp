@@ -49,8 +49,8 @@ TEST(PinchSeparation, TetrahedraThatShareAnEdgeNoLongerTouch) {
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
 
-// A pyramid whose apex pierces a triangle that it has nothing to do with, unless it starts from its other home.
-TEST(PinchSeparation, AnotherHomeIsTakenWhereOneIsBeyondAForeignTriangle) {
+// A pyramid whose apex pierces an unrelated triangle, unless it starts from its other position.
+TEST(PinchSeparation, AnotherPositionIsTakenWhereTheOwnIsBeyondAnUnrelatedTriangle) {
   SurfaceMesh mesh;
   mesh.points = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {-3, -3, 0.5}, {3, -3, 0.5}, {0, 3, 0.5}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 6, 7}};
@@ -75,7 +75,7 @@ TEST(PinchSeparation, OnABoxFaceCopiesStayOnIt) {
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
 
-// Wanted vertices move as they do when all are wanted, whatever their neighbours in other pieces do.
+// Wanted vertices move exactly as they do when all are wanted, whatever their neighbours in other pieces do.
 TEST(PinchSeparation, WhatIsWantedMovesAsIfAllWere) {
   int stayed = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -38,8 +38,9 @@ std::vector<std::uint32_t> order_of(const std::vector<Box3>& boxes, int threads 
       std::move(places), [&](std::uint32_t i) { return centre(boxes[i]); }, threads);
 }
 
-// Parts as the header says: the left one of as many leaves as the largest power of two below all; no centre of it lies
-// farther along the longest side than one of the right one, but for the bits that few places are not told apart by.
+// Parts as the header says: the left part has as many leaves as the largest power of two below all. No centre of the
+// left part lies farther along the longest side than one of the right part, except within the bits that the split of
+// few positions ignores.
 void expect_halves(const std::vector<Box3>& boxes, const std::vector<std::uint32_t>& order, std::size_t first,
                    std::size_t last) {
   if (last - first <= 8) return;

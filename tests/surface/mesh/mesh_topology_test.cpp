@@ -90,7 +90,7 @@ TEST(MeshTopology, AgreesWithMapsOnAnySoup) {
   EXPECT_GT(non_manifold, 100);
 }
 
-// The link of v as a graph, walked by hand: one umbrella means that its edges hang together.
+// The link of v as a graph, walked by hand: one umbrella means that its edges are connected.
 bool has_several_umbrellas(const TriangleMesh& mesh, std::uint32_t v) {
   std::vector<std::array<std::uint32_t, 2>> link;
   for (const auto& t : mesh.triangles) {
@@ -178,8 +178,8 @@ void add_fan(TriangleMesh& mesh, std::uint32_t apex, std::uint32_t first, std::u
   for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({apex, first + i, first + (i + 1) % rim});
 }
 
-// Short fans, longer ones, and one longer than those that are walked: closed and whole; then cut open, and with one
-// triangle twice; at last two at one vertex.
+// Short fans, longer ones, and one longer than those that are walked: closed; then cut open; with one triangle twice;
+// and two fans at one vertex.
 TEST(MeshTopology, KnowsFansOfAnyLength) {
   for (const std::uint32_t rim : {3u, 4u, 7u, 8u, 9u, 15u, 16u, 17u, 1000u}) {
     SCOPED_TRACE(rim);

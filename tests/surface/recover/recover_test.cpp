@@ -196,7 +196,7 @@ TEST(Recover, LooksAtAnUmbrellaAgainAfterEachPoint) {
   }
 }
 
-// Points put in later are mended as if everything were looked at again; those refused stay out.
+// Points are inserted later: then no violation is left, and points that are refused stay out.
 TEST(Recover, WithMorePointsLeavesNoViolation) {
   for (const auto& scene : {field_scene("gyroid", 40), field_scene("bubbles", 24)}) {
     Recovered result = run(*scene, coarse_options());

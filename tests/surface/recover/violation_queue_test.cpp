@@ -90,7 +90,7 @@ TEST(ViolationQueue, KindsComeInThePapersOrderThenPowersOfTwoThenBlocksAndTheWor
   }
 }
 
-// What goes through other queues comes out where it would have come out here.
+// Violations that pass through other queues come out in the same order as without.
 TEST(ViolationQueue, WhatIsHandedOutAndPutBackKeepsItsPlace) {
   for (const QueueOrder order : {QueueOrder::kWorstFirst, QueueOrder::kFirstInFirstOut, QueueOrder::kLargestRadius}) {
     const std::vector<Pushed> list = random_violations(4);

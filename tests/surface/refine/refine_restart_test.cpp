@@ -1,4 +1,4 @@
-// Stage 2 begins again where triangles came to meet.
+// Stage 2 restarts where triangles came to meet.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,8 +21,8 @@ namespace {
 
 using testing::Scene;
 
-// A hill, a coarse mesh of it, and a small triangle that stands across the hill's surface, where the mesh does not
-// reach yet. The pole heights tell nothing of it, so the guard lets the mesh grow through it.
+// A hill, a coarse mesh of it, and a small triangle that crosses the hill's surface where the mesh does not reach yet.
+// The pole heights do not know of it, so the guard lets the mesh grow through it.
 struct CrossedHill {
   std::unique_ptr<Scene> scene;
   SurfaceMesh mesh;
@@ -96,10 +96,10 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
         refine_geometry(refined, isosurface, options, controls, stats);
         return stats;
       };
-      SurfaceMesh trusting = mesh;
+      SurfaceMesh unchecked = mesh;
       options.restart_at_crossings = false;
-      EXPECT_EQ(run(trusting).restarts, 0);
-      EXPECT_GT(meeting_triangles(trusting), 0);
+      EXPECT_EQ(run(unchecked).restarts, 0);
+      EXPECT_GT(meeting_triangles(unchecked), 0);
       options.restart_at_crossings = true;
       const RefineStats stats = run(mesh);
       EXPECT_GT(stats.restarts, 0);
@@ -110,9 +110,9 @@ TEST(RefineRestart, NothingMeetsAfterwards) {
   }
 }
 
-// A crossed hill after one pass, which does not look back at what it made.
-enum class Trust { kAsUsual, kNone };
-RefinementMesh refined_once(const Vec3& place, Trust trust, RefineStats& stats) {
+// A crossed hill after one pass without the final check for triangles that meet.
+enum class Clearances { kFromPoles, kZero };
+RefinementMesh refined_once(const Vec3& place, Clearances clearances, RefineStats& stats) {
   const auto [scene, mesh] = crossed_hill_at(place);
   RefinementPart part;
   part.mesh = RefinementMesh(mesh);
@@ -125,10 +125,10 @@ RefinementMesh refined_once(const Vec3& place, Trust trust, RefineStats& stats) 
   return std::move(part.mesh);
 }
 
-TEST(RefineRestart, WithNoTrustAtAllNothingComesToMeet) {
+TEST(RefineRestart, WithClearancesOfZeroNoTrianglesComeToMeet) {
   for (const Vec3& place : kPlaces) {
     RefineStats stats;
-    const RefinementMesh mesh = refined_once(place, Trust::kNone, stats);
+    const RefinementMesh mesh = refined_once(place, Clearances::kZero, stats);
     EXPECT_GT(stats.insertions, 30);
     const SelfIntersections found = meeting_pairs(mesh, 1);
     EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
@@ -138,7 +138,7 @@ TEST(RefineRestart, WithNoTrustAtAllNothingComesToMeet) {
 TEST(RefineRestart, WhatWasRenewedHoldsAllPairsThatCameToMeet) {
   for (const Vec3& place : kPlaces) {
     RefineStats stats;
-    const RefinementMesh mesh = refined_once(place, Trust::kAsUsual, stats);
+    const RefinementMesh mesh = refined_once(place, Clearances::kFromPoles, stats);
     const SelfIntersections all = meeting_pairs(mesh, 1);
     const SelfIntersections renewed = meeting_pairs_of_renewed(mesh, 1);
     EXPECT_GT(all.crossing_pairs, 0);

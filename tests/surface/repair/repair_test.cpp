@@ -1,4 +1,4 @@
-// Repair as a whole, on a field that keeps it busy.
+// Repair as a whole, on a field that needs many rounds.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ TEST(Repair, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// Of a mesh in world coordinates, which are those of the index: the pieces with vertices on more than one component.
+// For a mesh in world coordinates, which equal index coordinates here: the pieces with vertices on more than one
+// component.
 std::size_t mixed_pieces(const TriangleMesh& mesh, const testing::Scene& scene) {
   const MeshTopology topology = mesh_topology(mesh);
   std::vector<std::set<std::uint32_t>> components(topology.components.size());

@@ -1,4 +1,4 @@
-// Meshes whose facets go by the hits of their dual edges alone, not by the signs of tetrahedra.
+// Meshes whose facets are restricted by the hits of their dual edges (kHits), not by the signs of tetrahedra.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -38,7 +38,7 @@ TEST(Deliso, FacetsByHitsGiveTheSameMeshWhereNoHitContradictsTheSigns) {
   }
 }
 
-// Rings near the sampling limit: some facets are left that bound nothing. By signs they always do.
+// Rings near the sampling limit: some facets are left that bound nothing. With the rule kSigns they always bound a set.
 TEST(Deliso, FacetsByHitsThatBoundNothingAreRefuted) {
   for (const Algorithm algorithm : {Algorithm::kTwoStage, Algorithm::kFull3d}) {
     MeshingOptions options = by_hits();

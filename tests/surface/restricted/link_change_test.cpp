@@ -55,7 +55,7 @@ Exchange exchanged(std::size_t size, const std::set<std::size_t>& lost, const st
 
 TEST(LinkChange, KnowsWhatInsertionsUsuallyDo) {
   const VertexId newest(kNewest);
-  // An edge is split; two and three edges give way to the new vertex; a vertex is cut off.
+  // An edge is split; a path of two and of three edges is replaced by the new vertex; a vertex is cut off.
   EXPECT_TRUE(exchanged(6, {2}, {edge(2, kNewest), edge(kNewest, 3)}).change.keeps_cycle(newest));
   EXPECT_TRUE(exchanged(6, {2, 3}, {edge(kNewest, 4), edge(2, kNewest)}).change.keeps_cycle(newest));
   EXPECT_TRUE(exchanged(6, {5, 0, 1}, {edge(5, kNewest), edge(kNewest, 2)}).change.keeps_cycle(newest));

@@ -74,7 +74,7 @@ TEST(SignedDelaunay, RestrictedFacetsMeetEveryEdgeInEvenNumbers) {
     // Whatever the signs are.
     Rng rng(5);
     for (std::size_t i = 0; i < restricted.delaunay().tet_slots(); ++i) {
-      if (restricted.delaunay().is_live(TetId(i)) && rng.below(3) == 0) restricted.overturn_sign(TetId(i));
+      if (restricted.delaunay().is_live(TetId(i)) && rng.below(3) == 0) restricted.flip_sign(TetId(i));
     }
     EXPECT_EQ(testing::odd_edges(restricted), 0u) << scene->name;
   }

@@ -1,4 +1,4 @@
-// Facets that go by the hits of their own dual edges: what they bound, if they bound anything.
+// Facets restricted by the hits of their own dual edges: whether they bound a set of tetrahedra.
 #include "surface/restricted/signs_from_facets.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ bool has_virtual_vertex(const SignedDelaunay& restricted, FacetId f) {
   return std::any_of(v.begin(), v.end(), [&](VertexId q) { return restricted.is_virtual(q); });
 }
 
-// A triangulation in which the surface forgets to fall through one facet.
+// A triangulation in which the surface does not fall through one restricted facet.
 class WithoutOneFacet : public SignedDelaunay {
  public:
   using SignedDelaunay::SignedDelaunay;
@@ -82,8 +82,8 @@ TEST(FacetsAlone, OfASphereAreASphereSeenFromBelow) {
   }
 }
 
-// Facet by facet: what the rule says is what a fresh search of the dual edge says, and where no search contradicts the
-// signs it is what the signs say.
+// Facet by facet: the rule agrees with a fresh search of the dual edge, and with the signs where no search contradicts
+// them.
 TEST(FacetRule, ByHitsIsTheParityOfTheDualEdge) {
   int without_contradiction = 0;
   for (const auto& scene : {field_scene("torus", 16), field_scene("gyroid", 12), noise_scene({5, 5, 5}, 1),

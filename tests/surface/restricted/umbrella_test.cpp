@@ -68,7 +68,7 @@ TEST(Umbrella, RandomSignsMakeEveryKindOfStar) {
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     Rng rng(seed);
     for (std::size_t i = 0; i < restricted.delaunay().tet_slots(); ++i) {
-      if (restricted.delaunay().is_live(TetId(i)) && rng.below(4 + 8 * seed) == 0) restricted.overturn_sign(TetId(i));
+      if (restricted.delaunay().is_live(TetId(i)) && rng.below(4 + 8 * seed) == 0) restricted.flip_sign(TetId(i));
     }
     compare_all(*scene, restricted);
   }

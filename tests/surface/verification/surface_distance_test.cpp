@@ -150,8 +150,8 @@ TEST(IsosurfaceProbe, StaysOnTheSurfaceAtCreases) {
   EXPECT_LT(largest, 1e-10);
 }
 
-// Two sheets that meet in the saddle of a grid face, as sharp as a knife: away from the face the values rise to both
-// sides, so of four quarters around the saddle two hold nothing, and no line from there leads into the wedges.
+// Two sheets that meet at a sharp crease in the saddle of a grid face. Away from the face the values rise to both
+// sides, so two of the four quarters around the saddle are empty, and no line from there leads into the wedges.
 TEST(IsosurfaceProbe, LeadsBackToTheSaddleOfAFace) {
   const ScalarGrid grid({2, 2, 3}, std::vector<double>{131, 128, 129, 131, 130, 127, 128, 130, 131, 128, 129, 131});
   const double isovalue = 128.8;
@@ -166,8 +166,8 @@ TEST(IsosurfaceProbe, LeadsBackToTheSaddleOfAFace) {
   }
 }
 
-// Beyond a grid face the values fall steeply, before it gently: the surface close behind the face is nearer than that
-// where the gradient before it leads.
+// The values fall steeply behind a grid face, gently in front of it. So the surface close behind the face is nearer
+// than the one to which the gradient in front of it leads.
 TEST(IsosurfaceProbe, LooksAcrossAFaceWhereTheGradientTurns) {
   const ScalarGrid grid({2, 2, 3},
                         std::vector<double>{-0.22, -0.22, -0.22, -0.22, 1e-4, 3e-4, 3e-4, 5e-4, -8, -8, -8, -8});

@@ -130,7 +130,7 @@ const std::vector<std::pair<CellCorners, double>> kHardCells = {
     {{150, 150, 150, 151, 152, 149, 150, 149}, 150.2},
     {{-0.5, -2.5, 3.5, 3.5, -1.5, 2.5, 1.5, -3.5}, 0},
     {{0.88, -0.21, 0.0001, -0.072, -0.0006, 0.00004, -0.061, 0.02}, 0},
-    // Nor do the shortest bands do here.
+    // Here the shortest bands meet, too.
     {{-0.06744209272082434, 0.025776090235123159, 0.46782386378295993, -0.15304768194783194, -0.76904375349945275,
       -0.070914881620164211, 0.92964994095125042, 0.74120646857636374},
      0},
@@ -140,7 +140,7 @@ const std::vector<std::pair<CellCorners, double>> kHardCells = {
     {{-2.3096620578076082e-10, 5.4365955745089972e-13, 0.0067016775817187613, -2.5796719819491025e-08,
       -3.7294798350739179e-06, 2.5364604591747268e-13, 0.0060330135930608967, 9.8735506726862578e-10},
      0},
-    // Nothing but a part of the hull does here.
+    // Here only a part of the hull does not meet itself.
     {{-0.000878767004, -0.00268428167, 0.271832945, 1.99014568e-05, -0.000283216192, 0.00286877377, -1.93805195e-05,
       -0.000357339497},
      0},
@@ -188,8 +188,7 @@ TEST(MarchingCubesEmbedding, HoldsWhereRingsCross) {
   }
 }
 
-// Rings in symmetric cells can come as near to themselves as rounding leaves them, and meet when it comes out
-// otherwise.
+// Rings in symmetric cells can be only a rounding apart, and meet when the rounding differs.
 TEST(MarchingCubesEmbedding, OfSymmetricCellsHoldsElsewhereAndWithOtherSpacings) {
   Rng rng(1);
   for (const CellCorners& corners : {CellCorners{0.5, 3.5, -2.5, 0.5, -0.5, 0.5, 0.5, -0.5},

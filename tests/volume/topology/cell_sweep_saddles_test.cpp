@@ -75,13 +75,13 @@ TEST(CellSweep, ReportsASaddleAtTheIsovalueInside) {
   for (const auto& [low, high] : {std::pair{-1.0, 1.0}, {-2.0, 3.0}, {-7.0, 5.0}, {-100.0, 101.0}}) {
     const CellCorners corners = saddle_cell(low, high);
     EXPECT_TRUE(CellSweep(corners, 0).singular_inside()) << low;
-    // A hair above the two sheets part, a hair below they are joined by a tunnel.
-    const double hair = std::ldexp(1.0, -60);
-    EXPECT_FALSE(is_singular(CellSweep(corners, hair)));
-    EXPECT_FALSE(is_singular(CellSweep(corners, -hair)));
-    EXPECT_EQ(CellSweep(corners, hair).pieces(), 2);
-    EXPECT_EQ(CellSweep(corners, -hair).pieces(), 1);
-    EXPECT_EQ(CellSweep(corners, -hair).euler_characteristic(0), 0);
+    // Slightly above the saddle value the two sheets are separate, slightly below they are joined by a tunnel.
+    const double step = std::ldexp(1.0, -60);
+    EXPECT_FALSE(is_singular(CellSweep(corners, step)));
+    EXPECT_FALSE(is_singular(CellSweep(corners, -step)));
+    EXPECT_EQ(CellSweep(corners, step).pieces(), 2);
+    EXPECT_EQ(CellSweep(corners, -step).pieces(), 1);
+    EXPECT_EQ(CellSweep(corners, -step).euler_characteristic(0), 0);
   }
 }
 

@@ -1,4 +1,4 @@
-// Coverage targets that a mesh has missed, and what stage 2 makes of them.
+// Coverage targets that a mesh has missed, and their insertion in stage 2.
 #include "surface/refine/disk/coverage_targets.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ double distance_to(const RefinementMesh& mesh, std::uint32_t t, const Vec3& p) {
   return std::sqrt(squared_distance_to_triangle(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
 }
 
-// How far off coverage targets may be that a triangle stands for.
+// How far off a triangle a coverage target may be to count as near.
 double reach_of(const RefinementMesh& mesh, std::uint32_t t, double least) {
   const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
   const double edge = std::max({distance(a, b), distance(b, c), distance(c, a)});
@@ -53,7 +53,7 @@ TEST(CoverageTargets, MissedAreThoseThatNoTriangleIsNear) {
       soup.pole_heights.resize(soup.points.size(), 1);
     }
     const std::size_t count = soup.triangles.size();
-    for (std::size_t t = 0; t < count; ++t) {  // each once more: of equals the first is told of
+    for (std::size_t t = 0; t < count; ++t) {  // each triangle twice, so that the first of equals must be reported
       soup.triangles.push_back(std::array{soup.triangles[t]});
       soup.neighbours.push_back({kNoSide, kNoSide, kNoSide});
     }

@@ -1,4 +1,4 @@
-// Points that stage 2 inserts where x_sigma will not do.
+// Points that stage 2 inserts where x_sigma is refused.
 #include "surface/refine/disk/refinement_candidates.h"
 
 #include <gtest/gtest.h>

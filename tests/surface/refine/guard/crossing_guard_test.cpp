@@ -124,7 +124,7 @@ TEST(CrossingGuard, KeepsTrianglesOfAnySize) {
   }
 }
 
-TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
+TEST(CrossingGuard, ClearancesNearAPointAreCleared) {
   Rng rng(2);
   SurfaceMesh sheets = two_sheets(4, 0.2, rng);
   for (double& height : sheets.pole_heights) height = 100;  // wrong
@@ -133,11 +133,11 @@ TEST(CrossingGuard, TrustsNoClearanceNearASuspect) {
   RefinementMesh mesh(sheets);
   RefinementDisk disk(mesh);
   set_clearances(mesh);
-  CrossingGuard trusting(mesh, 1);
-  EXPECT_FALSE(guard_crosses(disk, trusting, p, 0.5, seed));
-  distrust(mesh, std::vector<Vec3>{p});
-  CrossingGuard suspicious(mesh, 1);
-  EXPECT_TRUE(guard_crosses(disk, suspicious, p, 0.5, seed));
+  CrossingGuard before(mesh, 1);
+  EXPECT_FALSE(guard_crosses(disk, before, p, 0.5, seed));
+  clear_clearances_near(mesh, std::vector<Vec3>{p});
+  CrossingGuard after(mesh, 1);
+  EXPECT_TRUE(guard_crosses(disk, after, p, 0.5, seed));
 }
 
 // A floor and a wall at its edge: a point behind the wall pulls the floor's star through it. No other sheet is near.
@@ -189,8 +189,8 @@ SurfaceMesh crumpled_fan(std::uint32_t count, bool closed, Rng& rng) {
 }
 
 // What lies around a triangle far off the surface is tested in full, although the clearances say that all is well.
-TEST(CrossingGuard, TrustsNothingBesideATriangleFarOffTheSurface) {
-  int crossings = 0, missed_by_trust = 0;
+TEST(CrossingGuard, TestsAllStarsBesideATriangleFarOffTheSurface) {
+  int crossings = 0, missed_otherwise = 0;
   for (std::uint64_t trial = 0; trial < 1000; ++trial) {
     Rng rng(trial);
     const SurfaceMesh fan = crumpled_fan(6, trial % 2 == 0, rng);
@@ -206,18 +206,18 @@ TEST(CrossingGuard, TrustsNothingBesideATriangleFarOffTheSurface) {
       mesh.triangles[stays].set(RefinementMesh::Triangle::kNoHit, !has_hit);
       RefinementDisk disk(mesh);
       CrossingGuard guard(mesh, 1);
-      if (says_so) guard.distrust(stays);
+      if (says_so) guard.mark_if_far_off(stays);
       return guard_crosses(disk, guard, p, 1, seed);
     };
     const SurfaceDelaunayBall near{centroid_of(fan, stays), 0.25}, far{{50, 50, 50}, 7500};
     ASSERT_EQ(answer(far, true, true), expected) << "trial " << trial;
     ASSERT_EQ(answer(near, false, false), expected) << "trial " << trial;
     ASSERT_EQ(answer(near, true, true), answer(near, true, false)) << "trial " << trial;
-    missed_by_trust += expected && !answer(far, true, false) ? 1 : 0;
+    missed_otherwise += expected && !answer(far, true, false) ? 1 : 0;
   }
   EXPECT_GT(crossings, 100);
   EXPECT_LT(crossings, 900);
-  EXPECT_GT(missed_by_trust, 10);
+  EXPECT_GT(missed_otherwise, 10);
 }
 
 // A polygon that goes around once or twice and its star from a point within.

@@ -14,7 +14,7 @@ EulerCurves swept(const SurfaceMesh& mesh, const std::array<std::int32_t, 3>& di
   return euler_curves(mesh, std::vector<std::uint32_t>(mesh.points.size(), 0), 1, {1, 1, 1}, dims).front();
 }
 
-TEST(EulerCurve, EqualMeshesNeverPart) {
+TEST(EulerCurve, EqualMeshesNeverDiffer) {
   const auto scene = field_scene("gyroid", 24);
   const SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
   for (const auto& layers : jumps_between(swept(mesh, scene->grid.dims()), swept(mesh, scene->grid.dims()))) {
@@ -22,7 +22,7 @@ TEST(EulerCurve, EqualMeshesNeverPart) {
   }
 }
 
-// A hole in the mesh changes its Euler characteristic by one, for good: the sweeps must find where.
+// A hole in the mesh changes its Euler characteristic by one from its layers on: the curves must show where.
 TEST(EulerCurve, FindsWhereAHoleIsPunched) {
   const auto scene = field_scene("gyroid", 32);
   const SurfaceMesh exact = exact_polygonization(scene->surface()).mesh;
@@ -54,7 +54,7 @@ TEST(EulerCurve, FindsWhereAHoleIsPunched) {
   }
 }
 
-TEST(EulerCurve, PartsSweptAtOnceAreLikePartsSweptAlone) {
+TEST(EulerCurve, PartsInOnePassAreLikePartsAlone) {
   const auto scene = field_scene("bubbles", 26);
   const ExactPolygonization surface = exact_polygonization(scene->surface());
   const std::size_t parts = scene->topology.components.size();

@@ -1,4 +1,5 @@
-// Where the meshes of repair differ from the surface: all components at once must be like one after the other.
+// Where the topology of meshes differs from the surface's: all components at once must give the same as one after the
+// other.
 #include "surface/repair/diagnosis/euler_differences.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ constexpr std::size_t kMany = 1u << 30;
 class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
  protected:
   explicit EulerDifferencesOfNoise(const Dims& dims = {12, 11, 10})
-      : scene_(testing::noise_scene(dims, GetParam())), facts_(scene_->surface()) {
+      : scene_(testing::noise_scene(dims, GetParam())), cache_(scene_->surface()) {
     std::vector<Vec3> samples;
     for (std::size_t i = 0; i < scene_->topology.crossings.size(); i += 2) {
       const EdgeCrossing& crossing = scene_->topology.crossings[i];
@@ -29,9 +30,9 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
     mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
-  // What one component's main piece and its part of the surface alone give, both as whole meshes.
+  // The boxes from one component's main piece and its part of the surface alone, both as whole meshes.
   [[nodiscard]] std::vector<IndexBox> boxes_of(std::uint32_t c) const {
-    const ExactPolygonization& exact = facts_.polygonized();
+    const ExactPolygonization& exact = cache_.polygonized();
     const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);
     const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
     const Vec3& step = scene_->isosurface->step();
@@ -47,30 +48,30 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
   }
 
   std::unique_ptr<testing::Scene> scene_;
-  ExactSurfaceCache facts_;
+  ExactSurfaceCache cache_;
   std::shared_ptr<MatchedMesh> mesh_;
 };
 
 TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
-  EulerDifferences differences(facts_);
-  const std::vector<std::vector<IndexBox>> places =
+  EulerDifferences differences(cache_);
+  const std::vector<std::vector<IndexBox>> boxes =
       differences.find(mesh_, std::vector<bool>(components(), false), kMany);
-  ASSERT_EQ(places.size(), components());
+  ASSERT_EQ(boxes.size(), components());
   int wrong = 0;
   for (std::uint32_t c = 0; c < components(); ++c) {
     const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
-    EXPECT_EQ(places[c], is_wrong ? boxes_of(c) : std::vector<IndexBox>()) << c;
+    EXPECT_EQ(boxes[c], is_wrong ? boxes_of(c) : std::vector<IndexBox>()) << c;
     wrong += is_wrong ? 1 : 0;
   }
   EXPECT_GT(wrong, 0);
 }
 
 TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
-  EulerDifferences differences(facts_);
+  EulerDifferences differences(cache_);
   const std::vector<bool> none_done(components(), false);
   const std::vector<std::vector<IndexBox>> all = differences.find(mesh_, none_done, kMany);
   std::size_t most = 0;
-  for (const std::vector<IndexBox>& places : all) most = std::max(most, places.size());
+  for (const std::vector<IndexBox>& boxes : all) most = std::max(most, boxes.size());
   ASSERT_GT(most, 0u);
   const std::vector<std::vector<IndexBox>> fewer = differences.find(mesh_, none_done, most - 1);
   for (std::size_t c = 0; c < components(); ++c) {
@@ -78,9 +79,9 @@ TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
   }
   const std::vector<std::vector<IndexBox>> again = differences.find(mesh_, none_done, kMany);
   for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
-  EulerDifferences others(facts_);
-  for (const std::vector<IndexBox>& places : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
-    EXPECT_TRUE(places.empty());
+  EulerDifferences others(cache_);
+  for (const std::vector<IndexBox>& boxes : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
+    EXPECT_TRUE(boxes.empty());
   }
 }
 

@@ -1,4 +1,4 @@
-// The exact surface swept cell by cell must be like its marching-cubes mesh swept as a whole.
+// The exact Euler curves, computed cell by cell, must equal those of the marching-cubes mesh as a whole.
 #include "surface/repair/diagnosis/exact_euler_curves.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using testing::field_scene;
 using testing::noise_scene;
 
-// In index space; what is rounded off a sample layer comes back to it.
+// In index space; coordinates rounded off a sample layer are moved back onto it.
 void to_index_space(SurfaceMesh& mesh, const Vec3& step) {
   for (Vec3& p : mesh.points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -25,9 +25,9 @@ void to_index_space(SurfaceMesh& mesh, const Vec3& step) {
 }
 
 void expect_characteristics(const testing::Scene& scene) {
-  const ExactEulerCurves sweeps(scene.surface());
+  const ExactEulerCurves curves(scene.surface());
   for (std::uint32_t c = 0; c < scene.topology.components.size(); ++c) {
-    for (const auto& along : sweeps.of(c)) {
+    for (const auto& along : curves.of(c)) {
       EXPECT_EQ(along.back(), scene.topology.components[c].euler_characteristic) << c;
     }
   }
@@ -38,8 +38,8 @@ void expect_those_of_the_mesh(const testing::Scene& scene) {
   to_index_space(surface.mesh, scene.isosurface->step());
   const std::size_t components = scene.topology.components.size();
   const auto expected = euler_curves(surface.mesh, surface.component, components, {1, 1, 1}, scene.grid.dims());
-  const ExactEulerCurves sweeps(scene.surface());
-  for (std::uint32_t c = 0; c < components; ++c) EXPECT_EQ(sweeps.of(c), expected[c]) << c;
+  const ExactEulerCurves curves(scene.surface());
+  for (std::uint32_t c = 0; c < components; ++c) EXPECT_EQ(curves.of(c), expected[c]) << c;
   expect_characteristics(scene);
 }
 

@@ -1,4 +1,4 @@
-// Facts of the surface, and what repair makes of them: found before or when asked for, on any number of threads.
+// Data of the surface and located critical points: computed in advance or on request, on any number of threads.
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
 
-// Cell by cell, from the samples: (cell, how many critical places).
+// Cell by cell, from the samples: (cell, number of critical points).
 std::vector<std::pair<CellIndex, std::size_t>> critical_cells_by_search(const Scene& scene) {
   std::vector<std::pair<CellIndex, std::size_t>> cells;
   const Dims& dims = scene.grid.dims();
@@ -44,9 +44,9 @@ std::vector<std::pair<CellIndex, std::size_t>> critical_cells_by_search(const Sc
   return cells;
 }
 
-std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<LocatedCriticalPoint>& places) {
+std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<LocatedCriticalPoint>& points) {
   std::vector<std::pair<CellIndex, std::size_t>> cells;
-  for (const LocatedCriticalPoint& place : places) {
+  for (const LocatedCriticalPoint& place : points) {
     if (cells.empty() || cells.back().first != place.cell) cells.push_back({place.cell, 0});
     ++cells.back().second;
   }
@@ -56,19 +56,19 @@ std::vector<std::pair<CellIndex, std::size_t>> cells_of(const std::vector<Locate
 TEST(ExactSurfaceCache, AreTheSameForAnyNumberOfThreads) {
   const auto scene = noise_scene({14, 13, 12}, 4);
   const ExactPolygonization surface = exact_polygonization(scene->surface());
-  const ExactEulerCurves sweeps(scene->surface());
+  const ExactEulerCurves curves(scene->surface());
   for (const int threads : {1, 2, 3, 5}) {
-    const ExactSurfaceCache facts(scene->surface(threads));
-    EXPECT_EQ(facts.polygonized().mesh.points, surface.mesh.points) << threads;
-    EXPECT_EQ(facts.polygonized().mesh.triangles, surface.mesh.triangles) << threads;
-    EXPECT_EQ(facts.polygonized().component, surface.component) << threads;
+    const ExactSurfaceCache cache(scene->surface(threads));
+    EXPECT_EQ(cache.polygonized().mesh.points, surface.mesh.points) << threads;
+    EXPECT_EQ(cache.polygonized().mesh.triangles, surface.mesh.triangles) << threads;
+    EXPECT_EQ(cache.polygonized().component, surface.component) << threads;
     for (std::uint32_t c = 0; c < scene->topology.components.size(); ++c) {
-      EXPECT_EQ(facts.sweeps().of(c), sweeps.of(c)) << threads;
+      EXPECT_EQ(cache.euler_curves().of(c), curves.of(c)) << threads;
     }
   }
 }
 
-TEST(ExactSurfaceCache, NobodyHasToAsk) {
+TEST(ExactSurfaceCache, IsDestroyedWithoutRequests) {
   const auto scene = field_scene("gyroid", 32);
   for (int i = 0; i < 20; ++i) ExactSurfaceCache(scene->surface(2));
 }
@@ -86,39 +86,39 @@ TEST(LocatedCriticalPoints, AreFoundInTheCellsAskedFor) {
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
   for (const int threads : {1, 3}) {
-    LocatedCriticalPoints places(restricted);
-    places.find(cells, threads);
-    EXPECT_EQ(cells_of(places.places()), expected) << threads;
+    LocatedCriticalPoints points(restricted);
+    points.find(cells, threads);
+    EXPECT_EQ(cells_of(points.points()), expected) << threads;
   }
-  // Some cells, others, and then all of them, many asked for again.
-  LocatedCriticalPoints places(restricted);
+  // Some cells, then others, then all, so that many cells are requested twice.
+  LocatedCriticalPoints points(restricted);
   for (const std::size_t step : {7u, 3u}) {
     std::vector<CellIndex> some;
     for (std::size_t i = step / 2; i < cells.size(); i += step) some.push_back(cells[i]);
-    places.find(some, 1);
-    EXPECT_LT(cells_of(places.places()).size(), expected.size());
+    points.find(some, 1);
+    EXPECT_LT(cells_of(points.points()).size(), expected.size());
   }
-  places.find(cells, 1);
-  EXPECT_EQ(cells_of(places.places()), expected);
+  points.find(cells, 1);
+  EXPECT_EQ(cells_of(points.points()), expected);
 }
 
 TEST(LocatedCriticalPoints, KeepTheirTetrahedraWhenMoreAreFound) {
   const auto scene = noise_scene({14, 13, 12}, 4);
   const SignedDelaunay restricted(*scene->isosurface, scene->start());
   const std::vector<CellIndex> cells = active_cells(*scene);
-  LocatedCriticalPoints places(restricted);
-  places.find(std::span(cells).subspan(cells.size() / 2), 1);
-  const std::size_t count = places.places().size();
+  LocatedCriticalPoints points(restricted);
+  points.find(std::span(cells).subspan(cells.size() / 2), 1);
+  const std::size_t count = points.points().size();
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);
-  places.locate(all, 1);
+  points.locate(all, 1);
   std::vector<TetId> tets;
-  for (const std::uint32_t i : all) tets.push_back(places.tet(i));
-  places.find(cells, 1);
-  const std::size_t before = places.places().size() - count;
+  for (const std::uint32_t i : all) tets.push_back(points.tet(i));
+  points.find(cells, 1);
+  const std::size_t before = points.points().size() - count;
   ASSERT_GT(before, 0u);
-  for (std::uint32_t i = 0; i < before; ++i) ASSERT_TRUE(places.tet(i).is_none());
-  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(places.tet(static_cast<std::uint32_t>(before + i)), tets[i]);
+  for (std::uint32_t i = 0; i < before; ++i) ASSERT_TRUE(points.tet(i).is_none());
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(points.tet(static_cast<std::uint32_t>(before + i)), tets[i]);
 }
 
 // All at once on several threads, or a few at a time.
@@ -128,7 +128,7 @@ TEST(LocatedCriticalPoints, AreTheSameForAnyNumberOfThreads) {
   const std::vector<CellIndex> cells = active_cells(*scene);
   LocatedCriticalPoints one(restricted);
   one.find(cells, 1);
-  const std::size_t count = one.places().size();
+  const std::size_t count = one.points().size();
   ASSERT_GT(count, 2 * kBlockSize);
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);

@@ -1,4 +1,4 @@
-// Vertices of a small component that a large one is made to swallow must go, and all else must stay.
+// Foreign vertices of a small component in the mesh of a large one must be removed, and everything else must stay.
 #include "surface/repair/finish/foreign_vertices.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Swallowing {
   ExactPolygonization surface = exact_polygonization(scene->surface());
 
   ForeignVertices remove() { return remove_foreign_vertices(surface.mesh, surface.component); }
-  // A triangle is split at a new corner, at the place of a vertex of another component.
+  // Splits a triangle at a new vertex, at the position of a vertex of another component.
   void swallow(std::uint32_t triangle, std::uint32_t vertex) {
     SurfaceMesh& mesh = surface.mesh;
     const auto corner = static_cast<std::uint32_t>(mesh.points.size());
@@ -35,14 +35,14 @@ struct Swallowing {
     mesh.triangles.push_back({c, a, corner});
     set_side_adjacency(mesh);
   }
-  // With their smallest corner first, in order.
+  // The triangles with their lowest corner first, sorted.
   [[nodiscard]] std::vector<Triangle> triangles() const {
     std::vector<Triangle> all = surface.mesh.triangles;
     for (Triangle& t : all) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::sort(all.begin(), all.end());
     return all;
   }
-  // The first triangle of the largest component. Before anything is swallowed.
+  // The first triangle of the largest component. Call before foreign vertices are added.
   [[nodiscard]] std::uint32_t host() const {
     const std::vector<std::uint32_t>& component = surface.component;
     std::vector<std::size_t> sizes(scene->topology.components.size(), 0);
@@ -52,7 +52,7 @@ struct Swallowing {
     while (component[surface.mesh.triangles[t][0]] != largest) ++t;
     return t;
   }
-  // Vertices of other components than a triangle's. Before anything is swallowed.
+  // Vertices of other components than a triangle's. Call before foreign vertices are added.
   [[nodiscard]] std::vector<std::uint32_t> guests(std::uint32_t triangle, std::size_t count) const {
     const std::uint32_t own = surface.component[surface.mesh.triangles[triangle][0]];
     std::vector<std::uint32_t> found;
@@ -111,7 +111,7 @@ TEST(ForeignVertices, AVertexStaysWhenNothingElseIsNearOnItsComponent) {
   }
   const std::vector<Vec3> points = mesh.surface.mesh.points;
   drop_triangles(mesh.surface.mesh, is_gone);
-  // Vertices without triangles are gone, too; the others stay in order.
+  // Vertices without triangles are removed, too; the others keep their order.
   std::vector<std::uint32_t> component;
   for (std::size_t v = 0, next = 0; v < points.size() && next < mesh.surface.mesh.points.size(); ++v) {
     if (points[v] != mesh.surface.mesh.points[next]) continue;

@@ -25,7 +25,7 @@ constexpr double kRadius = 4.3;
 
 Scene ball() { return {"ball", testing::sampled({15, 15, 15}, testing::ball_field(kCenter, kRadius)), 0}; }
 
-// A coarse mesh of the ball's surface. Vertices and triangles have their opposite.
+// A coarse mesh of the ball's surface. Every vertex and triangle has an opposite one.
 SurfaceMesh sphere(const Scene& scene, int levels) {
   const TriangleMesh on = testing::on_isosurface(testing::sphere_mesh(levels, kRadius, kCenter), scene.grid, 0);
   SurfaceMesh mesh{on.points, std::vector<double>(on.points.size(), kRadius), on.triangles, {}};
@@ -41,7 +41,7 @@ std::uint32_t opposite(const SurfaceMesh& mesh, std::uint32_t v) {
   return static_cast<std::uint32_t>(nearest - mesh.points.begin());
 }
 
-// Just inside of a vertex, as the copy of it that a dent has.
+// A point just inside of a vertex, like the copy of the vertex that has an inverted umbrella.
 Vec3 inside_of(const Vec3& p) { return p + 2e-4 / distance(p, kCenter) * (kCenter - p); }
 
 // Closed, of sphere topology, without crossings, and near the isosurface's points on grid edges.
@@ -100,7 +100,7 @@ TEST(InvertedUmbrellas, ARidgeGoesVertexByVertex) {
     for (const std::uint32_t v : {whole.triangles[t][0], whole.triangles[t][1]}) {
       mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
     }
-    // Vertices at the foot of the ridge may go, too.
+    // Vertices at the foot of the ridge may be removed, too.
     const std::int64_t removed = remove_inverted_umbrellas(mesh, *scene.isosurface).removed;
     EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
     expect_good_sphere(mesh, scene, t);
@@ -131,7 +131,7 @@ TEST(InvertedUmbrellas, NothingGoesWhereAnotherPieceIsInTheWay) {
     SurfaceMesh mesh = whole;
     const Vec3 there = whole.points[v];
     mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
-    // A small tetrahedron that reaches across the place where the filling would be, beside the cone.
+    // A small tetrahedron, beside the cone, that crosses the filling.
     const TriangleMesh small = testing::tetrahedron_mesh();
     const auto base = static_cast<std::uint32_t>(mesh.points.size());
     const Vec3 out = (there - kCenter) / distance(there, kCenter);
@@ -156,7 +156,7 @@ TEST(InvertedUmbrellas, NothingGoesWhereAnotherPieceIsInTheWay) {
     const auto [removed, left] = remove_inverted_umbrellas(mesh, *scene.isosurface);
     EXPECT_EQ(removed, 0) << v;
     EXPECT_EQ(mesh.triangles, before) << v;
-    // It tells of the dent that stays, and where its rim is.
+    // The result has a box around the inverted umbrella that stays.
     EXPECT_TRUE(std::any_of(left.begin(), left.end(), [&](const Box3& box) {
       return std::all_of(before.begin(), before.end(), [&](const auto& t) {
         return std::find(t.begin(), t.end(), v) == t.end() ||
@@ -166,7 +166,7 @@ TEST(InvertedUmbrellas, NothingGoesWhereAnotherPieceIsInTheWay) {
   }
 }
 
-// Whatever the mesh: here a good one with some vertices drawn to others anywhere.
+// Also for bad meshes: here a good mesh in which some vertices are moved to others at random.
 TEST(InvertedUmbrellas, TopologyStaysAndNoCrossingsCome) {
   std::int64_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

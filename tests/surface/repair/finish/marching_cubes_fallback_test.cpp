@@ -11,17 +11,17 @@
 namespace deliso {
 namespace {
 
-// Shells, meshed by marching cubes; some vertices of one are drawn to where another one is.
-TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
+// Shells, meshed by marching cubes; some vertices of one shell are moved onto another.
+TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
   const auto scene = testing::field_scene("shells", 48);
-  const ExactSurfaceCache facts(scene->surface(1));
+  const ExactSurfaceCache cache(scene->surface(1));
   const std::size_t components = scene->topology.components.size();
   ASSERT_GT(components, 1u);
-  SurfaceMesh mesh = facts.polygonized().mesh;
-  const std::vector<std::uint32_t>& component = facts.polygonized().component;
+  SurfaceMesh mesh = cache.polygonized().mesh;
+  const std::vector<std::uint32_t>& component = cache.polygonized().component;
   ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
 
-  // Some vertices of component 0 go to where component 1 is.
+  // Some vertices of component 0 are moved onto component 1.
   Vec3 there;
   std::size_t count = 0;
   for (std::size_t v = 0; v < component.size(); ++v) {
@@ -41,7 +41,7 @@ TEST(MarchingCubesFallback, AreMeshedAgainUntilNothingCrosses) {
 
   std::vector<bool> is_polygonized(components, false);
   Controls controls(BudgetParameters{}, nullptr, {});
-  polygonize_crossing_pieces(mesh, facts, is_polygonized, controls);
+  polygonize_crossing_pieces(mesh, cache, is_polygonized, controls);
   EXPECT_TRUE(is_polygonized[0] && is_polygonized[1]);
   EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
   EXPECT_EQ(mesh.pole_heights.size(), mesh.points.size());

@@ -1,4 +1,4 @@
-// The crossings that a mesh leaves out, found again by measuring all triangles; and the cells around them.
+// The crossings that a mesh does not cover, compared with a measurement of all triangles; and the cells around them.
 #include "surface/repair/finish/missed_crossings.h"
 
 #include <gtest/gtest.h>

@@ -85,7 +85,7 @@ TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
   }
 }
 
-// Every level holds the one below, and level 1 is the crossings of the grid edges.
+// The samples of a level include those of the level below; those of level 1 are the crossings of the grid edges.
 TEST(SampleLattice, LevelsGrow) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);

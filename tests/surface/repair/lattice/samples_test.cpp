@@ -12,8 +12,8 @@ namespace {
 
 using testing::noise_scene;
 
-// The samples are the vertices, one by one, however they came to be: with lattice samples that equal free ones or stand
-// where one has gone.
+// The samples are the vertices, one by one, whatever the exchanges: also with lattice samples that equal free samples
+// or removed vertices.
 TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
   int exchanges = 0;
   int rebuilds = 0;
@@ -24,7 +24,7 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
     auto restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, points);
     RepairSamples samples(*restricted);
     const SampleLattice lattice(scene->surface());
-    CellLevels raised(*scene->isosurface);
+    CellLevels cell_levels(*scene->isosurface);
     Rng rng(seed);
     for (int round = 0; round < 6; ++round) {
       std::vector<CellName> cells;
@@ -32,10 +32,10 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
         const auto layer = [&](std::size_t axis) {
           return static_cast<std::int32_t>(rng.below(static_cast<std::uint64_t>(scene->grid.dims()[axis] - 1)));
         };
-        cells.push_back(raised.name({layer(0), layer(1), layer(2)}));
+        cells.push_back(cell_levels.name({layer(0), layer(1), layer(2)}));
       }
-      raised.raise(cells);
-      const Resampling resampling = samples.resampling(raised, lattice, *scene->isosurface);
+      cell_levels.refine(cells);
+      const Resampling resampling = samples.resampling(cell_levels, lattice, *scene->isosurface);
       ExchangedPoints exchanged;
       if (round % 2 == 1 && restricted->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
         samples.exchange(resampling, exchanged.vertex_of);

@@ -1,4 +1,4 @@
-// What is taken from the kept meshes at last must not depend on what was dropped of them meanwhile.
+// The final selection must not depend on the meshes and pieces that were dropped meanwhile.
 #include "surface/repair/rounds/component_selection.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ std::unique_ptr<Scene> blobs(std::uint64_t seed) {
   return std::make_unique<Scene>("blobs", testing::noise_grid({14, 13, 12}, {1, 1, 1}, rng), 190.5);
 }
 
-// Meshes of one round with random signs turned over, each with its signs.
+// Meshes of one round with randomly flipped signs, each with its signs.
 struct Attempts {
   explicit Attempts(const Scene& scene, std::uint64_t seed)
       : cells(*scene.isosurface),
@@ -55,7 +55,7 @@ struct Attempts {
         const bool is_live = round.restricted().delaunay().is_live(TetId(t));
         if (is_live && i > 0 && rng.below(100) < 3) tets.emplace_back(t);
       }
-      for (const TetId t : tets) round.overturn(t);
+      for (const TetId t : tets) round.flip_sign(t);
       std::optional<MatchedMesh> mesh = round.assemble();
       if (!mesh) continue;
       meshes.push_back(*std::move(mesh));
@@ -69,13 +69,13 @@ struct Attempts {
   std::vector<TetSigns> signs;
 };
 
-// The wanted copies that have moved to where the surface is not, as their lists of homes tell.
-std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Vec3>& before,
-                                    const std::function<bool(std::uint32_t)>& is_wanted) {
+// The wanted copies that ended off the surface, according to their lists of positions.
+std::vector<std::uint32_t> copies_off_surface(const BuiltMesh& built, const std::vector<Vec3>& before,
+                                              const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
   for (const PinchGroup& group : built.groups) {
-    for (const auto& [v, others, has_false_home] : group) {
-      if (!has_false_home || !is_wanted(v)) continue;
+    for (const auto& [v, others, has_position_off_surface] : group) {
+      if (!has_position_off_surface || !is_wanted(v)) continue;
       double nearest = others.empty() ? 1 : distance(built.mesh.points[v], before[v]);
       for (std::size_t i = 0; i + 1 < others.size(); ++i) {
         nearest = std::min(nearest, distance(built.mesh.points[v], others[i]));
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> homeless(const BuiltMesh& built, const std::vector<Ve
   return found;
 }
 
-// All vertices that have not been moved must lie on the component that is told of them.
+// Every vertex that was not moved must lie on the component given for it.
 void expect_true_components(const AssembledMesh& assembled, const Scene& scene) {
   ASSERT_EQ(assembled.component.size(), assembled.mesh.points.size());
   const std::vector<Vec3> samples = testing::crossing_points(scene);
@@ -109,7 +109,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
     const Box3& box = scene->isosurface->box();
     Attempts attempts(*scene, seed);
     ComponentSelection kept(components);
-    // The same by hand: which mesh gives each component.
+    // The expected result: which mesh gives each component.
     std::vector<Agreement> best(components, Agreement::kNone);
     std::vector<std::optional<std::size_t>> giver(components);
     for (std::size_t i = 0; i < attempts.meshes.size(); ++i) {
@@ -134,7 +134,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       const std::vector<Vec3> before = mesh.built.mesh.points;
       separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
-      if (const auto off = homeless(mesh.built, before, is_wanted); !off.empty()) {
+      if (const auto off = copies_off_surface(mesh.built, before, is_wanted); !off.empty()) {
         VertexDecimation fans(mesh.built.mesh);
         fans.take_out(off);
         if (std::any_of(off.begin(), off.end(), [&](std::uint32_t v) { return fans.has(v); })) continue;
@@ -171,7 +171,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   EXPECT_GT(mended, 0u);
 }
 
-// A component that is opened again is given by later meshes alone.
+// A reopened component is taken only from later meshes.
 TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   const auto scene = blobs(1);
   const Box3& box = scene->isosurface->box();

@@ -1,4 +1,4 @@
-// Rounds of repair that go on from the one before must be like rounds made anew.
+// A round that continues the one before must equal a round built anew.
 #include "surface/repair/rounds/round.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vec
   return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
 }
 
-// The same as stage 1 leaves it: grown point by point, in slots as they came free.
+// The same as after stage 1: built point by point, so that slots were reused.
 std::unique_ptr<SignedDelaunay> grown(const Scene& scene, const std::vector<Vec3>& points) {
   RestrictedDelaunay restricted(*scene.isosurface, std::span(points).first(points.size() / 4));
   for (const Vec3& p : points) {
@@ -46,21 +46,22 @@ std::vector<Vec3> all_crossings(const Scene& scene) {
   return points;
 }
 
-std::map<TetName, int> evidence_by_name(const RepairRound& round) {
+std::map<TetName, int> constraints_by_name(const RepairRound& round) {
   std::map<TetName, int> names;
   const Tetrahedralization& delaunay = round.restricted().delaunay();
-  for (std::size_t i = 0; i < round.evidence().size(); ++i) {
+  for (std::size_t i = 0; i < round.sign_constraints().size(); ++i) {
     if (delaunay.is_live(TetId(i))) {
-      names[testing::name_of(delaunay, TetId(i))] = round.evidence()[i];
+      names[testing::name_of(delaunay, TetId(i))] = round.sign_constraints()[i];
     } else {
-      EXPECT_EQ(round.evidence()[i], 0);
+      EXPECT_EQ(round.sign_constraints()[i], 0);
     }
   }
   return names;
 }
 
-// A mesh's triangles by the vertices of the triangulation, the least first; so copies of a vertex are not told apart. A
-// vertex on a subdivided edge, whose place may be rounded otherwise, counts as the infinite one.
+// A mesh's triangles by the vertices of the triangulation, the lowest first, so copies of a vertex are not
+// distinguished. A vertex on a subdivided edge, whose position may be rounded differently, counts as the infinite
+// vertex.
 std::vector<std::array<std::uint32_t, 3>> triangles_by_name(const BuiltMesh& built, const RepairRound& round) {
   const auto name = [&](std::uint32_t v) {
     const VertexId vertex = built.vertex_of[v];
@@ -86,7 +87,7 @@ std::vector<std::array<std::int64_t, 5>> sorted_pieces(const ComponentMatch& mat
   return pieces;
 }
 
-// Takes plain signs and those by the rule in both and compares all that comes of it.
+// Sets plain signs, then those of the rule, in both rounds, and compares all results.
 void compare(RepairRound& continued, RepairRound& fresh, const std::string& where) {
   ASSERT_EQ(points_of(continued), points_of(fresh)) << where;
   ASSERT_EQ(continued.component_of_vertex(), fresh.component_of_vertex()) << where;
@@ -94,9 +95,9 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
   for (const bool is_plain : {false, true}) {
     is_plain ? continued.take_plain_signs() : continued.take_signs();
     is_plain ? fresh.take_plain_signs() : fresh.take_signs();
-    ASSERT_EQ(evidence_by_name(continued), evidence_by_name(fresh)) << where;
+    ASSERT_EQ(constraints_by_name(continued), constraints_by_name(fresh)) << where;
     ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
-    // Circumcenters are rounded otherwise when the vertices of a tetrahedron stand in another order.
+    // Circumcenters are rounded differently when the vertices of a tetrahedron are in another order.
     const std::vector<double>& heights = continued.pole_heights(all);
     const std::vector<double>& fresh_heights = fresh.pole_heights(all);
     ASSERT_EQ(heights.size(), fresh_heights.size()) << where;
@@ -116,29 +117,30 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
   }
 }
 
-// Raises some active cells one level.
-void raise_some(const Scene& scene, CellLevels& raised, Rng& rng) {
+// Refines some active cells by one level.
+void refine_some(const Scene& scene, CellLevels& cell_levels, Rng& rng) {
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell([&](const CellIndex& cell, unsigned) {
-    if (rng.below(40) == 0) cells.push_back(raised.name(cell));
+    if (rng.below(40) == 0) cells.push_back(cell_levels.name(cell));
   });
-  raised.raise(cells);
+  cell_levels.refine(cells);
 }
 
 void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool is_grown = false) {
   Rng rng(seed);
   const SampleLattice lattice(scene.surface());
-  CellLevels raised(*scene.isosurface);
+  CellLevels cell_levels(*scene.isosurface);
   const std::vector<Vec3> start = all_crossings(scene);
-  RepairRound continued(scene.surface(threads), raised, is_grown ? grown(scene, start) : triangulation(scene, start));
+  RepairRound continued(scene.surface(threads), cell_levels,
+                        is_grown ? grown(scene, start) : triangulation(scene, start));
   std::vector<Vec3> points = points_of(continued);
   continued.take_plain_signs();
   ASSERT_TRUE(continued.assemble());
   for (int round = 1; round <= 5; ++round) {
     const std::string where = scene.name + ", round " + std::to_string(round);
-    raise_some(scene, raised, rng);
+    refine_some(scene, cell_levels, rng);
     std::vector<LatticeSample> samples;
-    for (const auto& [name, level] : raised.levels()) lattice.append(raised.cell(name), level, samples);
+    for (const auto& [name, level] : cell_levels.levels()) lattice.append(cell_levels.cell(name), level, samples);
     std::vector<Vec3> coming;
     coming.reserve(samples.size());
     for (const LatticeSample& sample : samples) coming.push_back(scaled(sample.point, scene.isosurface->step()));
@@ -160,7 +162,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
     for (std::size_t i = 0; i < coming.size(); ++i) {
       ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]), SignedDelaunay::snapped(coming[i]));
     }
-    RepairRound fresh(scene.surface(), raised, triangulation(scene, left));
+    RepairRound fresh(scene.surface(), cell_levels, triangulation(scene, left));
     compare(continued, fresh, where);
     if (::testing::Test::HasFatalFailure()) return;
     points = points_of(continued);
@@ -186,14 +188,14 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
-// A vertex away from the surface, in a cell that it does not cross, counts for no component.
+// A vertex off the surface, in a cell that the surface does not meet, lies on no component.
 TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
   const auto scene = testing::field_scene("sphere", 24);
   std::vector<Vec3> points = all_crossings(*scene);
   points.emplace_back(11.5, 11.6, 11.7);
   points.emplace_back(1.4, 1.5, 1.6);
-  const CellLevels raised(*scene->isosurface);
-  RepairRound round(scene->surface(), raised, triangulation(*scene, points));
+  const CellLevels cell_levels(*scene->isosurface);
+  RepairRound round(scene->surface(), cell_levels, triangulation(*scene, points));
   std::size_t off = 0;
   for (std::size_t i = 0; i < round.component_of_vertex().size(); ++i) {
     const Vec3& p = round.restricted().delaunay().point(VertexId(i));
@@ -202,7 +204,7 @@ TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
     off += is_off ? 1 : 0;
   }
   EXPECT_EQ(off, 2u);
-  // Nor is it a part that the mesh misses.
+  // It does not count as a part that the mesh misses, either.
   round.take_plain_signs();
   EXPECT_TRUE(round.assemble().has_value());
 }
@@ -210,8 +212,8 @@ TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
   const auto scene = testing::field_scene("sphere", 12);
   const std::vector<Vec3> points = {{3, 3, 3}, {5, 3, 3}, {3, 6, 3}, {6, 7, 3}};
-  CellLevels raised(*scene->isosurface);
-  RepairRound round(scene->surface(), raised, triangulation(*scene, points));
+  CellLevels cell_levels(*scene->isosurface);
+  RepairRound round(scene->surface(), cell_levels, triangulation(*scene, points));
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};
   EXPECT_FALSE(round.exchange({}, coming, exchanged));

@@ -1,4 +1,4 @@
-// Rounds of repair that are asked to look at certain places, whatever else is wrong.
+// Rounds of repair around given crossings.
 #include "surface/repair/rounds/rounds.h"
 
 #include <gtest/gtest.h>
@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::int32_t kMostRounds = 12;
 
-// Rounds that begin with every third crossing of a small volume of noise and have mended all components.
+// Rounds that begin with every third crossing of a small noise volume and have repaired all components.
 struct MendedScene {
   explicit MendedScene(std::uint64_t seed, const Dims& dims = {8, 8, 7}, int threads = 1)
       : scene(testing::noise_scene(dims, seed)) {
     std::vector<Vec3> points = scene->start();
     const std::vector<Vec3> crossings = testing::crossing_points(*scene);
     for (std::size_t i = 0; i < crossings.size(); i += 3) points.push_back(crossings[i]);
-    facts = std::make_unique<ExactSurfaceCache>(scene->surface(threads));
+    cache = std::make_unique<ExactSurfaceCache>(scene->surface(threads));
     rounds = std::make_unique<RepairRounds>(
-        *facts, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), stats);
+        *cache, std::make_unique<SignedDelaunay>(*scene->isosurface, points, threads), stats);
     mend();
   }
   void mend() {
@@ -48,13 +48,13 @@ struct MendedScene {
   }
 
   std::unique_ptr<testing::Scene> scene;
-  std::unique_ptr<ExactSurfaceCache> facts;
+  std::unique_ptr<ExactSurfaceCache> cache;
   RepairStats stats;
   Controls controls{{}, nullptr, {}};
   std::unique_ptr<RepairRounds> rounds;
 };
 
-// Few crossings of the component that has the most of them.
+// A few crossings of the component with the most crossings.
 std::vector<std::uint32_t> some_crossings(const testing::Scene& scene) {
   std::vector<std::int64_t> counts(scene.topology.components.size());
   for (const EdgeCrossing& c : scene.topology.crossings) ++counts[c.component];
@@ -82,7 +82,7 @@ TEST(RepairRounds, MendingAroundCrossingsIsARoundOfItsOwn) {
   EXPECT_GE(finer, 2);
 }
 
-// Pole heights tell of signs, and so does what the next round makes of them.
+// Pole heights depend on the signs, and so do the results of the next round.
 TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
@@ -90,7 +90,7 @@ TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
     for (int round = 0; round < 2; ++round) {
       ASSERT_TRUE(one.rounds->is_done());
       ASSERT_TRUE(three.rounds->is_done());
-      const SurfaceMesh expected = one.rounds->as_it_is(), found = three.rounds->as_it_is();
+      const SurfaceMesh expected = one.rounds->unrepaired_mesh(), found = three.rounds->unrepaired_mesh();
       EXPECT_EQ(found.points, expected.points);
       EXPECT_EQ(found.triangles, expected.triangles);
       EXPECT_EQ(found.pole_heights, expected.pole_heights);

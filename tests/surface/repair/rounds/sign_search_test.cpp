@@ -55,7 +55,7 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
       const TetSigns signs = restricted.signs();
       const std::int64_t change = euler_change(restricted, t);
       EXPECT_EQ(restricted.signs(), signs);
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       const std::int64_t after = characteristic(restricted);
       ASSERT_EQ(change, after - before) << scene->name << " trial " << trial;
       before = after;
@@ -65,7 +65,7 @@ TEST(LocalCharacteristic, ChangesAsThatOfTheWholeMesh) {
   EXPECT_GT(seen.size(), 4u);
 }
 
-// Nearly all of them move the mesh and leave its topology as it is, which is seen without building anything.
+// Nearly all flips move the mesh and keep its topology, which is seen without building anything.
 TEST(LocalCharacteristic, OfEveryTetrahedron) {
   int nothing = 0, something = 0;
   for (const auto& scene : {noise_scene({4, 3, 4}, 11), noise_scene({3, 3, 4}, 12), field_scene("gyroid", 6)}) {
@@ -76,9 +76,9 @@ TEST(LocalCharacteristic, OfEveryTetrahedron) {
       const TetId t(i);
       if (!delaunay.is_live(t)) continue;
       const std::int64_t change = euler_change(restricted, t);
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       ASSERT_EQ(change, characteristic(restricted) - before) << scene->name << " tetrahedron " << i;
-      restricted.overturn_sign(t);
+      restricted.flip_sign(t);
       ++(change == 0 ? nothing : something);
     }
   }
@@ -86,7 +86,7 @@ TEST(LocalCharacteristic, OfEveryTetrahedron) {
   EXPECT_GT(something, 50);
 }
 
-// How far the main piece of a component is from its topology.
+// The difference between the topology of a component and that of its main piece.
 std::int64_t amount_missing(const MatchedMesh& mesh, const ComponentTopology& want, std::uint32_t component) {
   const std::uint32_t main = mesh.match.main_piece[component];
   const ComponentTopology have = main == kNoPiece ? ComponentTopology{} : mesh.match.pieces[main].topology;
@@ -103,9 +103,8 @@ std::vector<IndexBox> boxes_at(const CellLevels& cells, const Tetrahedralization
   return {box};
 }
 
-// The sign of one tetrahedron of whose side nothing is known is spoilt, such that a component has a handle more or
-// less.
-TEST(SignSearch, MendASpoiltPlace) {
+// Flips the sign of one tetrahedron without a constraint such that a component has one handle more or less.
+TEST(SignSearch, CorrectsAFlippedSign) {
   int mended = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto scene = noise_scene({7, 7, 7}, seed);
@@ -117,15 +116,15 @@ TEST(SignSearch, MendASpoiltPlace) {
     const TetSigns signs = round.restricted().signs();
     const Tetrahedralization& delaunay = round.restricted().delaunay();
     for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-      const TetId spoilt(i);
-      if (!delaunay.is_live(spoilt) || delaunay.is_ghost(spoilt)) continue;
-      if (round.euler_change(spoilt) == 0) continue;
-      round.overturn(spoilt);
+      const TetId flipped(i);
+      if (!delaunay.is_live(flipped) || delaunay.is_ghost(flipped)) continue;
+      if (round.euler_change(flipped) == 0) continue;
+      round.flip_sign(flipped);
       const std::optional<MatchedMesh> mesh = round.assemble();
       for (std::uint32_t c = 0; mesh && c < scene->topology.components.size(); ++c) {
         const ComponentTopology& want = scene->topology.components[c];
         if (amount_missing(*mesh, want, c) <= amount_missing(before, want, c)) continue;
-        if (mesh->match.error < before.match.error) continue;  // others gained
+        if (mesh->match.error < before.match.error) continue;  // the flip improved other components
         std::shared_ptr<MatchedMesh> best;
         const auto improved = [&](std::shared_ptr<MatchedMesh> better) {
           best = std::move(better);
@@ -133,7 +132,7 @@ TEST(SignSearch, MendASpoiltPlace) {
         };
         Controls controls(BudgetParameters{}, nullptr, {});
         std::vector<std::vector<IndexBox>> boxes(scene->topology.components.size());
-        boxes[c] = boxes_at(cells, delaunay, spoilt);
+        boxes[c] = boxes_at(cells, delaunay, flipped);
         SignSearch(round, scene->topology, cells, boxes)
             .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);
         ASSERT_NE(best, nullptr) << "seed " << seed << " tetrahedron " << i;

@@ -14,32 +14,33 @@ using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
 
-std::vector<std::uint8_t> evidence_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                      const CellLevels& raised, int threads = 1) {
-  SignConstraints evidence(restricted, grid);
-  evidence.update(raised, threads);
-  return evidence.sides();
+std::vector<std::uint8_t> constraints_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
+                                         const CellLevels& cell_levels, int threads = 1) {
+  SignConstraints constraints(restricted, grid);
+  constraints.update(cell_levels, threads);
+  return constraints.sides();
 }
 
 CellLevels everywhere(const Scene& scene) {
-  CellLevels raised(*scene.isosurface);
+  CellLevels cell_levels(*scene.isosurface);
   std::vector<CellName> cells;
   scene.topology.index.for_each_active_cell(
-      [&](const CellIndex& cell, unsigned) { cells.push_back(raised.name(cell)); });
-  raised.raise(cells);
-  return raised;
+      [&](const CellIndex& cell, unsigned) { cells.push_back(cell_levels.name(cell)); });
+  cell_levels.refine(cells);
+  return cell_levels;
 }
 
-// Points strictly between two samples of one side lie on that side: whichever tetrahedron holds one must know.
-TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
+// Points strictly between two samples of one side lie on that side: every tetrahedron that holds one must have this
+// constraint.
+TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideHaveTheirSide) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
-    const CellLevels raised = everywhere(*scene);
-    const std::vector<std::uint8_t> evidence = evidence_in(signed_delaunay, scene->grid, raised);
+    const CellLevels cell_levels = everywhere(*scene);
+    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, scene->grid, cell_levels);
     TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
-    for (const auto& [name, level] : raised.levels()) {
-      const CellIndex cell = raised.cell(name);
+    for (const auto& [name, level] : cell_levels.levels()) {
+      const CellIndex cell = cell_levels.cell(name);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         CellIndex end = cell;
         ++end[axis];
@@ -51,7 +52,7 @@ TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
           const Vec3 center{cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5};
           hint = signed_delaunay.locate(p, center, hint);
           if (signed_delaunay.delaunay().is_ghost(hint)) continue;
-          const bool known = (evidence[hint.index()] & (above ? kAbove : kBelow)) != 0;
+          const bool known = (constraints[hint.index()] & (above ? kAbove : kBelow)) != 0;
           EXPECT_TRUE(known) << "seed " << seed << " at " << p.x << " " << p.y << " " << p.z;
         }
       }
@@ -59,22 +60,22 @@ TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideKnowIt) {
   }
 }
 
-// Enough cells for several blocks. In the symmetric field many samples lie on sides of tetrahedra.
+// Enough cells for several blocks. In the symmetric field many samples lie on facets of tetrahedra.
 TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
   for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
     const SignedDelaunay signed_delaunay = dense(*scene);
-    const CellLevels raised = everywhere(*scene);
-    EXPECT_GT(raised.levels().size(), 4096u);
-    const std::vector<std::uint8_t> one = evidence_in(signed_delaunay, scene->grid, raised);
+    const CellLevels cell_levels = everywhere(*scene);
+    EXPECT_GT(cell_levels.levels().size(), 4096u);
+    const std::vector<std::uint8_t> one = constraints_in(signed_delaunay, scene->grid, cell_levels);
     EXPECT_GT(std::count(one.begin(), one.end(), kAbove), 1000) << scene->name;
-    EXPECT_EQ(evidence_in(signed_delaunay, scene->grid, raised, 3), one) << scene->name;
+    EXPECT_EQ(constraints_in(signed_delaunay, scene->grid, cell_levels, 3), one) << scene->name;
   }
 }
 
-TEST(SignConstraint, IsNoneWithoutRaisedCells) {
+TEST(SignConstraint, IsNoneWithoutRefinedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
-  for (const std::uint8_t e : evidence_in(signed_delaunay, scene->grid, CellLevels(*scene->isosurface))) {
+  for (const std::uint8_t e : constraints_in(signed_delaunay, scene->grid, CellLevels(*scene->isosurface))) {
     ASSERT_EQ(e, kNoConstraint);
   }
 }

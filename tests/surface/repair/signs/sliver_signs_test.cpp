@@ -22,9 +22,9 @@ constexpr std::int32_t kSize = 11;
 constexpr double kLast = kSize - 1;
 constexpr double kHeight = 4.3;
 
-// Points in the plane z = kHeight but for last bits: those of a lattice that lie on one circle, within which flat
-// tetrahedra come to lie upon each other, and where the sides of the box meet; and the corners of the box, so that
-// there is something above and below.
+// Points in the plane z = kHeight except for last bits: lattice points on one circle, within which flat tetrahedra lie
+// on top of each other, and the points where the sides of the box meet the plane; and the corners of the box, so that
+// something lies above and below.
 std::vector<Vec3> plane_points(Rng& rng) {
   std::vector<Vec3> points;
   for (unsigned i = 0; i < 8; ++i) {
@@ -39,14 +39,15 @@ std::vector<Vec3> plane_points(Rng& rng) {
   return points;
 }
 
-// A volume whose isosurface that plane is.
+// A volume whose isosurface is that plane.
 ScalarGrid plane_grid() {
   std::vector<float> samples;
   for (std::int32_t i = 0; i < kSize * kSize * kSize; ++i) samples.push_back(static_cast<float>(i / (kSize * kSize)));
   return {{kSize, kSize, kSize}, std::move(samples)};
 }
 
-// Those with a corner off the plane get the side that they lie on, the flat ones any. How many are flat.
+// Tetrahedra with a corner off the plane get the side on which they lie, flat ones a random side. Returns the number of
+// flat ones.
 std::size_t give_signs(SignedDelaunay& restricted, Rng& rng) {
   std::size_t flat = 0;
   const Tetrahedralization& delaunay = restricted.delaunay();

@@ -45,12 +45,12 @@ TEST(SpuriousPockets, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = dense(*scene);
     const auto before = testing::signs_by_name(restricted);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 0) << name;
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 0) << name;
     EXPECT_EQ(testing::signs_by_name(restricted), before);
   }
 }
 
-TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
+TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsFlippedBack) {
   const auto scene = field_scene("torus", 12);
   SignedDelaunay restricted = dense(*scene);
   const Tetrahedralization& delaunay = restricted.delaunay();
@@ -59,14 +59,14 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
   for (std::size_t i = 0; i < delaunay.tet_slots(); i += 7) {
     const TetId t(i);
     if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
-    // Alone when overturned, and clearly without any sample.
+    // A pocket of its own after the flip, and clearly without a sample.
     bool alone = true;
     for (unsigned face = 0; face < 4; ++face) {
       alone &= restricted.is_above(delaunay.neighbour(t, face)) == restricted.is_above(t);
     }
     if (!alone || holds_any_sample(*scene, testing::corners_of(delaunay, t), 1e-9)) continue;
-    restricted.overturn_sign(t);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).overturn(restricted), 1) << i;
+    restricted.flip_sign(t);
+    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 1) << i;
     EXPECT_EQ(testing::signs_by_name(restricted), before) << i;
     if (::testing::Test::HasFailure()) return;
     ++turned;
@@ -75,8 +75,8 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsTurnedBack) {
 }
 
 TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
-  // Coarse points: tetrahedra are large and hold samples. With all signs of one kind, a tetrahedron with a sample of
-  // the other is founded when it is turned.
+  // Coarse points, so tetrahedra are large and contain samples. All signs are made equal; then a tetrahedron that
+  // contains a sample of the other side is no spurious pocket after its flip.
   const auto scene = field_scene("sphere", 16);
   SignedDelaunay restricted(*scene->isosurface, scene->start());
   const Tetrahedralization& delaunay = restricted.delaunay();
@@ -85,16 +85,16 @@ TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
     const TetId t(i);
     if (!delaunay.is_live(t) || delaunay.is_ghost(t)) continue;
     for (std::size_t j = 0; j < delaunay.tet_slots(); ++j) {
-      if (delaunay.is_live(TetId(j)) && restricted.is_above(TetId(j))) restricted.overturn_sign(TetId(j));
+      if (delaunay.is_live(TetId(j)) && restricted.is_above(TetId(j))) restricted.flip_sign(TetId(j));
     }
-    restricted.overturn_sign(t);
+    restricted.flip_sign(t);
     bool has_sample = false;
     for (std::int32_t n = 0; n < 16 * 16 * 16 && !has_sample; ++n) {
       const std::array<std::int32_t, 3> s{n % 16, n / 16 % 16, n / 256};
       has_sample = scene->grid.at(s[0], s[1], s[2]) > scene->isovalue &&
                    holds(testing::corners_of(delaunay, t), {double(s[0]), double(s[1]), double(s[2])}, -1e-9);
     }
-    const std::int64_t count = SpuriousPockets(restricted, scene->grid).overturn(restricted);
+    const std::int64_t count = SpuriousPockets(restricted, scene->grid).flip(restricted);
     if (has_sample) {
       EXPECT_EQ(count, 0);
       EXPECT_TRUE(restricted.is_above(t));
@@ -109,7 +109,7 @@ TEST(SpuriousPockets, NoiseEndsAfterFewPassesAndKeepsParity) {
     const auto scene = noise_scene({5, 5, 5}, seed);
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     int passes = 0;
-    while (SpuriousPockets(restricted, scene->grid).overturn(restricted) > 0 && passes < 20) ++passes;
+    while (SpuriousPockets(restricted, scene->grid).flip(restricted) > 0 && passes < 20) ++passes;
     EXPECT_LT(passes, 20) << "seed " << seed;
     EXPECT_EQ(testing::odd_edges(restricted), 0u);
   }
