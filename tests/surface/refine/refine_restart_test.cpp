@@ -117,7 +117,7 @@ RefinementMesh refined_once(const Vec3& place, Clearances clearances, RefineStat
   RefinementPart part;
   part.mesh = RefinementMesh(mesh);
   set_clearances(part.mesh);
-  if (trust == Trust::kNone) distrust_all(part.mesh);
+  if (clearances == Clearances::kZero) clear_all_clearances(part.mesh);
   const RefineOptions options = finest_options();
   Controls controls(BudgetParameters{}, nullptr, {});
   RefineLoop(part, *scene->isosurface, options, stats).measure_all(1);
