@@ -192,8 +192,8 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
 TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
   const auto scene = testing::field_scene("sphere", 24);
   std::vector<Vec3> points = all_crossings(*scene);
-  points.emplace_back(11.5, 11.6, 11.7);
-  points.emplace_back(1.4, 1.5, 1.6);
+  points.push_back({11.5, 11.6, 11.7});
+  points.push_back({1.4, 1.5, 1.6});
   const CellLevels cell_levels(*scene->isosurface);
   RepairRound round(scene->surface(), cell_levels, triangulation(*scene, points));
   std::size_t off = 0;
