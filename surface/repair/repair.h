@@ -3,14 +3,15 @@
 // Rounds of: flag the voxel cells near the defects of the components that are not right yet (defect_cells.h); raise
 // each flagged cell one level of the sample lattice and exchange samples in the triangulation (its free samples go,
 // lattice samples come); take signs (sign_rule.h) and match the pieces of the mesh with the exact components; where a
-// few handles are wrong, find the boxes in which they are (euler_differences.h) and turn over single signs there
-// (sign_search.h). A component is done when its main piece has its topology, holds no vertex of another component and
-// lies near all of its samples. At the end each component is taken from the latest mesh that has it at its best; one
-// that no mesh has right is meshed by marching cubes, whose topology is exact, and reported. Vertices of other
-// components (foreign_vertices.h) and inverted umbrellas (inverted_umbrellas.h) are removed from what that makes; when
-// the former are all that is wrong, that is the end. Where inverted umbrellas that have to stay leave parts of the
-// surface out (missed_crossings.h), the rounds go on, with samples around these. Components whose triangles cross
-// others are meshed by marching cubes, too, until none do (marching_cubes_fallback.h).
+// few handles are wrong, find the boxes in which they are (euler_differences.h; from the third round on
+// angle_defect_grid.h) and turn over single signs there (sign_search.h). A component is done when its main piece has
+// its topology, holds no vertex of another component and lies near all of its samples. At the end each component is
+// taken from the latest mesh that has it at its best; one that no mesh has right is meshed by marching cubes, whose
+// topology is exact, and reported. Vertices of other components (foreign_vertices.h) and inverted umbrellas
+// (inverted_umbrellas.h) are removed from what that makes; when the former are all that is wrong, that is the end.
+// Where inverted umbrellas that have to stay leave parts of the surface out (missed_crossings.h), the rounds go on,
+// with samples around these. Components whose triangles cross others are meshed by marching cubes, too, until none do
+// (marching_cubes_fallback.h).
 #pragma once
 
 #include <cstdint>

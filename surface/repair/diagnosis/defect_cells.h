@@ -21,7 +21,7 @@ struct DefectContext {
   const CellLevels& cells;
   const std::vector<std::uint32_t>& component_of_vertex;  // of the triangulation: the exact component it lies on
   const std::vector<bool>& done;                          // of each exact component: needs no more work
-  const std::vector<std::vector<IndexBox>>& boxes;        // of each exact component: where it and its main piece part
+  const std::vector<IndexRanges>& boxes;                  // of each exact component: where it and its main piece part
   bool is_near_boxes = true;                              // of components with boxes, defects count near these alone
   LocatedCriticalPoints& critical;                        // of the volume, in the triangulation
 };
@@ -31,8 +31,8 @@ struct DefectContext {
 // triangulation that no triangle uses; and saddles and critical samples in tetrahedra of the other sign. Of a component
 // whose piece has the right topology only what tells of its missing part, or of the vertices it shares with others,
 // counts. For a component without any defect its saddles are taken, and when there are none all its crossings. Of a
-// component with boxes only defects near them count, if wanted, and all active cells very near them are taken where the
-// boxes are few.
+// component with boxes only defects near them count, if wanted, and all active cells very near the likely ones are
+// taken where the boxes are few.
 std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-// Where the meshes of repair differ from the surface in topology, as far as Euler curves tell.
+// Where the meshes of repair differ from the surface in topology, as far as Euler curves or angle defects tell.
 #pragma once
 
 #include <array>
@@ -25,18 +25,26 @@ class EulerDifferences {
   // Keeps a reference.
   explicit EulerDifferences(const ExactSurfaceCache& facts) : facts_(facts) {}
 
-  // For each component that is not done and whose main piece has another topology: the boxes in which the two part,
-  // none where there are more than `most`. Known when asked for again.
-  const std::vector<std::vector<IndexBox>>& find(const std::shared_ptr<MatchedMesh>& mesh,
-                                                 const std::vector<bool>& done, std::size_t most);
+  // How hard boxes are to be looked for: by Euler curves, if those tell of no more than so many; and, where they tell
+  // of none, of many or of wide ones, by angle defects as well (angle_defect_grid.h), which takes longer.
+  struct Effort {
+    std::size_t most_boxes = 0;
+    bool takes_angle_defects = false;
+    friend bool operator==(const Effort&, const Effort&) = default;
+  };
+  // For each component that is not done and whose main piece has another topology: the boxes in which the two part.
+  // Known when asked for again.
+  const std::vector<IndexRanges>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
+                                       const Effort& effort);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
+  void add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component);
 
   const ExactSurfaceCache& facts_;
-  std::vector<std::vector<IndexBox>> boxes_;  // as last found
-  std::weak_ptr<MatchedMesh> of_;             // in this mesh,
-  std::size_t most_ = 0;                      // no more than this
+  std::vector<IndexRanges> boxes_;  // as last found
+  std::weak_ptr<MatchedMesh> of_;   // in this mesh,
+  Effort effort_;                   // as hard as this
 };
 
 }  // namespace deliso

@@ -20,6 +20,14 @@ struct LayerRange {
 // A range along each axis.
 using IndexBox = std::array<LayerRange, 3>;
 
+// Where a component and its main piece part.
+struct IndexRanges {
+  std::vector<IndexBox> all;     // empty when there is no telling
+  std::vector<IndexBox> likely;  // some of them, or all
+
+  friend bool operator==(const IndexRanges&, const IndexRanges&) = default;
+};
+
 // How many layers a cell is away from the nearest of some places, along the axis along which it is farthest: for many
 // cells of a volume with so many samples.
 class DistanceFromRanges {
