@@ -2,7 +2,8 @@
 //
 // Input are the triangulation of stage 1 and the exact topology. A component of the surface is done when its main piece
 // has its topology, has no foreign vertex, and lies near all samples of the component. A round treats the other ones:
-//  1. flag the voxel cells near their defects (defect_cells.h), found also by Euler curves (euler_differences.h);
+//  1. flag the voxel cells near their defects (defect_cells.h), found also by Euler curves (euler_differences.h) and,
+//     from the third round on, by angle defects (angle_defect_grid.h);
 //  2. refine each flagged cell by one level: its free samples leave, lattice samples come (cell_levels.h, samples.h);
 //  3. set the signs by the rule for refined cells (sign_rule.h), build the mesh, match its pieces with the components;
 //  4. flip single signs where a few handles are wrong (sign_search.h).

@@ -36,7 +36,7 @@ class DefectFinder {
         has_defect_(context.done.size(), false) {
     for (std::size_t c = 0; context.is_near_boxes && c < boxes_.size(); ++c) {
       // One layer more, for tests of cells whose points are not known yet.
-      if (!boxes_[c].empty()) near_boxes_[c].emplace(boxes_[c], grid_.dims(), kNear + 1);
+      if (!boxes_[c].all.empty()) near_boxes_[c].emplace(boxes_[c].all, grid_.dims(), kNear + 1);
     }
   }
 
@@ -86,7 +86,7 @@ class DefectFinder {
   const CellLevels& cells_;
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
-  const std::vector<std::vector<IndexBox>>& boxes_;  // of each exact component
+  const std::vector<IndexRanges>& boxes_;  // of each exact component
   LocatedCriticalPoints& critical_;
   int threads_;
   std::vector<std::optional<DistanceFromRanges>> near_boxes_;  // of each exact component
@@ -96,8 +96,8 @@ class DefectFinder {
 
 void DefectFinder::flag_boxes() {
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
-    if (done_[c] || boxes_[c].size() > kFewBoxes) continue;
-    for (const auto& [x, y, z] : boxes_[c]) {
+    if (done_[c] || boxes_[c].likely.size() > kFewBoxes) continue;
+    for (const auto& [x, y, z] : boxes_[c].likely) {
       const CellIndex low = {x.first - kVeryNear, y.first - kVeryNear, z.first - kVeryNear};
       const CellIndex high = {x.last + kVeryNear, y.last + kVeryNear, z.last + kVeryNear};
       cells_.append_active_cells(topology_.index, low, high, found_);

@@ -22,7 +22,7 @@ struct DefectContext {
   const std::vector<std::uint32_t>& component_of_vertex;  // of each vertex of the triangulation: its exact component
   const std::vector<bool>& done;                          // of each exact component
   // Of each exact component: where it differs from its main piece.
-  const std::vector<std::vector<IndexBox>>& boxes;
+  const std::vector<IndexRanges>& boxes;
   // For components with boxes, only defects near the boxes count.
   bool is_near_boxes = true;
   LocatedCriticalPoints& critical;  // of the volume, in the triangulation
@@ -34,7 +34,7 @@ struct DefectContext {
 // of the other sign. If the piece of a component has the right topology, only those defects count that concern its
 // missing part, or the vertices that it shares with other components. For a component without any defect its saddles
 // are taken, and if there are none, all its crossings. For a component with boxes only defects near the boxes count (if
-// is_near_boxes); and if the boxes are few, all active cells very near them are added.
+// is_near_boxes); and if the likely boxes are few, all active cells very near them are added.
 std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/repair/diagnosis/angle_defect_grid.h"
+
 namespace deliso {
 
 namespace {
@@ -10,6 +12,20 @@ namespace {
 constexpr std::size_t kAtOnce = 256;
 // Jumps nearer to each other than this form one range: Euler curves err by a few layers.
 constexpr std::int32_t kCloseLayers = 4;
+
+// Angle defects are not compared where Euler curves give at most so many boxes, none with more layers than this.
+constexpr std::size_t kFewFound = 8;
+constexpr std::int32_t kWidest = 16;
+// Angle defects are compared if there are at most so many components; at most so many boxes of each are taken.
+constexpr std::size_t kFewComponents = 8;
+constexpr std::size_t kMostByAngleDefects = 16;
+
+bool are_clear(const std::vector<IndexBox>& boxes) {
+  const auto is_narrow = [](const IndexBox& box) {
+    return std::all_of(box.begin(), box.end(), [](const auto& range) { return range.last - range.first < kWidest; });
+  };
+  return !boxes.empty() && boxes.size() <= kFewFound && std::all_of(boxes.begin(), boxes.end(), is_narrow);
+}
 
 std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
   std::vector<LayerRange> ranges;
@@ -37,11 +53,11 @@ std::vector<IndexBox> boxes_at(const std::array<std::vector<std::int32_t>, 3>& j
   return boxes;
 }
 
-const std::vector<std::vector<IndexBox>>& EulerDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
-                                                                 const std::vector<bool>& done, std::size_t most) {
-  if (of_.lock() == mesh && most_ == most) return boxes_;
+const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
+                                                       const std::vector<bool>& done, const Effort& effort) {
+  if (of_.lock() == mesh && effort_ == effort) return boxes_;
   of_.reset();
-  most_ = most;
+  effort_ = effort;
   boxes_.assign(done.size(), {});
   std::vector<std::uint32_t> components;
   for (std::uint32_t c = 0; c < done.size(); ++c) {
@@ -52,8 +68,33 @@ const std::vector<std::vector<IndexBox>>& EulerDifferences::find(const std::shar
   for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
+  std::erase_if(components, [&](std::uint32_t c) { return are_clear(boxes_[c].all); });
+  if (effort.takes_angle_defects && components.size() <= kFewComponents) {
+    for (const std::uint32_t c : components) add_by_angle_defects(*mesh, c);
+  }
   of_ = mesh;
   return boxes_;
+}
+
+// Boxes that have too much are of no use where something is missing in all, nor the other way.
+void EulerDifferences::add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component) {
+  const ComponentMatch& match = mesh.match;
+  const ExactSurface& surface = cache_.surface();
+  const std::uint32_t main = match.main_piece[component];
+  const std::int64_t too_much =
+      match.pieces[main].topology.euler_characteristic - surface.topology.components[component].euler_characteristic;
+  if (too_much == 0) return;
+  const auto& [exact, component_of] = cache_.polygonized();
+  AngleDefectGrid difference(surface.grid().dims(), surface.isosurface.step());
+  difference.add(
+      mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
+  difference.add(
+      exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; }, -1);
+  const std::vector<IndexBox> found = difference.places(too_much > 0, kMostByAngleDefects);
+  if (found.empty()) return;
+  IndexRanges& boxes = boxes_[component];
+  boxes.likely = found;
+  boxes.all.insert(boxes.all.end(), found.begin(), found.end());
 }
 
 void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
@@ -68,7 +109,9 @@ void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::ui
   const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, part_of_vertex, components.size(),
                                                        surface.isosurface.step(), surface.grid().dims());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    boxes_[components[i]] = boxes_at(jumps_between(curves[i], cache_.euler_curves().of(components[i])), most_);
+    IndexRanges& boxes = boxes_[components[i]];
+    boxes.all = boxes_at(jumps_between(curves[i], cache_.euler_curves().of(components[i])), effort_.most_boxes);
+    boxes.likely = boxes.all;
   }
 }
 

@@ -1,4 +1,4 @@
-// Where the topology of repair's meshes differs from the surface's, according to Euler curves.
+// Where the topology of repair's meshes differs from the surface's, according to Euler curves and angle defects.
 #pragma once
 
 #include <array>
@@ -25,18 +25,27 @@ class EulerDifferences {
   // Keeps a reference.
   explicit EulerDifferences(const ExactSurfaceCache& cache) : cache_(cache) {}
 
-  // For each component that is not done and whose main piece has another topology: the boxes in which the two differ,
-  // or none if there are more than `most`. The last result is stored and returned for equal arguments.
-  const std::vector<std::vector<IndexBox>>& find(const std::shared_ptr<MatchedMesh>& mesh,
-                                                 const std::vector<bool>& done, std::size_t most);
+  // How much is done to find boxes. Euler curves are always compared; they give none if there are more than
+  // `most_boxes`. Angle defects (angle_defect_grid.h) take longer. They are compared where Euler curves give no box,
+  // many boxes or wide ones.
+  struct Effort {
+    std::size_t most_boxes = 0;
+    bool takes_angle_defects = false;
+    friend bool operator==(const Effort&, const Effort&) = default;
+  };
+  // For each component that is not done and whose main piece has another topology: the boxes in which the two differ.
+  // The last result is stored and returned for equal arguments.
+  const std::vector<IndexRanges>& find(const std::shared_ptr<MatchedMesh>& mesh, const std::vector<bool>& done,
+                                       const Effort& effort);
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
+  void add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component);
 
   const ExactSurfaceCache& cache_;
-  std::vector<std::vector<IndexBox>> boxes_;  // the last result
-  std::weak_ptr<MatchedMesh> of_;             // for this mesh
-  std::size_t most_ = 0;                      // with this limit
+  std::vector<IndexRanges> boxes_;  // the last result
+  std::weak_ptr<MatchedMesh> of_;   // for this mesh
+  Effort effort_;                   // with this effort
 };
 
 }  // namespace deliso

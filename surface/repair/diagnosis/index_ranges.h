@@ -20,6 +20,14 @@ struct LayerRange {
 // A range along each axis.
 using IndexBox = std::array<LayerRange, 3>;
 
+// Where a component differs from its main piece.
+struct IndexRanges {
+  std::vector<IndexBox> all;     // empty if it is not known
+  std::vector<IndexBox> likely;  // the more likely ones, or all
+
+  friend bool operator==(const IndexRanges&, const IndexRanges&) = default;
+};
+
 // The distance of a cell from the nearest of some boxes, in layers along the axis along which it is largest. For
 // queries of many cells of a volume with so many samples.
 class DistanceFromRanges {

@@ -24,7 +24,8 @@ constexpr std::size_t kFewBoxes = 30;
 constexpr std::size_t kMostBoxes = 512;
 
 // Normally only defects near the boxes found by Euler curves count. These boxes may be wrong, and then repair would
-// never succeed. So in this round all defects count. In more than one such round there would be too many samples.
+// never succeed. So in this round all defects count. In more than one such round there would be too many samples. From
+// this round on angle defects are compared, too.
 constexpr std::int32_t kRoundOfAllDefects = 3;
 
 }  // namespace
@@ -52,8 +53,8 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
-    const std::vector<std::vector<IndexBox>>& boxes =
-        differences_.find(mesh_, kept_.done(), round == 1 ? kFewBoxes : kMostBoxes);
+    const std::vector<IndexRanges>& boxes =
+        differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
     mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
                             kept_.done(), boxes, round != kRoundOfAllDefects, round_->located()}),
               controls);
@@ -150,10 +151,11 @@ void RepairRounds::take_signs() {
 // Tries to flip single signs near the boxes in which a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
-  const std::vector<std::vector<IndexBox>> boxes = differences_.find(mesh_, kept_.done(), kMostBoxes);
+  const std::vector<IndexRanges> boxes =
+      differences_.find(mesh_, kept_.done(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
   SignSearch search(*round_, surface_.topology, cell_levels_, boxes);
   for (std::uint32_t c = 0; c < boxes.size(); ++c) {
-    if (kept_.done()[c] || boxes[c].empty()) continue;
+    if (kept_.done()[c] || boxes[c].all.empty()) continue;
     const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
       mesh_ = std::move(mesh);
       kept_.keep(mesh_, round_->restricted().signs());

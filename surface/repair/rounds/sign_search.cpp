@@ -65,7 +65,8 @@ void SignSearch::find_undecided() {
   const std::span<const std::uint8_t> constraints = round_.sign_constraints();
   std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the boxes of each component
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
-    if (!boxes_[c].empty()) distances.emplace_back(c, DistanceFromRanges(boxes_[c], cells_.dims(), kReach));
+    const std::vector<IndexBox>& likely = boxes_[c].likely;
+    if (!likely.empty()) distances.emplace_back(c, DistanceFromRanges(likely, cells_.dims(), kReach));
   }
   struct Near {
     TetId tet;

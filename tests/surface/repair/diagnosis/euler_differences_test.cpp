@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/rounds/round.h"
 #include "tests/support/surface_fields.h"
@@ -31,15 +32,17 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
   // The boxes from one component's main piece and its part of the surface alone, both as whole meshes.
-  [[nodiscard]] std::vector<IndexBox> boxes_of(std::uint32_t c) const {
+  [[nodiscard]] IndexRanges boxes_of(std::uint32_t c) const {
     const ExactPolygonization& exact = cache_.polygonized();
     const std::vector<std::uint32_t> in_mesh = part_where(mesh_->match.piece_of, mesh_->match.main_piece[c]);
     const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
     const Vec3& step = scene_->isosurface->step();
     const Dims& dims = scene_->grid.dims();
-    return boxes_at(jumps_between(euler_curves(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
-                                  euler_curves(exact.mesh, on_surface, 1, step, dims).front()),
-                    kMany);
+    const std::vector<IndexBox> boxes =
+        boxes_at(jumps_between(euler_curves(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
+                               euler_curves(exact.mesh, on_surface, 1, step, dims).front()),
+                 kMany);
+    return {boxes, boxes};
   }
   static std::vector<std::uint32_t> part_where(const std::vector<std::uint32_t>& names, std::uint32_t wanted) {
     std::vector<std::uint32_t> part;
@@ -54,13 +57,13 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
 
 TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
   EulerDifferences differences(cache_);
-  const std::vector<std::vector<IndexBox>> boxes =
-      differences.find(mesh_, std::vector<bool>(components(), false), kMany);
+  const std::vector<IndexRanges> boxes =
+      differences.find(mesh_, std::vector<bool>(components(), false), {kMany, false});
   ASSERT_EQ(boxes.size(), components());
   int wrong = 0;
   for (std::uint32_t c = 0; c < components(); ++c) {
     const bool is_wrong = mesh_->match.main_piece[c] != kNoPiece && mesh_->match.agreement[c] == Agreement::kNone;
-    EXPECT_EQ(boxes[c], is_wrong ? boxes_of(c) : std::vector<IndexBox>()) << c;
+    EXPECT_EQ(boxes[c], is_wrong ? boxes_of(c) : IndexRanges()) << c;
     wrong += is_wrong ? 1 : 0;
   }
   EXPECT_GT(wrong, 0);
@@ -69,20 +72,64 @@ TEST_P(EulerDifferencesOfNoise, AreThoseOfEachComponentAlone) {
 TEST_P(EulerDifferencesOfNoise, AreNoMoreThanAskedForAndNoneOfWhatIsDone) {
   EulerDifferences differences(cache_);
   const std::vector<bool> none_done(components(), false);
-  const std::vector<std::vector<IndexBox>> all = differences.find(mesh_, none_done, kMany);
+  const std::vector<IndexRanges> all = differences.find(mesh_, none_done, {kMany, false});
   std::size_t most = 0;
-  for (const std::vector<IndexBox>& boxes : all) most = std::max(most, boxes.size());
+  for (const IndexRanges& boxes : all) most = std::max(most, boxes.all.size());
   ASSERT_GT(most, 0u);
-  const std::vector<std::vector<IndexBox>> fewer = differences.find(mesh_, none_done, most - 1);
+  const std::vector<IndexRanges> fewer = differences.find(mesh_, none_done, {most - 1, false});
   for (std::size_t c = 0; c < components(); ++c) {
-    EXPECT_EQ(fewer[c], all[c].size() < most ? all[c] : std::vector<IndexBox>());
+    EXPECT_EQ(fewer[c], all[c].all.size() < most ? all[c] : IndexRanges());
   }
-  const std::vector<std::vector<IndexBox>> again = differences.find(mesh_, none_done, kMany);
+  const std::vector<IndexRanges> again = differences.find(mesh_, none_done, {kMany, false});
   for (std::size_t c = 0; c < components(); ++c) EXPECT_EQ(again[c], all[c]);
   EulerDifferences others(cache_);
-  for (const std::vector<IndexBox>& boxes : others.find(mesh_, std::vector<bool>(components(), true), kMany)) {
-    EXPECT_TRUE(boxes.empty());
+  for (const IndexRanges& boxes : others.find(mesh_, std::vector<bool>(components(), true), {kMany, false})) {
+    EXPECT_TRUE(boxes.all.empty());
   }
+}
+
+// Noise in which Euler curves give many boxes or wide ones.
+class EulerDifferencesOfMuchNoise : public EulerDifferencesOfNoise {
+ protected:
+  EulerDifferencesOfMuchNoise() : EulerDifferencesOfNoise({26, 25, 24}) {}
+};
+
+TEST_P(EulerDifferencesOfMuchNoise, TakeTheBoxesOfAngleDefectsWhenAskedAndEulerCurvesAreUnclear) {
+  const Vec3& step = scene_->isosurface->step();
+  const auto& [exact, component_of] = cache_.polygonized();
+  int found = 0;
+  for (std::uint32_t c = 0; c < components(); ++c) {
+    const std::uint32_t main = mesh_->match.main_piece[c];
+    if (main == kNoPiece || mesh_->match.agreement[c] != Agreement::kNone) continue;
+    std::vector<bool> others_done(components(), true);
+    others_done[c] = false;
+    EulerDifferences differences(cache_);
+    const IndexRanges by_curves = differences.find(mesh_, others_done, {kMany, false})[c];
+    const IndexRanges both = differences.find(mesh_, others_done, {kMany, true})[c];
+    AngleDefectGrid grid(scene_->grid.dims(), step);
+    grid.add(
+        mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; }, 1);
+    grid.add(
+        exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; }, -1);
+    const std::int64_t too_much =
+        mesh_->match.pieces[main].topology.euler_characteristic - scene_->topology.components[c].euler_characteristic;
+    const std::vector<IndexBox> boxes = grid.places(too_much > 0, 16);
+    const auto is_narrow = [](const IndexBox& box) {
+      return std::all_of(box.begin(), box.end(), [](const LayerRange& range) { return range.last - range.first < 16; });
+    };
+    const bool is_clear = !by_curves.all.empty() && by_curves.all.size() <= 8 &&
+                          std::all_of(by_curves.all.begin(), by_curves.all.end(), is_narrow);
+    if (too_much == 0 || boxes.empty() || is_clear) {
+      EXPECT_EQ(both, by_curves);
+      continue;
+    }
+    ++found;
+    EXPECT_EQ(both.likely, boxes);
+    for (const IndexBox& box : by_curves.all)
+      EXPECT_NE(std::find(both.all.begin(), both.all.end(), box), both.all.end());
+    for (const IndexBox& box : boxes) EXPECT_NE(std::find(both.all.begin(), both.all.end(), box), both.all.end());
+  }
+  EXPECT_GT(found, 0);
 }
 
 using Layers = std::array<std::int32_t, 3>;
@@ -108,6 +155,7 @@ TEST(BoxesAtJumps, NeedAJumpAlongEachAxisAndAreNotTooMany) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, EulerDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, EulerDifferencesOfMuchNoise, ::testing::Values(1, 2));
 
 }  // namespace
 }  // namespace deliso

@@ -94,13 +94,13 @@ std::int64_t amount_missing(const MatchedMesh& mesh, const ComponentTopology& wa
          std::abs(want.boundary_loops - have.boundary_loops);
 }
 
-std::vector<IndexBox> boxes_at(const CellLevels& cells, const Tetrahedralization& delaunay, TetId t) {
+IndexRanges boxes_at(const CellLevels& cells, const Tetrahedralization& delaunay, TetId t) {
   Vec3 centre;
   for (const VertexId v : delaunay.vertices(t)) centre += 0.25 * delaunay.point(v);
   const CellIndex cell = cells.cell_of(centre);
   IndexBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) box[axis] = {cell[axis] + 1, cell[axis] + 1};
-  return {box};
+  return {{box}, {box}};
 }
 
 // Flips the sign of one tetrahedron without a constraint such that a component has one handle more or less.
@@ -131,7 +131,7 @@ TEST(SignSearch, CorrectsAFlippedSign) {
           return amount_missing(*best, want, c) <= amount_missing(before, want, c);
         };
         Controls controls(BudgetParameters{}, nullptr, {});
-        std::vector<std::vector<IndexBox>> boxes(scene->topology.components.size());
+        std::vector<IndexRanges> boxes(scene->topology.components.size());
         boxes[c] = boxes_at(cells, delaunay, flipped);
         SignSearch(round, scene->topology, cells, boxes)
             .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);
