@@ -56,7 +56,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
   for_each_block(component_of_vertex_.size() - first_vertex, surface_.threads, find, kVerticesAtOnce);
 }
 
-bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
+bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
                            ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
   at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
@@ -73,6 +73,8 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   if (rule_) {
     rule_->renew(exchanged);
     rule_->update();
+    before_.clear();
+    if (keeps_signs) keep_signs(exchanged);
   }
   flat_.renew(exchanged);
   pockets_.renew(exchanged);
@@ -81,6 +83,13 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   poles_.renew(exchanged);
   has_assembled_ = false;
   return true;
+}
+
+void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
+  before_ = restricted_->signs();
+  rule_->take_signs(at_circumcenters_);
+  const TetSigns by_rule = restricted_->signs();
+  for (const TetId t : exchanged.renewed) before_[t.index()] = by_rule[t.index()];
 }
 
 void RepairRound::settle_signs() {
@@ -96,6 +105,11 @@ void RepairRound::take_plain_signs() {
 void RepairRound::take_signs() {
   if (!rule_) rule_.emplace(*restricted_, surface_.grid(), cell_levels_, surface_.threads);
   rule_->take_signs(at_circumcenters_);
+  settle_signs();
+}
+
+void RepairRound::take_signs_before() {
+  rule_->take_signs_before(before_);
   settle_signs();
 }
 

@@ -33,14 +33,20 @@ class RepairRound {
   RepairRound(const ExactSurface& surface, const CellLevels& cell_levels, std::unique_ptr<SignedDelaunay> restricted);
 
   // Exchanges points and updates all data for them and for the cells refined meanwhile: this begins a new round.
-  // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more.
-  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
+  // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more. `keeps_signs` says
+  // that the present signs are worth a try in the next round (take_signs_before).
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
+                ExchangedPoints& exchanged);
 
   // Sets the signs of the circumcenters, then corrects the signs of slivers (sliver_signs.h) and of spurious pockets
   // (spurious_pockets.h).
   void take_plain_signs();
   // Sets the signs by the rule for refined cells (sign_rule.h), then makes the same two corrections.
   void take_signs();
+  // Sets the signs that the round before ended with, so that what was mended there stays mended, then makes the same
+  // two corrections. Renewed tetrahedra take their sign by the rule. Precondition: has_signs_before().
+  void take_signs_before();
+  [[nodiscard]] bool has_signs_before() const { return !before_.empty(); }
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Frees data that can be computed again. Called before meshes are assembled, after which a further round is rare.
   void drop_pairing() { pairing_.reset(); }
@@ -73,6 +79,7 @@ class RepairRound {
  private:
   void find_components(std::size_t first);
   void settle_signs();
+  void keep_signs(const ExchangedPoints& exchanged);
   std::optional<PairedTriangles> take_triangles();
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets);
 
@@ -80,6 +87,7 @@ class RepairRound {
   const CellLevels& cell_levels_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
+  TetSigns before_;  // the last signs of the round before, those of renewed tetrahedra by the rule; may be empty
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRule> rule_;  // made when first needed
   SliverSigns flat_;

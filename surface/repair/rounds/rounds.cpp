@@ -67,7 +67,7 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   cell_levels_.refine(std::move(cells));
   resample();
   release_free_memory();
-  take_signs();
+  take_signs(controls);
   release_free_memory();
   try_signs(controls);
   ++stats_.rounds;
@@ -122,7 +122,8 @@ void RepairRounds::resample() {
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || surface_.threads == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
-  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
+  const bool keeps_signs = stats_.rounds > 0;  // no round has mended those of stage 1
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), keeps_signs, exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
@@ -139,13 +140,30 @@ void RepairRounds::resample() {
   samples_.take_vertices(vertex_of);
 }
 
-// Sets the signs by the rule, and keeps the mesh if it improves some component.
-void RepairRounds::take_signs() {
+// Sets the signs of the round before, where there are any, and then those by the rule, unless every component is done.
+// Continues with the mesh of the smaller error.
+void RepairRounds::take_signs(Controls& controls) {
+  std::shared_ptr<MatchedMesh> before;
+  TetSigns signs;
+  if (round_->has_signs_before()) {
+    round_->take_signs_before();
+    if (take_mesh() || controls.poll()) return;
+    before = mesh_;
+    signs = round_->restricted().signs();
+  }
   round_->take_signs();
+  if (take_mesh() || !before || mesh_->match.error < before->match.error) return;
+  mesh_ = std::move(before);
+  round_->set_signs(signs);
+}
+
+// Assembles the mesh for the present signs, and keeps it if it improves some component. Returns whether all are done.
+bool RepairRounds::take_mesh() {
   std::optional<MatchedMesh> mesh = round_->assemble();
-  if (!mesh) return;
+  if (!mesh) return false;
   mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
   kept_.keep(mesh_, round_->restricted().signs());
+  return kept_.is_done();
 }
 
 // Tries to flip single signs near the boxes in which a component is wrong.

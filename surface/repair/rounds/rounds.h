@@ -66,7 +66,8 @@ class RepairRounds {
   void mend_once(std::vector<CellName> cells, Controls& controls);
   void reopen(std::span<const std::uint32_t> crossings);
   void resample();
-  void take_signs();
+  void take_signs(Controls& controls);
+  bool take_mesh();
   void try_signs(Controls& controls);
 
   const ExactSurface& surface_;
