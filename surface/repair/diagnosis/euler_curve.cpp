@@ -88,6 +88,11 @@ void for_each_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& 
 
 }  // namespace
 
+void for_each_mesh_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex, const Vec3& step,
+                          const std::array<std::int32_t, 3>& dims, const VisitChange& visit) {
+  for_each_change(mesh, part_of_vertex, step, dims, visit);
+}
+
 std::vector<EulerCurves> euler_curves(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
                                       std::size_t parts, const Vec3& step, const std::array<std::int32_t, 3>& dims) {
   EulerCurves none;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "surface/mesh/surface_mesh.h"
@@ -22,6 +23,14 @@ using SampleLayers = std::array<std::int32_t, 3>;
 
 // Stands for no part: such vertices are not counted.
 inline constexpr std::uint32_t kNoPart = 0xFFFFFFFFu;
+
+// Gets (part, layers, change): the Euler characteristic of the part changes by so much when planes along the three axes
+// reach these layers.
+using VisitChange = std::function<void(std::uint32_t, const SampleLayers&, std::int32_t)>;
+// Visits the changes of all simplices of a mesh. `part_of_vertex`, `step` and `dims`: as below.
+void for_each_mesh_change(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex, const Vec3& step,
+                          const std::array<std::int32_t, 3>& dims, const VisitChange& visit);
+
 // The Euler curves of several parts of a mesh, in one pass over its triangles. `part_of_vertex` is the same for all
 // vertices of a piece, below `parts` or kNoPart. `step` is the size of a voxel in mesh space, `dims` the number of
 // samples.

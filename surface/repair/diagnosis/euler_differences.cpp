@@ -1,6 +1,7 @@
 #include "surface/repair/diagnosis/euler_differences.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "surface/repair/diagnosis/angle_defect_grid.h"
 
@@ -10,9 +11,6 @@ namespace {
 
 // The number of components handled in one pass.
 constexpr std::size_t kAtOnce = 256;
-// Jumps nearer to each other than this form one range: Euler curves err by a few layers.
-constexpr std::int32_t kCloseLayers = 4;
-
 // Angle defects are not compared where Euler curves give at most so many boxes, none with more layers than this.
 constexpr std::size_t kFewFound = 8;
 constexpr std::int32_t kWidest = 16;
@@ -27,31 +25,7 @@ bool are_clear(const std::vector<IndexBox>& boxes) {
   return !boxes.empty() && boxes.size() <= kFewFound && std::all_of(boxes.begin(), boxes.end(), is_narrow);
 }
 
-std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
-  std::vector<LayerRange> ranges;
-  for (const std::int32_t layer : layers) {
-    if (!ranges.empty() && layer - ranges.back().last < kCloseLayers) {
-      ranges.back().last = layer;
-    } else {
-      ranges.push_back({layer, layer});
-    }
-  }
-  return ranges;
-}
-
 }  // namespace
-
-std::vector<IndexBox> boxes_at(const std::array<std::vector<std::int32_t>, 3>& jumps, std::size_t most) {
-  const std::vector<LayerRange> xs = ranges_of(jumps[0]), ys = ranges_of(jumps[1]), zs = ranges_of(jumps[2]);
-  std::vector<IndexBox> boxes;
-  if (xs.size() * ys.size() * zs.size() > most) return boxes;
-  for (const LayerRange& z : zs) {
-    for (const LayerRange& y : ys) {
-      for (const LayerRange& x : xs) boxes.push_back({x, y, z});
-    }
-  }
-  return boxes;
-}
 
 const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<MatchedMesh>& mesh,
                                                        const std::vector<bool>& done, const Effort& effort) {
@@ -108,11 +82,37 @@ void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::ui
   const ExactSurface& surface = cache_.surface();
   const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, part_of_vertex, components.size(),
                                                        surface.isosurface.step(), surface.grid().dims());
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    IndexRanges& boxes = boxes_[components[i]];
-    boxes.all = boxes_at(jumps_between(curves[i], cache_.euler_curves().of(components[i])), effort_.most_boxes);
-    boxes.likely = boxes.all;
+  std::vector<std::optional<EulerBoxes>> several(components.size());
+  std::vector<std::uint32_t> part_of_component(boxes_.size(), kNoPart);
+  for (std::uint32_t i = 0; i < components.size(); ++i) {
+    const std::uint32_t c = components[i];
+    std::optional<EulerBoxes> boxes = EulerBoxes::around(jumps_between(curves[i], cache_.euler_curves().of(c)),
+                                                         surface.grid().dims(), effort_.most_boxes);
+    if (!boxes) continue;
+    boxes_[c] = boxes->boxes();
+    if (boxes->count() == 1) continue;
+    several[i] = std::move(boxes);
+    part_of_component[c] = i;
   }
+  sum_changes(mesh, part_of_vertex, part_of_component, several);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (several[i]) boxes_[components[i]] = several[i]->boxes();
+  }
+}
+
+void EulerDifferences::sum_changes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                                   const std::vector<std::uint32_t>& part_of_component,
+                                   std::vector<std::optional<EulerBoxes>>& boxes) const {
+  if (std::none_of(boxes.begin(), boxes.end(), [](const auto& some) { return some.has_value(); })) return;
+  const ExactSurface& surface = cache_.surface();
+  for_each_mesh_change(mesh.built.mesh, part_of_vertex, surface.isosurface.step(), surface.grid().dims(),
+                       [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
+                         if (boxes[part]) boxes[part]->add(layers, 2 * change);
+                       });
+  for_each_exact_change(surface, [&](std::uint32_t component, const SampleLayers& layers, std::int32_t twice) {
+    const std::uint32_t part = part_of_component[component];
+    if (part != kNoPart) boxes[part]->add(layers, -twice);
+  });
 }
 
 }  // namespace deliso

@@ -1,24 +1,19 @@
 // Where the topology of repair's meshes differs from the surface's, according to Euler curves and angle defects.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "surface/repair/diagnosis/euler_curve.h"
+#include "surface/repair/diagnosis/euler_boxes.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 
 namespace deliso {
-
-// The boxes in which jumps of Euler curves meet. A jump gives a layer along its axis. If there are several jumps along
-// each axis, all combinations are taken: most of these boxes contain no difference, which costs samples, but none is
-// missed. Empty if an axis has no jump, or if there would be more than `most` boxes.
-std::vector<IndexBox> boxes_at(const std::array<std::vector<std::int32_t>, 3>& jumps, std::size_t most);
 
 class EulerDifferences {
  public:
@@ -40,6 +35,10 @@ class EulerDifferences {
 
  private:
   void find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components);
+  // `boxes`: of the parts with several boxes.
+  void sum_changes(const MatchedMesh& mesh, const std::vector<std::uint32_t>& part_of_vertex,
+                   const std::vector<std::uint32_t>& part_of_component,
+                   std::vector<std::optional<EulerBoxes>>& boxes) const;
   void add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component);
 
   const ExactSurfaceCache& cache_;

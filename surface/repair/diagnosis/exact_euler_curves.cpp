@@ -106,7 +106,28 @@ class ExactChanges {
   Changes& changes_;
 };
 
+// Passes all changes on one by one.
+struct PassedOn {
+  const VisitChange& visit;
+
+  void add(std::uint32_t component, const SampleLayers& at, std::int32_t twice) const { visit(component, at, twice); }
+  void add_disk(std::uint32_t component, const CellIndex& cell, const std::array<unsigned, 3>& has_arc_below) const {
+    const SampleLayers top = {cell[0] + 1, cell[1] + 1, cell[2] + 1};
+    visit(component, top, 2);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SampleLayers at = top;
+      at[axis] = cell[axis];
+      if (has_arc_below[axis] != 0) visit(component, at, -2);
+    }
+  }
+};
+
 }  // namespace
+
+void for_each_exact_change(const ExactSurface& surface, const VisitChange& visit) {
+  const PassedOn changes{visit};
+  ExactChanges(surface, changes).visit();
+}
 
 // Adds up the changes by layer.
 class ExactEulerCurves::Changes {

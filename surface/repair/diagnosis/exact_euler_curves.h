@@ -11,6 +11,10 @@
 
 namespace deliso {
 
+// Visits the changes of the surface itself, cell by cell: for each component as a part, twice the change of its Euler
+// characteristic.
+void for_each_exact_change(const ExactSurface& surface, const VisitChange& visit);
+
 // The Euler curves of each exact component. They are those of any mesh that lies in the same cells as the surface, such
 // as the marching-cubes mesh. Computed cell by cell, and stored only for the layers that a component reaches.
 class ExactEulerCurves {

@@ -38,11 +38,18 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
     const std::vector<std::uint32_t> on_surface = part_where(exact.component, c);
     const Vec3& step = scene_->isosurface->step();
     const Dims& dims = scene_->grid.dims();
-    const std::vector<IndexBox> boxes =
-        boxes_at(jumps_between(euler_curves(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
-                               euler_curves(exact.mesh, on_surface, 1, step, dims).front()),
-                 kMany);
-    return {boxes, boxes};
+    auto boxes = EulerBoxes::around(jumps_between(euler_curves(mesh_->built.mesh, in_mesh, 1, step, dims).front(),
+                                                  euler_curves(exact.mesh, on_surface, 1, step, dims).front()),
+                                    dims, kMany);
+    if (!boxes) return {};
+    const auto adds = [&](std::int32_t sign) {
+      return [&boxes, sign](std::uint32_t, const SampleLayers& layers, std::int32_t change) {
+        boxes->add(layers, sign * change);
+      };
+    };
+    for_each_mesh_change(mesh_->built.mesh, in_mesh, step, dims, adds(1));
+    for_each_mesh_change(exact.mesh, on_surface, step, dims, adds(-1));
+    return boxes->boxes();
   }
   static std::vector<std::uint32_t> part_where(const std::vector<std::uint32_t>& names, std::uint32_t wanted) {
     std::vector<std::uint32_t> part;
@@ -130,28 +137,6 @@ TEST_P(EulerDifferencesOfMuchNoise, TakeTheBoxesOfAngleDefectsWhenAskedAndEulerC
     for (const IndexBox& box : boxes) EXPECT_NE(std::find(both.all.begin(), both.all.end(), box), both.all.end());
   }
   EXPECT_GT(found, 0);
-}
-
-using Layers = std::array<std::int32_t, 3>;
-
-IndexBox box_at(const Layers& at) {
-  return {LayerRange{at[0], at[0]}, LayerRange{at[1], at[1]}, LayerRange{at[2], at[2]}};
-}
-
-TEST(BoxesAtJumps, AreAllMeetingsOfJumps) {
-  EXPECT_EQ(boxes_at({{{12, 45}, {13}, {11}}}, kMany),
-            (std::vector<IndexBox>{box_at({12, 13, 11}), box_at({45, 13, 11})}));
-}
-
-TEST(BoxesAtJumps, JumpsThatAreCloseBelongTogether) {
-  const IndexBox close = {LayerRange{12, 17}, LayerRange{0, 0}, LayerRange{59, 59}};
-  EXPECT_EQ(boxes_at({{{12, 15, 17, 25}, {0}, {59}}}, kMany), (std::vector<IndexBox>{close, box_at({25, 0, 59})}));
-}
-
-TEST(BoxesAtJumps, NeedAJumpAlongEachAxisAndAreNotTooMany) {
-  EXPECT_TRUE(boxes_at({{{12}, {}, {11}}}, kMany).empty());
-  EXPECT_EQ(boxes_at({{{12, 20}, {5, 30}, {11}}}, 4).size(), 4u);
-  EXPECT_TRUE(boxes_at({{{12, 20}, {5, 30}, {11}}}, 3).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, EulerDifferencesOfNoise, ::testing::Values(1, 2, 3, 4));
