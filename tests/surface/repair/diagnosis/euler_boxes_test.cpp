@@ -11,7 +11,7 @@ namespace {
 
 using Jumps = std::array<std::vector<std::int32_t>, 3>;
 
-constexpr std::size_t kMany = 1u << 30;
+constexpr std::size_t kNoLimit = 1u << 30;
 constexpr std::array<std::int32_t, 3> kDims = {60, 60, 60};
 
 IndexBox box_at(const SampleLayers& at) {
@@ -20,7 +20,7 @@ IndexBox box_at(const SampleLayers& at) {
 
 // Jumps meet in eight boxes, of which two contain a difference. Differences in shape cancel side by side.
 TEST(EulerBoxes, TheLikelyOnesContainADifference) {
-  auto boxes = EulerBoxes::around(Jumps{{{12, 45}, {13, 40}, {11, 44}}}, kDims, kMany);
+  auto boxes = EulerBoxes::around(Jumps{{{12, 45}, {13, 40}, {11, 44}}}, kDims, kNoLimit);
   ASSERT_TRUE(boxes);
   EXPECT_EQ(boxes->count(), 8u);
   boxes->add({13, 39, 12}, -2);
@@ -35,20 +35,20 @@ TEST(EulerBoxes, TheLikelyOnesContainADifference) {
 }
 
 TEST(EulerBoxes, AllAreLikelyIfNoneContainsADifference) {
-  const auto boxes = EulerBoxes::around(Jumps{{{12, 45}, {13}, {11}}}, kDims, kMany);
+  const auto boxes = EulerBoxes::around(Jumps{{{12, 45}, {13}, {11}}}, kDims, kNoLimit);
   ASSERT_TRUE(boxes);
   EXPECT_EQ(boxes->boxes().likely, (std::vector<IndexBox>{box_at({12, 13, 11}), box_at({45, 13, 11})}));
 }
 
 TEST(EulerBoxes, NearJumpsFormOneRange) {
-  const auto boxes = EulerBoxes::around(Jumps{{{12, 15, 17, 25}, {0}, {59}}}, kDims, kMany);
+  const auto boxes = EulerBoxes::around(Jumps{{{12, 15, 17, 25}, {0}, {59}}}, kDims, kNoLimit);
   ASSERT_TRUE(boxes);
   const IndexBox close = {LayerRange{12, 17}, LayerRange{0, 0}, LayerRange{59, 59}};
   EXPECT_EQ(boxes->boxes().all, (std::vector<IndexBox>{close, box_at({25, 0, 59})}));
 }
 
 TEST(EulerBoxes, NeedAJumpAlongEachAxisAndAreNotTooMany) {
-  EXPECT_FALSE(EulerBoxes::around(Jumps{{{12}, {}, {11}}}, kDims, kMany));
+  EXPECT_FALSE(EulerBoxes::around(Jumps{{{12}, {}, {11}}}, kDims, kNoLimit));
   EXPECT_TRUE(EulerBoxes::around(Jumps{{{12, 20}, {5, 30}, {11}}}, kDims, 4));
   EXPECT_FALSE(EulerBoxes::around(Jumps{{{12, 20}, {5, 30}, {11}}}, kDims, 3));
 }
