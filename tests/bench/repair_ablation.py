@@ -134,10 +134,10 @@ def run(command, given, arguments, directory):
     for key in ("seconds", "rounds", "vertices_before", "vertices_after", "components_before", "components_polygonized"):
         result[key] = repair[key]
     if arguments.verify:
-        # A closed boundary closes the mesh in a padded volume, which verify is not given.
-        if "boundary=closed" not in given.options:
-            words = command + ["verify", str(mesh), str(given.path), "--isovalue", str(given.isovalue)]
-            result["verified"] = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+        words = command + ["verify", str(mesh), str(given.path), "--isovalue", str(given.isovalue)]
+        if "boundary=closed" in given.options:
+            words.append("--closed")
+        result["verified"] = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
     return result
 
 
@@ -189,7 +189,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=1, help="runs of each program on each input, by turns")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--coarse", action="store_true", help="stage 2 coarse for all inputs")
-    parser.add_argument("--verify", action="store_true", help="check meshes with `verify`, too (open boundaries)")
+    parser.add_argument("--verify", action="store_true", help="check meshes with `verify`, too")
     parser.add_argument("--data", default=os.environ.get("DELISO_DATA", str(ROOT / "data")))
     parser.add_argument("--log", default=os.devnull, help="a line of JSON for each run")
     arguments = parser.parse_args()
