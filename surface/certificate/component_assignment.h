@@ -20,7 +20,6 @@ namespace deliso {
 // The pieces of a mesh, and the exact components on which their vertices lie.
 struct AssignedPieces {
   std::span<const std::uint32_t> piece_of;  // of each vertex; a number beyond the pieces for one without triangles
-  // Of each vertex; a number beyond the components for one that lies on none.
   std::span<const std::uint32_t> component_of;    // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
   std::span<const ComponentTopology> topology;    // of each piece
   std::span<const ComponentTopology> components;  // the exact ones

@@ -14,7 +14,7 @@ namespace deliso {
 
 // Returns the grid-edge crossings that the mesh of the triangulation does not cover (see CoverageQuery), for insertion
 // by stage 1. `suspects` are the crossings to query (indices into topology.crossings); the uncovered ones stay in it.
-// `coverage targets`, if given, receives the crossings that are not close to the mesh (CoverageQuery::look), covered or
+// `coverage_targets`, if given, receives the crossings that are not close to the mesh (CoverageQuery::look), covered or
 // not. The same for any number of threads.
 std::vector<Vec3> uncovered_points(const RestrictedDelaunay& restricted, const ExactSurface& surface,
                                    std::vector<std::uint32_t>& suspects, std::vector<Vec3>* coverage_targets = nullptr);

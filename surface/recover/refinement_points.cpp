@@ -26,7 +26,8 @@ std::optional<RefinementPoint> RecoverLoop::multi_intersect(DualEdgeId e) const 
 }
 
 // Lines 3 and 5, ExtractManifold: when D_q is no topological disk, the x_sigma, sigma in D_q, farthest from q is
-// inserted. When D_q is empty (the paper leaves that out), a point in the Voronoi cell of q is.
+// inserted. If the size bound has left several hits on a dual edge, all of them are compared. When D_q is empty (the
+// paper leaves that out), a point in the Voronoi cell of q is inserted.
 std::optional<RefinementPoint> RecoverLoop::extract_manifold(VertexId q) {
   if (is_disk(q)) return std::nullopt;
   if (const auto farthest = farthest_of_umbrella(q)) return farthest;

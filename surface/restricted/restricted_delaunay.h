@@ -20,8 +20,8 @@
 namespace deliso {
 
 // The rule that tells which facets are restricted. kSigns: those whose two tetrahedra differ in sign. kHits, for
-// comparison, as in the paper: those whose own dual edge was found to have an odd number of hits, whatever the signs at
-// its ends.
+// comparison, is nearer to the paper: those whose own dual edge was found to have an odd number of hits, whatever the
+// signs at its ends. (In the paper any hit makes a facet restricted, and after MultiIntersect there is at most one.)
 enum class FacetRule { kSigns, kHits };
 
 using DualEdgeId = StrongId<struct DualEdgeTag>;

@@ -1,4 +1,5 @@
-// The points that stage 2 may insert instead of x_sigma, when x_sigma is refused.
+// A point that stage 2 may insert: x_sigma of a coarse triangle, or one of the points below. A point of the boundary
+// curve or at a halved edge is tried where x_sigma cannot be inserted.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// E of stage 2 (Dey and Levine, section 3.2): the triangles that an insertion replaces, and the rim around them.
+// E of stage 2 (Dey and Levine, section 2.2.2, Figure 3): the triangles that an insertion replaces, and the rim around
+// them. The disk D, which replaces them, is made by RefineLoop::plan_star and RefineLoop::replace_disk.
 #pragma once
 
 #include <algorithm>
