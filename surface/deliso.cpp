@@ -1,6 +1,8 @@
 #include "surface/deliso.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,7 +15,10 @@
 #include "delaunay/base/stopwatch.h"
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/final_certificate.h"
+#include "surface/certificate/geometry_check.h"
 #include "surface/extract/recovered_surface.h"
+#include "surface/intersection/self_intersection.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/recover/coverage.h"
 #include "surface/recover/init_triangulation.h"
 #include "surface/recover/recover.h"
@@ -51,7 +56,8 @@ class Pipeline {
         options_(options),
         parameters_(options.parameters),
         controls_(parameters_.budget, options.stop, options.progress),
-        result_(result) {}
+        result_(result),
+        promise_{.max_distance = parameters_.promise.max_distance} {}
 
   void run(double isovalue);
 
@@ -64,6 +70,7 @@ class Pipeline {
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
   void take_inner_seconds(const RecoveredSurface& recovered);
   void find_faults(const SurfaceMesh& mesh);
+  void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
   void drop_crossings();
   void certify(SurfaceMesh mesh);
 
@@ -79,6 +86,8 @@ class Pipeline {
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
   AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
+  Promise promise_;
+  GeometryCheck geometry_;
 };
 
 // DelIso(O, isovalue) of the paper, Figure 4.
@@ -150,7 +159,6 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   recovered.reset();
   cache_.reset();
   find_faults(mesh);
-  drop_crossings();
   if (options_.keep_stage1_mesh) result_.stage1_mesh = to_world(mesh, *isosurface_);
 
   controls_.enter("refine");
@@ -159,7 +167,31 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
+  if (parameters_.certify && result_.build.bounds_a_solid) refine_by_distance(mesh, options);
+  drop_crossings();
   return mesh;
+}
+
+// Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;
+// not without repair, as in the paper. What is promised is known afterwards.
+void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
+  constexpr int kMostRounds = 6;
+  constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
+  options.epsilon2 = std::numeric_limits<double>::infinity();
+  options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
+  for (int round = 0;; ++round) {
+    geometry_ = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+    const bool may_refine = repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage;
+    if (geometry_.is_near() || !may_refine || round == kMostRounds || controls_.poll()) return;
+    const std::int64_t before = result_.refine.insertions;
+    timed(result_.refine, [&] {
+      set_side_adjacency(mesh);
+      mesh.pole_heights.assign(mesh.points.size(), isosurface_->box().diagonal());
+      options.coverage_targets = geometry_.missed_crossings;
+      refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+    });
+    if (result_.refine.insertions == before) return;
+  }
 }
 
 // Poles and meshes that repair has found for further rounds count as what they are.
@@ -200,8 +232,22 @@ void Pipeline::certify(SurfaceMesh mesh) {
   if (!parameters_.certify) return;
   result_.certificate =
       final_certificate(result_.mesh, topology_, faults_, result_.build.bounds_a_solid, options_.threads);
-  if (!repairs(parameters_) || controls_.stopped()) return;  // or else triangles do not cross in mesh space
-  refute_crossing(result_.mesh, *surface_, result_.certificate);
+  if (controls_.stopped() || !result_.build.bounds_a_solid) return;
+  PromiseFigures figures;
+  figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());
+  figures.is_manifold = result_.certificate.manifold;
+  figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
+  figures.reversed_components = geometry_.reversed_components;
+  figures.topology = result_.certificate.verdict;
+  // Repair and RefineGeom have seen to it in mesh space.
+  if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
+    figures.crossing_pairs =
+        self_intersections(result_.mesh.points, result_.mesh.triangles, 0, options_.threads).crossing_pairs;
+  }
+  figures.vertices_off = geometry_.vertices_off;
+  figures.mesh_off = geometry_.mesh_off;
+  figures.isosurface_off = static_cast<std::int64_t>(geometry_.missed_crossings.size());
+  result_.certificate.broken = broken_promises(figures, promise_);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const 
   if (is_file && !options.report.empty()) write_text(report, options.report);
 }
 
-void print_summary(const MeshingResult& result, int threads) {
+void print_summary(const MeshingResult& result, const MeshingOptions& options) {
   const TopologySum topology = sum_of(mesh_topology(result));
   TextTable table;
   table.row({"vertices", std::to_string(result.mesh.points.size())})
@@ -88,9 +88,15 @@ void print_summary(const MeshingResult& result, int threads) {
       .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
       .row({"boundary loops", std::to_string(topology.boundary_loops)})
       .row({"verdict", verdict_name(result.certificate.verdict)})
-      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, threads).min_angle_degrees)})
+      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, options.threads).min_angle_degrees)})
       .row({"seconds", number_text(result.total_seconds)});
   table.print(std::cout);
+  if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
+  std::cout
+      << '\n'
+      << (is_proven(result.certificate) ? "proven" : "not proven") << ": manifold, oriented, homeomorphic to "
+      << "the isosurface component by component, no triangles that cross, vertices on the isosurface, distances both "
+      << "ways at most " << number_text(options.parameters.promise.max_distance) << " voxel\n";
 }
 
 // What a reader of stderr must know beyond the table.
@@ -102,6 +108,7 @@ void print_remarks(const MeshRun& run, const MeshingResult& result) {
   for (std::size_t i = 0; i < std::min(kShown, differences.size()); ++i) {
     std::cerr << "deliso: " << differences[i] << '\n';
   }
+  for (const std::string& broken : result.certificate.broken) std::cerr << "deliso: not proven: " << broken << '\n';
   if (differences.size() > kShown) {
     std::cerr << "deliso: " << differences.size() - kShown << " more differences stand in the report\n";
   }
@@ -109,7 +116,7 @@ void print_remarks(const MeshRun& run, const MeshingResult& result) {
 
 ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result) {
   if (result.stopped_early()) return ExitCode::kStopped;
-  const bool proven = result.certificate.verdict == Verdict::kHomeomorphic;
+  const bool proven = is_proven(result.certificate);
   return proven || !options.parameters.certify ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
@@ -139,7 +146,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   }
 
   write_outputs(options, run, result);
-  print_summary(result, meshing.threads);
+  print_summary(result, meshing);
   if (!options.quiet) print_remarks(run, result);
   return exit_code_of(meshing, result);
 }

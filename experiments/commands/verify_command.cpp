@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -23,6 +24,7 @@ struct VerifyCommandOptions {
   VolumeOptions volume;
   std::string isovalue;
   std::string report;
+  std::string max_distance = "1";
   bool closed = false;
   bool ignore_spacing = false;
 };
@@ -112,6 +114,7 @@ Json verify_report(const VerifyCommandOptions& options, const ScalarGrid& grid, 
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
               {"triangles", v.triangles},
+              {"promise", {{"max_distance", parse_number(options.max_distance, "--max-distance")}}},
               {"proven", v.proven},
               {"failures", v.failures},
               {"checks", checks_json(v)},
@@ -158,6 +161,10 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
 
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
+  const double max_distance = parse_number(options.max_distance, "--max-distance");
+  if (max_distance <= 0) {
+    throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
+  }
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   TriangleMesh mesh = read_mesh(options.mesh);
@@ -166,7 +173,8 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   ScalarGrid judged = grid;
   if (options.ignore_spacing) forget_spacing(mesh, judged);
   if (options.closed) judged = padded(judged, judged.range().first);
-  const Verification verification = verify_mesh(mesh, judged, isovalue);
+  const Promise promise{.max_distance = max_distance};
+  const Verification verification = verify_mesh(mesh, judged, isovalue, promise);
 
   const Json report = verify_report(options, grid, verification);
   if (!options.report.empty()) write_text(json_text(report), options.report);
@@ -191,6 +199,11 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--report", options->report, "Write every figure as JSON")
       .type_name("FILE")
       .check(refuse_empty_name);
+  command
+      .add_option("--max-distance", options->max_distance,
+                  "Voxels that mesh and isosurface may be off each other (promise.max_distance)")
+      .type_name("D")
+      .show_default();
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command.add_flag("--ignore-spacing", options->ignore_spacing,
                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");

@@ -194,6 +194,10 @@ constexpr std::array kTable = {
                                                "with the two keys above; cell_walk goes from cell to cell"),
     row<&P::spacing>("spacing", kAny, "", "ignore: treat the volume as if its spacing were 1, as the paper does"),
     row<&P::certify>("certify", kAny, "", "compare the mesh with the exact topology of the isosurface"),
+    row<&P::promise, &PromiseParameters::max_distance>(
+        "promise.max_distance", kPositive, "voxels",
+        "a proven mesh and its isosurface are within this of each other; where they are not, refinement goes on "
+        "(unless repair.max_rounds is 0)"),
     row<&P::repair, &RepairParameters::max_rounds>("repair.max_rounds", kNotNegative, "rounds",
                                                    "mend at most this often where the topology differs; 0: never"),
     row<&P::budget, &BudgetParameters::seconds>("budget.seconds", kPositive, "seconds",

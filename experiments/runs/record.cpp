@@ -135,7 +135,9 @@ Json certificate_json(const Certificate& certificate) {
               {"oriented", is_checked ? Json(certificate.oriented) : Json()},
               {"mesh", topology_json(certificate.mesh)},
               {"isosurface", topology_json(certificate.isosurface)},
-              {"differences", certificate.differences}};
+              {"differences", certificate.differences},
+              {"proven", is_checked ? Json(is_proven(certificate)) : Json()},
+              {"broken", certificate.broken}};
 }
 
 Json quality_json(const MeshQuality& quality) {

@@ -46,8 +46,7 @@ void judge_rounding(const TriangleMesh& mesh, double voxel, const std::filesyste
   const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
   if (together == 0 && !crosses && moved <= kFarthest) return;
-  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
-  certificate.differences.push_back(
+  certificate.broken.push_back(
       path.string() + ": STL rounds coordinates to single precision; here vertices move by up to " +
       shortest_text(moved) + " voxels, " +
       counted(together, "vertex coincides with another", "vertices coincide with others") + " and " +

@@ -49,6 +49,11 @@ struct RepairParameters {
   std::int32_t max_rounds = 8;  // 0 turns repair off
 };
 
+struct PromiseParameters {
+  // What a proven mesh is within, both ways, in smallest spacings; > 0. With repair, refinement goes on until it is.
+  double max_distance = 1;
+};
+
 struct BudgetParameters {
   std::optional<double> seconds;             // stop refining after this wall-clock time; > 0
   std::optional<std::int64_t> max_vertices;  // stop refining at this many vertices; >= 4
@@ -65,6 +70,7 @@ struct Parameters {
   SpacingUse spacing = SpacingUse::kUse;
   bool certify = true;
   RepairParameters repair;
+  PromiseParameters promise;
   BudgetParameters budget;
 };
 

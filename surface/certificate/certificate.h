@@ -23,7 +23,13 @@ struct Certificate {
   std::vector<TopologyCount> mesh;        // sorted by (euler_characteristic, boundary_loops)
   std::vector<TopologyCount> isosurface;  // the same for the exact topology
   std::vector<std::string> differences;   // one sentence each
+  std::vector<std::string> broken;        // what a proven mesh would have to keep and this one does not (promise.h)
 };
+
+// Whether nothing is wrong.
+inline bool is_proven(const Certificate& certificate) {
+  return certificate.verdict == Verdict::kHomeomorphic && certificate.broken.empty();
+}
 
 // The components of a mesh with their topology; sorted. Vertices without a triangle belong to none. Preconditions: the
 // mesh is manifold, its indices are in range.

@@ -9,20 +9,6 @@
 
 namespace deliso {
 
-namespace {
-
-bool is_exact_in_world(const Isosurface& isosurface) {
-  const ScalarGrid& grid = isosurface.grid();
-  bool is_exact = grid.origin() == Vec3();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    int exponent = 0;
-    is_exact = is_exact && std::frexp(grid.spacing()[axis] / isosurface.step()[axis], &exponent) == 0.5;
-  }
-  return is_exact;
-}
-
-}  // namespace
-
 Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
                               const AssignmentFaults& faults, bool bounds_a_solid, int threads) {
   Certificate certificate = certify(mesh, topology, threads);
@@ -35,13 +21,14 @@ Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology
   return certificate;
 }
 
-void refute_crossing(const TriangleMesh& mesh, const ExactSurface& surface, Certificate& certificate) {
-  if (is_exact_in_world(surface.isosurface)) return;
-  const std::int64_t crossing = self_intersections(mesh.points, mesh.triangles, 0, surface.threads).crossing_pairs;
-  if (crossing == 0) return;
-  if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;
-  certificate.differences.push_back(counted(crossing, "pair of triangles crosses", "pairs of triangles cross") +
-                                    " in the volume's own coordinates, which are rounded.");
+bool is_exact_in_world(const Isosurface& isosurface) {
+  const ScalarGrid& grid = isosurface.grid();
+  bool is_exact = grid.origin() == Vec3();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    int exponent = 0;
+    is_exact = is_exact && std::frexp(grid.spacing()[axis] / isosurface.step()[axis], &exponent) == 0.5;
+  }
+  return is_exact;
 }
 
 }  // namespace deliso

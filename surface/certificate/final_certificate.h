@@ -16,9 +16,8 @@ namespace deliso {
 Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
                               const AssignmentFaults& faults, bool bounds_a_solid, int threads = 1);
 
-// For a mesh in world coordinates whose triangles do not cross in mesh space. Sheets that nearly touch may cross when
-// origin or spacing round their coordinates; then the certificate is withdrawn. If the coordinates change by powers of
-// two alone, nothing needs to be checked.
-void refute_crossing(const TriangleMesh& mesh, const ExactSurface& surface, Certificate& certificate);
+// Whether the volume's own coordinates are those of mesh space but for powers of two, so that nothing is rounded when a
+// mesh is written in them. Where they are not, triangles that all but touch may come to cross.
+bool is_exact_in_world(const Isosurface& isosurface);
 
 }  // namespace deliso

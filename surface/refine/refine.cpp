@@ -90,6 +90,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     if (is_best) {
       fewest = count_of(found);
       stats = counted;
+      stats.meeting_pairs = fewest;
     }
     if (is_best && fewest <= before) return;
     RefinementChange change = loop.take_back();

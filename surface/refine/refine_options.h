@@ -72,6 +72,7 @@ struct RefineStats : StageStats {
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
   std::int64_t restarts = 0;          // of a slab, or of a round in the whole mesh
+  std::int64_t meeting_pairs = 0;     // of triangles that cross or touch, left after the last restart
   SearchCounters search;
 
   // Adds the counters of a part of the mesh.
@@ -82,6 +83,7 @@ struct RefineStats : StageStats {
     coverage_targets += part.coverage_targets;
     for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += part.refused[i];
     restarts += part.restarts;
+    meeting_pairs += part.meeting_pairs;
     search += part.search;
   }
 };

@@ -45,14 +45,14 @@ class PointGrid {
   // Calls visit(i) for the points in the block that p lies in.
   template <class Visit>
   void for_each_beside(const Vec3& p, Visit&& visit) const {
-    std::array<std::size_t, 3> at{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double where = points_.empty() ? -1 : place(p, axis);
-      if (!(where >= 0) || !(where < static_cast<double>(dims_[axis]))) return;
-      at[axis] = static_cast<std::size_t>(where);
-    }
-    const std::size_t block = row(at[1], at[2]) + at[0];
-    for (std::uint32_t i = first_[block]; i < first_[block + 1]; ++i) visit(points_[i]);
+    for (const std::uint32_t i : beside(p)) visit(i);
+  }
+
+  // Whether test(i) holds for some point in the block that p lies in.
+  template <class Test>
+  [[nodiscard]] bool any_beside(const Vec3& p, Test&& test) const {
+    const std::span<const std::uint32_t> near = beside(p);
+    return std::any_of(near.begin(), near.end(), test);
   }
 
   // Calls visit(i) for all points in a box, and for some others around it.
@@ -78,6 +78,17 @@ class PointGrid {
   static constexpr double kMostBlocks = 128;  // along an axis, or one more
   static constexpr double kMostPerPoint = 64;
 
+  // The points in the block that p lies in.
+  [[nodiscard]] std::span<const std::uint32_t> beside(const Vec3& p) const {
+    std::array<std::size_t, 3> at{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double where = points_.empty() ? -1 : place(p, axis);
+      if (!(where >= 0) || !(where < static_cast<double>(dims_[axis]))) return {};
+      at[axis] = static_cast<std::size_t>(where);
+    }
+    const std::size_t block = row(at[1], at[2]) + at[0];
+    return std::span(points_).subspan(first_[block], first_[block + 1] - first_[block]);
+  }
   // In block sides, from the lowest block.
   [[nodiscard]] double place(const Vec3& p, std::size_t axis) const { return (p[axis] - low_[axis]) * per_side_; }
   [[nodiscard]] std::size_t row(std::size_t j, std::size_t k) const { return dims_[0] * (j + dims_[1] * k); }

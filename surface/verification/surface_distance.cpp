@@ -76,7 +76,8 @@ DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const 
   return builder.figure();
 }
 
-DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
+DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most,
+                                       std::int64_t* beyond) {
   constexpr int kMostPerEdge = 16;
   FigureBuilder builder;
   std::vector<Vec3> samples;
@@ -95,14 +96,22 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
       }
     }
     const double weight = 0.5 * norm(cross(b - a, c - a)) / static_cast<double>(samples.size());
-    for (const Vec3& p : samples) builder.add(probe.foot_point(p).distance, weight, p);
+    for (const Vec3& p : samples) {
+      const double distance = probe.foot_point(p).distance;
+      builder.add(distance, weight, p);
+      if (beyond != nullptr && distance > most) ++*beyond;
+    }
   }
   return builder.figure();
 }
 
-DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty) {
+DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty, double most,
+                              std::int64_t* beyond) {
   if (points.empty()) return {};
-  if (mesh.triangles.empty()) return {if_empty, if_empty, points[0]};
+  if (mesh.triangles.empty()) {
+    if (beyond != nullptr) *beyond = static_cast<std::int64_t>(points.size());
+    return {if_empty, if_empty, points[0]};
+  }
   std::vector<Box3> boxes(mesh.triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
@@ -121,6 +130,7 @@ DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& 
     const auto [better, squared] = tree.nearest(p, bound, measure);
     if (better != BoxTree::kNone) nearest = better;
     builder.add(std::sqrt(squared), 1, p);
+    if (beyond != nullptr && squared > most * most) ++*beyond;
   }
   return builder.figure();
 }

@@ -1,6 +1,7 @@
 // How far a mesh is from an isosurface and the isosurface from the mesh, in voxels, by sampling both.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,11 +25,13 @@ DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const 
 
 // Triangles to the isosurface. Sampled are the edge midpoints and the centroid of each triangle, and on triangles with
 // an edge longer than two voxels further points, about one per voxel (at most 16 to an edge). The mean is over area.
-// Vertices are not sampled here.
-DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+// Vertices are not sampled here. `beyond`, if given, gets the number of samples that are farther than `most`.
+DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most = 0,
+                                       std::int64_t* beyond = nullptr);
 
 // The given points to the mesh: to their nearest triangles, exactly but for rounding. For a mesh without triangles the
-// distance is `if_empty`.
-DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty);
+// distance is `if_empty`. `most` and `beyond` as above.
+DistanceFigure points_to_mesh(std::span<const Vec3> points, const TriangleMesh& mesh, double if_empty, double most = 0,
+                              std::int64_t* beyond = nullptr);
 
 }  // namespace deliso

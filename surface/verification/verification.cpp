@@ -20,9 +20,8 @@ namespace deliso {
 
 namespace {
 
-constexpr double kOnBox = 1e-3;        // voxels; how far a point of a boundary edge may be off its face
-constexpr double kMaxResidual = 1e-3;  // voxels; how far a vertex may be off the isosurface
-constexpr double kMaxDistance = 1.0;   // voxels; how far the isosurface may be off the mesh
+constexpr double kOnBox = Promise().on_box;
+constexpr double kMaxResidual = Promise().max_residual;
 constexpr std::size_t kMostPlaces = 10;
 
 // Triangles with the same three vertices as an earlier one, whatever their order.
@@ -165,58 +164,50 @@ NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCent
 
 void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
 
-void check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, std::span<const std::optional<double>> off,
-                     Verification& v) {
+// The distances beyond what is promised.
+struct DistanceCounts {
+  std::int64_t vertices = 0, mesh = 0, isosurface = 0;
+};
+
+DistanceCounts check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe,
+                               std::span<const std::optional<double>> off, const Promise& promise, Verification& v) {
+  DistanceCounts counts;
   v.residual.distance = vertices_to_isosurface(voxels, off);
-  v.residual.pass = v.residual.distance.max_voxels <= kMaxResidual;
-  v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe);
-  v.distance.isosurface_to_mesh = points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal());
-  v.distance.pass = v.distance.isosurface_to_mesh.max_voxels <= kMaxDistance;
+  counts.vertices =
+      std::count_if(off.begin(), off.end(), [&](const auto& d) { return d && *d > promise.max_residual; });
+  v.residual.pass = counts.vertices == 0;
+  v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe, promise.max_distance, &counts.mesh);
+  v.distance.isosurface_to_mesh =
+      points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal(), promise.max_distance, &counts.isosurface);
+  v.distance.pass = counts.mesh == 0 && counts.isosurface == 0;
   in_world(v.residual.distance, probe);
   in_world(v.distance.mesh_to_isosurface, probe);
   in_world(v.distance.isosurface_to_mesh, probe);
+  return counts;
 }
 
-// One sentence for each condition that fails.
-std::vector<std::string> list_failures(const Verification& v) {
-  std::vector<std::string> failures;
+// What the promise is judged by.
+PromiseFigures figures_of(const Verification& v, const DistanceCounts& counts) {
   const ManifoldCheck& m = v.manifold;
-  if (v.triangles == 0) {
-    failures.emplace_back("the mesh has no triangle");
-  } else if (!m.pass) {
-    failures.push_back(
-        "not manifold: " +
-        counted(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
-        counted(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
-        counted(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice"));
-  }
-  if (!v.orientation.pass) {
-    failures.push_back("not oriented towards lower values: " +
-                       counted(v.orientation.misoriented_edges, "edge whose triangles disagree, ",
-                               "edges whose triangles disagree, ") +
-                       counted(v.orientation.reversed_components, "reversed component", "reversed components"));
-  }
-  if (!v.boundary.pass) {
-    failures.push_back("not closed up to the box: " + counted(v.boundary.off_box_edges, "boundary edge off its faces",
-                                                              "boundary edges off its faces"));
-  }
-  if (v.topology.verdict != Verdict::kHomeomorphic) {
-    failures.emplace_back(v.topology.verdict == Verdict::kSingularIsovalue
-                              ? "the isosurface is singular at this isovalue"
-                              : "the topology differs from that of the isosurface");
-  }
-  if (!v.self_intersection.pass) {
-    failures.push_back(
-        counted(v.self_intersection.found.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross"));
-  }
-  if (!v.residual.pass) {
-    failures.push_back("a vertex is " + std::to_string(v.residual.distance.max_voxels) + " voxels off the isosurface");
-  }
-  if (!v.distance.pass) {
-    failures.push_back("a point of the isosurface is " + std::to_string(v.distance.isosurface_to_mesh.max_voxels) +
-                       " voxels off the mesh");
-  }
-  return failures;
+  PromiseFigures figures;
+  figures.triangles = v.triangles;
+  figures.is_manifold = m.pass;
+  figures.manifold_faults =
+      counted(m.non_manifold_edges, "edge with three or more triangles, ", "edges with three or more triangles, ") +
+      counted(m.non_manifold_vertices, "vertex with several umbrellas, ", "vertices with several umbrellas, ") +
+      counted(m.repeated_vertices, "triangle that names a vertex twice", "triangles that name a vertex twice");
+  figures.misoriented_edges = v.orientation.misoriented_edges;
+  figures.reversed_components = v.orientation.reversed_components;
+  figures.off_box_edges = v.boundary.off_box_edges;
+  figures.topology = v.topology.verdict;
+  figures.crossing_pairs = v.self_intersection.found.crossing_pairs;
+  figures.vertices_off = counts.vertices;
+  figures.mesh_off = counts.mesh;
+  figures.isosurface_off = counts.isosurface;
+  figures.worst_vertex = v.residual.distance.max_voxels;
+  figures.worst_mesh = v.distance.mesh_to_isosurface.max_voxels;
+  figures.worst_isosurface = v.distance.isosurface_to_mesh.max_voxels;
+  return figures;
 }
 
 AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
@@ -248,7 +239,7 @@ void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isoval
 
 }  // namespace
 
-Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise) {
   const Stopwatch stopwatch;
   check_input(mesh, grid, isovalue);
   Verification v;
@@ -284,12 +275,12 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   add_assignment_faults(faults, v.topology);
 
   // Geometry.
-  check_distances(voxels, probe, off, v);
+  const DistanceCounts counts = check_distances(voxels, probe, off, promise, v);
   v.normals = check_normals(voxels, next);
   v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);
   v.quality = measure_quality(mesh);
 
-  v.failures = list_failures(v);
+  v.failures = broken_promises(figures_of(v, counts), promise);
   v.proven = v.failures.empty();
   v.seconds = stopwatch.seconds();
   return v;

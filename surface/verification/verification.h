@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "surface/certificate/certificate.h"
+#include "surface/certificate/promise.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/mesh_quality.h"
 #include "surface/mesh/triangle_mesh.h"
@@ -63,7 +64,7 @@ struct ResidualCheck {
 };
 
 struct DistanceCheck {
-  bool pass = false;                  // isosurface_to_mesh.max <= 1 voxel
+  bool pass = false;                  // both at most promise.max_distance
   DistanceFigure mesh_to_isosurface;  // points sampled on the triangles
   DistanceFigure isosurface_to_mesh;  // all points where the isosurface crosses a grid edge
 };
@@ -93,9 +94,7 @@ struct Verification {
   DelaunayBallCheck delaunay_balls;
   MeshQuality quality;
 
-  // Manifold, oriented, closed up to the box, exact topology per component, no crossing triangles, residual and
-  // isosurface-to-mesh distance within bounds. Normals, shape and Delaunay balls do not count: they are further figures
-  // of merit.
+  // All conditions of promise.h hold. Normals, shape and Delaunay balls do not count: they are further figures of merit.
   bool proven = false;
   std::vector<std::string> failures;  // one sentence for each condition of `proven` that fails
   double seconds = 0;
@@ -103,6 +102,7 @@ struct Verification {
 
 // Precondition: finite coordinates. Throws InputError when a triangle names a vertex out of range or the isovalue is
 // outside the range of the volume.
-Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue);
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue,
+                         const Promise& promise = {});
 
 }  // namespace deliso

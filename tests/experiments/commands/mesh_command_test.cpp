@@ -215,12 +215,11 @@ TEST_F(MeshCommand, VertexBudgetStopsWithAValidPartialMesh) {
 }
 
 TEST_F(MeshCommand, SignalsStopWithAValidPartialMesh) {
-  // Small, so that even a busy machine has come to stage 2 when the signal comes, which is fine enough to last longer.
-  generate("gyroid", 40);
+  generate("gyroid", 128);
   for (const int signal : {SIGINT, SIGTERM}) {
-    const ProgramResult result = mesh(
-        "0.1", {"--set", "stage2.epsilon2=0.002", "--set", "stage2.epsilon1=0.001", "--set", "stage2.r_min=0.0001"},
-        SignalAfter{signal, std::chrono::milliseconds(1500)});
+    // Fine enough to keep any machine busy for much longer than the delay.
+    const ProgramResult result = mesh("0.1", {"--set", "stage2.epsilon2=0.01", "--set", "stage2.epsilon1=0.005"},
+                                      SignalAfter{signal, std::chrono::milliseconds(1500)});
     EXPECT_EQ(result.exit_code, 3) << result.err << " after " << result.seconds << " s";
     const Json json = report();
     EXPECT_EQ(json["unmet"][0].get<std::string>().find("stage 2 (refine) was stopped by a signal"), 0u);

@@ -1,0 +1,240 @@
+#include "surface/certificate/geometry_check.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
+
+#include "raycast/gradients_at.h"
+#include "surface/base/parallel_blocks.h"
+#include "surface/mesh/triangle_distance.h"
+#include "surface/search/occupied_blocks.h"
+#include "surface/search/point_grid.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kBlock = 3;      // side of the blocks in which crossings are looked for, in distances promised
+constexpr int kMostPerEdge = 64;  // samples along an edge
+constexpr std::size_t kTrianglesAtOnce = 4096;
+
+// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and in
+// the end lines in many directions.
+bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, double reach) {
+  constexpr double kBeyond = 1.01;
+  const bool is_above = isosurface.is_above(p);
+  const auto changes = [&](const Vec3& direction, double distance) {
+    const double length = norm(direction);
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    const Vec3 offset = (distance / length) * direction;
+    return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
+  };
+  if (changes(likely, reach)) return true;
+  if (changes(isosurface.gradient(p), reach)) return true;
+  // As far as the values around p say that the isosurface lies, in each of its cells: just beyond that.
+  bool is_found = false;
+  const double value = std::abs(isosurface.value(p));
+  for_each_gradient_at(isosurface, p, [&](const Vec3& gradient) {
+    for (const Vec3& direction : {gradient, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      const double distance = kBeyond * value * norm(direction) / std::abs(dot(gradient, direction));
+      is_found = is_found || (distance <= reach && changes(direction, distance));
+    }
+  });
+  if (is_found) return true;
+  // Along lines towards the points of a cube's surface, one of each pair: a thin part is passed twice.
+  constexpr int kSide = 4;
+  std::vector<Hit> hits;
+  SearchCounters ignored;
+  for (int z = 0; z <= kSide; ++z) {
+    for (int y = z == 0 ? 0 : -kSide; y <= kSide; ++y) {
+      for (int x = -kSide; x <= kSide; ++x) {
+        if (std::max({std::abs(x), std::abs(y), z}) != kSide) continue;
+        const Vec3 direction{double(x), double(y), double(z)};
+        const double end = reach / norm(direction);
+        isosurface.all_hits({p, direction}, -end, end, hits, ignored);
+        if (!hits.empty()) return true;
+      }
+    }
+  }
+  return false;
+}
+
+struct Corners {
+  std::array<Vec3, 3> p;
+  Vec3 normal;  // not of unit length
+
+  Corners(const SurfaceMesh& mesh, std::size_t triangle) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.points[mesh.triangles[triangle][i]];
+    normal = cross(p[1] - p[0], p[2] - p[0]);
+  }
+  [[nodiscard]] double squared_longest() const {
+    return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
+  }
+};
+
+// Calls visit(point) for points about a voxel apart on a triangle, the corners left out.
+template <class Visit>
+void for_each_sample(const Corners& corners, double longest, const Visit& visit) {
+  const auto& [a, b, c] = corners.p;
+  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
+  visit((a + b + c) / 3);
+  for (int i = 0; i <= order; ++i) {
+    for (int j = 0; i + j <= order; ++j) {
+      if (std::max({i, j, order - i - j}) == order) continue;
+      visit((double(i) * a + double(j) * b + double(order - i - j) * c) / double(order));
+    }
+  }
+}
+
+// Corners lie on the isosurface, so what is near them needs no look; and every point of a triangle is within its
+// longest edge over the square root of 3 of a corner.
+void check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                     GeometryCheck& check) {
+  const double longest_near = promise.max_distance * std::sqrt(3.0);
+  const double squared_near = promise.max_distance * promise.max_distance;
+  std::atomic<std::int64_t> off = 0;
+  const auto append_if_far = [&](std::size_t t, std::vector<std::uint32_t>& far) {
+    const Corners corners(mesh, t);
+    const double squared_longest = corners.squared_longest();
+    if (squared_longest <= longest_near * longest_near) return;
+    std::int64_t count = 0;
+    for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
+      const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= squared_near; };
+      if (std::any_of(corners.p.begin(), corners.p.end(), is_beside)) return;
+      if (!is_near(surface.isosurface, p, corners.normal, promise.max_distance)) ++count;
+    });
+    if (count == 0) return;
+    off += count;
+    far.push_back(static_cast<std::uint32_t>(t));
+  };
+  check.far_triangles =
+      collect_in_blocks<std::uint32_t>(mesh.triangles.size(), surface.threads, append_if_far, kTrianglesAtOnce);
+  check.mesh_off = off;
+}
+
+void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                    GeometryCheck& check) {
+  const Isosurface& isosurface = surface.isosurface;
+  const auto append_if_off = [&](std::size_t v, std::vector<std::uint32_t>& off) {
+    const Vec3& p = mesh.points[v];
+    if (isosurface.value(p) == 0) return;
+    if (!is_near(isosurface, p, isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
+  };
+  check.vertices_off = static_cast<std::int64_t>(
+      collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off).size());
+}
+
+// The crossings that no vertex is near, and no triangle with its centroid beside them, as far as those in the same
+// block of space tell.
+std::vector<Vec3> crossings_to_ask_for(const SurfaceMesh& mesh, const ExactSurface& surface, double reach) {
+  std::vector<Vec3> centroids(mesh.triangles.size());
+  for_each_block(centroids.size(), surface.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      centroids[t] = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
+    }
+  });
+  const PointGrid vertices(mesh.points, 2 * reach), triangles(centroids, kBlock * reach);
+  const auto& crossings = surface.topology.crossings;
+  return collect_in_blocks<Vec3>(crossings.size(), surface.threads, [&](std::size_t i, std::vector<Vec3>& left) {
+    const Vec3 p = surface.position(crossings[i]);
+    const auto is_vertex_near = [&](std::uint32_t v) { return squared_distance(p, mesh.points[v]) <= reach * reach; };
+    const auto is_triangle_near = [&](std::uint32_t t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]) <= reach * reach;
+    };
+    if (!vertices.any_beside(p, is_vertex_near) && !triangles.any_beside(p, is_triangle_near)) left.push_back(p);
+  });
+}
+
+// The crossings that no triangle is near. What a look beside them leaves open is asked of all triangles.
+void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                     GeometryCheck& check) {
+  const double reach = promise.max_distance;
+  const std::vector<Vec3> points = crossings_to_ask_for(mesh, surface, reach);
+  const PointGrid grid(points, reach);
+  std::vector<std::uint8_t> is_covered(points.size(), 0);
+  const Vec3 around{reach, reach, reach};
+  if (points.empty()) return;
+  const OccupiedBlocks near_blocks(points, kBlock * reach);
+  const double small = near_blocks.reach() - reach;  // a triangle far from all points by a corner, if it is no larger
+  for_each_block(mesh.triangles.size(), surface.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      if (!near_blocks.is_near(mesh.points[a]) &&
+          squared_longest_edge(mesh, static_cast<std::uint32_t>(t)) <= small * small) {
+        continue;
+      }
+      const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
+      grid.for_each_near({box.low - around, box.high + around}, [&](std::uint32_t i) {
+        const std::atomic_ref covered(is_covered[i]);
+        if (covered.load(std::memory_order_relaxed) != 0) return;
+        if (squared_distance_to_triangle(points[i], mesh.points[a], mesh.points[b], mesh.points[c]) <= reach * reach) {
+          covered.store(1, std::memory_order_relaxed);
+        }
+      });
+    }
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_covered[i] == 0) check.missed_crossings.push_back(points[i]);
+  }
+}
+
+// Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
+// should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
+// thin part.
+int facing(const Isosurface& isosurface, const Corners& corners) {
+  const double area = norm(corners.normal);
+  if (!(area > 0) || !std::isfinite(area)) return 0;
+  const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
+  for (const double beside : {1.0 / 4096, 1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
+    const Vec3 offset = (beside / area) * corners.normal;
+    const bool before = isosurface.is_above(centroid + offset), behind = isosurface.is_above(centroid - offset);
+    if (before != behind) return before ? -1 : 1;
+  }
+  return 0;
+}
+
+// Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces.
+void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, GeometryCheck& check) {
+  constexpr int kEnough = 64;  // triangles that tell
+  std::vector<std::uint32_t> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[root(b)] = root(a);
+    parent[root(c)] = root(a);
+  }
+  struct Votes {
+    int count = 0, sum = 0;
+  };
+  std::vector<Votes> votes(mesh.points.size());  // of each component, at its root
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Votes& its = votes[root(mesh.triangles[t][0])];
+    if (its.count >= kEnough) continue;
+    const int vote = facing(surface.isosurface, Corners(mesh, t));
+    its.count += std::abs(vote);
+    its.sum += vote;
+  }
+  check.reversed_components = std::count_if(votes.begin(), votes.end(), [](const Votes& v) { return v.sum < 0; });
+}
+
+}  // namespace
+
+GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise) {
+  GeometryCheck check;
+  check_vertices(mesh, surface, promise, check);
+  check_triangles(mesh, surface, promise, check);
+  check_crossings(mesh, surface, promise, check);
+  check_orientation(mesh, surface, check);
+  return check;
+}
+
+}  // namespace deliso

@@ -1,0 +1,31 @@
+// How far the mesh of a run lies from its isosurface, both ways, and whether its vertices lie on it: the mesher's own
+// answer, by the sides of points, to what the verification measures by distances.
+//
+// A point is within D of the isosurface when two points at distance D on either side of it, one in some direction and
+// one against it, lie on different sides of the isosurface. That costs two values of the field.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/base/exact_surface.h"
+#include "surface/certificate/promise.h"
+#include "surface/mesh/surface_mesh.h"
+
+namespace deliso {
+
+struct GeometryCheck {
+  std::int64_t vertices_off = 0;             // farther than promise.max_residual from the isosurface
+  std::int64_t mesh_off = 0;                 // sampled points of triangles farther than promise.max_distance from it
+  std::vector<std::uint32_t> far_triangles;  // that such points lie on, ascending
+  std::vector<Vec3> missed_crossings;        // of the isosurface, farther than promise.max_distance from every triangle
+  std::int64_t reversed_components = 0;      // that face higher values on the whole
+
+  [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
+};
+
+// Of a mesh in mesh space with the exact topology's crossings. Triangles are sampled where the distances of their
+// corners do not tell, at points one voxel apart. The same for any number of threads.
+GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise);
+
+}  // namespace deliso

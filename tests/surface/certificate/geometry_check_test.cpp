@@ -1,0 +1,85 @@
+// The mesher's own check of distances against the verification's, which measures with other code.
+#include "surface/certificate/geometry_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/mesh/side_adjacency.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/verification/verification.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::Scene;
+
+// What the verification counts of a mesh in mesh space.
+Verification verified(const SurfaceMesh& mesh, const Scene& scene, const Promise& promise) {
+  return verify_mesh(to_world(mesh, *scene.isosurface), scene.grid, scene.isovalue, promise);
+}
+
+TEST(GeometryCheck, FindsNothingWrongWithExactPolygonizations) {
+  for (const auto& scene : {testing::field_scene("gyroid", 16), testing::noise_scene({9, 8, 10}, 3)}) {
+    SCOPED_TRACE(scene->name);
+    const SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
+    const GeometryCheck check = check_geometry(mesh, scene->surface(), {});
+    EXPECT_TRUE(check.is_near());
+    EXPECT_EQ(check.reversed_components, 0);
+  }
+}
+
+TEST(GeometryCheck, AgreesWithTheVerificationOnMovedVertices) {
+  const auto scene = testing::field_scene("sphere", 24);
+  const SurfaceMesh exact = exact_polygonization(scene->surface()).mesh;
+  Rng rng(7);
+  int off = 0, near = 0;
+  for (int i = 0; i < 20; ++i) {
+    SurfaceMesh mesh = exact;
+    const auto v = static_cast<std::size_t>(rng.below(mesh.points.size()));
+    const Vec3 normal = scene->isosurface->gradient(mesh.points[v]);
+    mesh.points[v] += (4 * rng.uniform() - 2) / norm(normal) * normal;
+    const Promise promise{.max_distance = 0.5};
+    const GeometryCheck check = check_geometry(mesh, scene->surface(), promise);
+    const Verification verification = verified(mesh, *scene, promise);
+    EXPECT_EQ(check.vertices_off > 0, !verification.residual.pass);
+    EXPECT_EQ(check.mesh_off > 0, verification.distance.mesh_to_isosurface.max_voxels > 0.5);
+    EXPECT_EQ(!check.missed_crossings.empty(), verification.distance.isosurface_to_mesh.max_voxels > 0.5);
+    (check.is_near() ? near : off) += 1;
+  }
+  EXPECT_GT(off, 0);
+  EXPECT_GT(near, 0);
+}
+
+TEST(GeometryCheck, TellsTheCrossingsThatNoTriangleIsNear) {
+  const auto scene = testing::field_scene("linked_tori", 40);
+  ASSERT_GT(scene->topology.components.size(), 1u);
+  const ExactPolygonization exact = exact_polygonization(scene->surface());
+  SurfaceMesh mesh = exact.mesh;
+  std::vector<bool> is_gone;
+  for (const auto& t : mesh.triangles) is_gone.push_back(exact.component[t[0]] == 0);
+  drop_triangles(mesh, is_gone);
+  for (const int threads : {1, 3}) {
+    const GeometryCheck check = check_geometry(mesh, scene->surface(threads), {});
+    const auto& crossings = scene->topology.crossings;
+    const auto missing =
+        std::count_if(crossings.begin(), crossings.end(), [](const EdgeCrossing& c) { return c.component == 0; });
+    EXPECT_GT(check.missed_crossings.size(), 0u);
+    EXPECT_LE(check.missed_crossings.size(), static_cast<std::size_t>(missing));
+    EXPECT_EQ(check.mesh_off, 0);
+  }
+}
+
+TEST(GeometryCheck, TellsReversedComponents) {
+  const auto scene = testing::field_scene("linked_tori", 40);
+  const ExactPolygonization exact = exact_polygonization(scene->surface());
+  SurfaceMesh mesh = exact.mesh;
+  for (auto& t : mesh.triangles) {
+    if (exact.component[t[0]] == 1) std::swap(t[0], t[1]);
+  }
+  EXPECT_EQ(check_geometry(mesh, scene->surface(), {}).reversed_components, 1);
+}
+
+}  // namespace
+}  // namespace deliso
