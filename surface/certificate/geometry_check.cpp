@@ -22,8 +22,8 @@ constexpr double kBlock = 3;      // side of the blocks in which crossings are l
 constexpr int kMostPerEdge = 64;  // samples along an edge
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and in
-// the end lines in many directions.
+// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and
+// in the end lines in many directions.
 bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, double reach) {
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
@@ -164,8 +164,8 @@ void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const
   const double small = near_blocks.reach() - reach;  // a triangle far from all points by a corner, if it is no larger
   for_each_block(mesh.triangles.size(), surface.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      if (!near_blocks.is_near(mesh.points[a]) &&
+      const std::array<Vec3, 3> corners = Corners(mesh, t).p;
+      if (!near_blocks.is_near(corners[0]) &&
           squared_longest_edge(mesh, static_cast<std::uint32_t>(t)) <= small * small) {
         continue;
       }
@@ -173,7 +173,7 @@ void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const
       grid.for_each_near({box.low - around, box.high + around}, [&](std::uint32_t i) {
         const std::atomic_ref covered(is_covered[i]);
         if (covered.load(std::memory_order_relaxed) != 0) return;
-        if (squared_distance_to_triangle(points[i], mesh.points[a], mesh.points[b], mesh.points[c]) <= reach * reach) {
+        if (squared_distance_to_triangle(points[i], corners[0], corners[1], corners[2]) <= reach * reach) {
           covered.store(1, std::memory_order_relaxed);
         }
       });
