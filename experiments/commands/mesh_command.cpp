@@ -92,11 +92,11 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options) {
       .row({"seconds", number_text(result.total_seconds)});
   table.print(std::cout);
   if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
-  std::cout
-      << '\n'
-      << (is_proven(result.certificate) ? "proven" : "not proven") << ": manifold, oriented, homeomorphic to "
-      << "the isosurface component by component, no triangles that cross, vertices on the isosurface, distances both "
-      << "ways at most " << number_text(options.parameters.promise.max_distance) << " voxel\n";
+  std::cout << '\n'
+            << (is_proven(result.certificate) ? "proven" : "not proven")
+            << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
+            << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
+            << number_text(options.parameters.promise.max_distance) << " voxel)\n";
 }
 
 // What a reader of stderr must know beyond the table.
