@@ -26,7 +26,8 @@ struct PromiseFigures {
   std::string manifold_faults;           // what keeps it from being one, if that is known
   std::int64_t misoriented_edges = 0;    // whose two triangles disagree
   std::int64_t reversed_components = 0;  // that face higher values
-  std::int64_t off_box_edges = 0;        // boundary edges that do not lie on one face of the box
+  // Boundary edges that do not lie on one face of the box. The mesher does not count them: its boundary is built there.
+  std::int64_t off_box_edges = 0;
   Verdict topology = Verdict::kNotChecked;
   std::int64_t crossing_pairs = 0;  // of triangles, in the coordinates as they are written
   std::int64_t vertices_off = 0;    // farther than max_residual from the isosurface
