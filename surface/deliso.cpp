@@ -27,6 +27,7 @@
 #include "surface/repair/repair.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/restricted_delaunay.h"
+#include "surface/shape/shape.h"
 #include "volume/isovalue_range.h"
 
 namespace deliso {
@@ -70,6 +71,7 @@ class Pipeline {
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
   void take_inner_seconds(const RecoveredSurface& recovered);
   void find_faults(const SurfaceMesh& mesh);
+  void improve(SurfaceMesh& mesh, int most_rounds);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
   void drop_crossings();
   void certify(SurfaceMesh mesh);
@@ -167,15 +169,27 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
+  if (result_.build.bounds_a_solid) improve(mesh, parameters_.shape.rounds);
   if (parameters_.certify && result_.build.bounds_a_solid) refine_by_distance(mesh, options);
   drop_crossings();
   return mesh;
 }
 
+// What the criteria leave badly shaped, where insertions are refused and at or below r_min; not in the paper.
+void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
+  if (!improves_shape(parameters_) || controls_.stopped()) return;
+  controls_.enter("shape");
+  timed(result_.shape, [&] {
+    ShapeOptions options = shape_options(parameters_);
+    options.rounds = std::min(options.rounds, most_rounds);
+    improve_shape(mesh, *surface_, options, controls_, result_.shape);
+  });
+}
+
 // Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;
 // not without repair, as in the paper. What is promised is known afterwards.
 void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
-  constexpr int kMostRounds = 6;
+  constexpr int kMostRounds = 6, kCautiousRounds = 2;  // of shape: what it has cut off would be cut off again
   constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
   options.epsilon2 = std::numeric_limits<double>::infinity();
   options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
@@ -190,6 +204,7 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
       options.coverage_targets = geometry_.missed_crossings;
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
+    if (round == 0) improve(mesh, kCautiousRounds);
     if (result_.refine.insertions == before) return;
   }
 }
@@ -229,6 +244,10 @@ void Pipeline::drop_crossings() {
 
 void Pipeline::certify(SurfaceMesh mesh) {
   result_.mesh = to_world(std::move(mesh), *isosurface_);
+  SurfaceMesh centroids;
+  for (const BadTriangle& bad : result_.shape.worst) centroids.points.push_back(bad.centroid);
+  const std::vector<Vec3> in_world = to_world(std::move(centroids), *isosurface_).points;
+  for (std::size_t i = 0; i < in_world.size(); ++i) result_.shape.worst[i].centroid = in_world[i];
   if (!parameters_.certify) return;
   result_.certificate =
       final_certificate(result_.mesh, topology_, faults_, result_.build.bounds_a_solid, options_.threads);

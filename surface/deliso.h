@@ -14,6 +14,7 @@
 #include "surface/mesh/triangle_mesh.h"
 #include "surface/recover/recover_options.h"
 #include "surface/refine/refine_options.h"
+#include "surface/shape/shape_options.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -45,6 +46,7 @@ struct MeshingResult {
   BuildStats build;
   RepairStats repair;
   RefineStats refine;
+  ShapeStats shape;
   Certificate certificate;
   double total_seconds = 0;
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,9 +100,21 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options) {
             << number_text(options.parameters.promise.max_distance) << " voxel)\n";
 }
 
+// The triangles that could not be brought to the angle asked for, and where the worst of them is.
+void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
+  if (shape.bad_after == 0) return;
+  const double wanted = shape_options(parameters).min_angle * 180 / std::numbers::pi;
+  const BadTriangle& worst = shape.worst.front();
+  std::cerr << "deliso: " << shape.bad_after << (shape.bad_after == 1 ? " triangle has" : " triangles have")
+            << " an angle below " << number_text(wanted) << " degrees, at creases and necks of the isosurface; the "
+            << "worst, of " << number_text(worst.degrees()) << " degrees, at " << number_text(worst.centroid.x) << ' '
+            << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
+}
+
 // What a reader of stderr must know beyond the table.
 void print_remarks(const MeshRun& run, const MeshingResult& result) {
   remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
+  remark_shape(result.shape, run.options.parameters);
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;

@@ -125,6 +125,7 @@ constexpr ParameterRange kPositive{0, true};
 constexpr ParameterRange kNotNegative{0, false};
 constexpr ParameterRange kAtLeastOne{1, false};
 constexpr ParameterRange kAtLeastFour{4, false};
+constexpr ParameterRange kAngle{0, true, 35};
 
 // What both stages do.
 constexpr std::string_view kTooHigh = "refine a triangle whose height over its circumradius is above this";
@@ -194,6 +195,13 @@ constexpr std::array kTable = {
                                                "with the two keys above; cell_walk goes from cell to cell"),
     row<&P::spacing>("spacing", kAny, "", "ignore: treat the volume as if its spacing were 1, as the paper does"),
     row<&P::certify>("certify", kAny, "", "compare the mesh with the exact topology of the isosurface"),
+    row<&P::shape, &ShapeParameters::min_angle>("shape.min_angle", kAngle, "degrees",
+                                                "improve triangles with a smaller angle after stage 2; null: the angle "
+                                                "that stage2.rho bounds, 14.5 for 2 and 30 "
+                                                "for 1"),
+    row<&P::shape, &ShapeParameters::rounds>("shape.rounds", kNotNegative, "rounds",
+                                             "improve badly shaped triangles at most this often, each time in wider "
+                                             "surroundings; 0: never, nor if repair.max_rounds is 0"),
     row<&P::promise, &PromiseParameters::max_distance>(
         "promise.max_distance", kPositive, "voxels",
         "a proven mesh and its isosurface are within this of each other; where they are not, refinement goes on "

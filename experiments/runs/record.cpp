@@ -53,6 +53,20 @@ Json refine_json(const RefineStats& refine) {
   return json;
 }
 
+// Positions in the world.
+Json shape_json(const MeshingResult& result) {
+  const ShapeStats& shape = result.shape;
+  Json json{{"seconds", shape.seconds}, {"bad_before", shape.bad_before}, {"bad_after", shape.bad_after}};
+  for (std::size_t kind = 0; kind < kShapeStepNames.size(); ++kind) {
+    json[std::string(kShapeStepNames[kind])] = shape.steps[kind];
+  }
+  Json& worst = json["worst"] = Json::array();
+  for (const BadTriangle& bad : shape.worst) {
+    worst.push_back(Json{{"min_angle_degrees", bad.degrees()}, {"position", vector_json(bad.centroid)}});
+  }
+  return json;
+}
+
 Json repair_json(const RepairStats& repair) {
   return Json{{"seconds", repair.seconds},
               {"rounds", repair.rounds},
@@ -87,7 +101,8 @@ Json stages_json(const MeshingResult& result) {
   return Json{{"index", stage_json(result.index)},       {"initial", initial_json(result)},
               {"recover", recover_json(result.recover)}, {"repair", repair_json(result.repair)},
               {"poles", stage_json(result.poles)},       {"build", build_json(result.build)},
-              {"refine", refine_json(result.refine)},    {"certify", certify_json(result)}};
+              {"refine", refine_json(result.refine)},    {"shape", shape_json(result)},
+              {"certify", certify_json(result)}};
 }
 
 // The stage's name in the paper and in the report.

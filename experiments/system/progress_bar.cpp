@@ -11,8 +11,8 @@
 namespace deliso {
 namespace {
 
-constexpr std::array<std::string_view, 7> kStages = {"index", "initial", "recover", "poles",
-                                                     "build", "refine",  "certify"};
+constexpr std::array<std::string_view, 7> kStages = {"index",  "initial", "recover", "repair",
+                                                     "refine", "shape",   "certify"};
 constexpr int kWidth = 28;
 
 // The stages share the bar evenly. Within a stage, the fraction is vertices done over vertices done plus violations

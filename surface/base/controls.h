@@ -17,7 +17,7 @@ namespace deliso {
 
 // What a caller may watch. Called now and then from the mesher's own thread.
 struct Progress {
-  std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "certify"
+  std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "shape", "certify"
   std::int64_t vertices = 0;  // so far, of the whole mesh or of the part at hand
   std::int64_t queued = 0;    // violations still waiting
 };

@@ -49,6 +49,12 @@ struct RepairParameters {
   std::int32_t max_rounds = 8;  // 0 turns repair off
 };
 
+struct ShapeParameters {
+  std::optional<double>
+      min_angle;            // improve triangles with a smaller angle, in degrees; > 0, <= 35; null: by stage2.rho
+  std::int32_t rounds = 4;  // 0 turns the stage off
+};
+
 struct PromiseParameters {
   // What a proven mesh is within, both ways, in smallest spacings; > 0. With repair, refinement goes on until it is.
   double max_distance = 1;
@@ -70,12 +76,18 @@ struct Parameters {
   SpacingUse spacing = SpacingUse::kUse;
   bool certify = true;
   RepairParameters repair;
+  ShapeParameters shape;
   PromiseParameters promise;
   BudgetParameters budget;
 };
 
 // Whether a mesh that differs from the exact topology is repaired.
 inline bool repairs(const Parameters& parameters) { return parameters.certify && parameters.repair.max_rounds > 0; }
+
+// Whether badly shaped triangles are improved after stage 2: not without repair, which sees to it that none cross.
+inline bool improves_shape(const Parameters& parameters) {
+  return repairs(parameters) && parameters.algorithm == Algorithm::kTwoStage && parameters.shape.rounds > 0;
+}
 
 // Throws InputError when some parameters contradict each other.
 void check_parameters(const Parameters& parameters);

@@ -69,15 +69,16 @@ void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
   for (std::size_t t = 0; t < place.size(); ++t) {
     if (is_gone[t]) continue;
     for (unsigned i = 0; i < 3; ++i) {
-      const TriangleSide side = mesh.neighbours[t][i];
       mesh.triangles[place[t]][i] = name[mesh.triangles[t][i]];
+      if (mesh.neighbours.empty()) continue;
+      const TriangleSide side = mesh.neighbours[t][i];
       mesh.neighbours[place[t]][i] = side == kNoSide ? kNoSide : 4 * place[side >> 2] + (side & 3u);
     }
   }
   mesh.points.resize(vertices);
   if (!mesh.pole_heights.empty()) mesh.pole_heights.resize(vertices);
   mesh.triangles.resize(triangles);
-  mesh.neighbours.resize(triangles);
+  if (!mesh.neighbours.empty()) mesh.neighbours.resize(triangles);
 }
 
 Vec3 from_world(Vec3 p, const Isosurface& isosurface) {

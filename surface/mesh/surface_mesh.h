@@ -70,7 +70,7 @@ void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Vi
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 
-// Removes triangles from a mesh, and the vertices that are then unused. No remaining triangle may be a neighbour of a
+// Removes triangles from a mesh, and the vertices that are then unused; neighbours may be missing. No remaining triangle may be a neighbour of a
 // removed one.
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
 

@@ -40,6 +40,7 @@ const std::map<std::string, Floors> kFloors = {
       {"surface/certificate", "surface/refine/disk"},
       {"surface/refine/guard", "surface/refine/slabs"},
       {"surface/refine"},
+      {"surface/shape"},
       {"surface/verification"},
       {"surface/repair/lattice"},
       {"surface/repair/signs"},

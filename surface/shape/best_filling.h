@@ -1,0 +1,33 @@
+// The triangles that fill a polygon in space without further vertices, and are shaped best.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "delaunay/base/vec3.h"
+
+namespace deliso {
+
+// The filling whose least quality (triangle_shape.h) is the largest, by dynamic programming over the diagonals (as
+// Gilbert, 1979, and Klincsek, 1980, for the least length), in cubic time. Triangles may cross; they are as the polygon
+// is directed.
+class BestFilling {
+ public:
+  // Precondition: at least three corners.
+  explicit BestFilling(std::span<const Vec3> polygon);
+
+  [[nodiscard]] double quality() const { return best_[size_ - 1]; }
+  // Corners of the polygon.
+  [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangles() const;
+
+ private:
+  void find(std::span<const Vec3> polygon, std::size_t i, std::size_t j);
+
+  std::size_t size_;
+  std::vector<double> best_;         // of the part of the polygon from i to j, at i * size_ + j
+  std::vector<std::size_t> middle_;  // the third corner of its triangle at the diagonal from i to j
+};
+
+}  // namespace deliso

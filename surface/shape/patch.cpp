@@ -1,0 +1,145 @@
+#include "surface/shape/patch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "surface/shape/triangle_shape.h"
+
+namespace deliso {
+
+std::uint32_t Patch::add_vertex(const Vec3& point) {
+  points_.push_back(point);
+  is_whole_.push_back(Wholeness::kUnknown);
+  stars_.emplace_back();
+  return static_cast<std::uint32_t>(points_.size() - 1);
+}
+
+std::uint32_t Patch::add_triangle(const std::array<std::uint32_t, 3>& corners) {
+  const auto t = static_cast<std::uint32_t>(triangles_.size());
+  triangles_.push_back(corners);
+  const auto [a, b, c] = corner_points(t);
+  qualities_.push_back(sine_of_least_angle(a, b, c));
+  is_removed_.push_back(0);
+  enter_stars(t);
+  return t;
+}
+
+// A closed fan is all of the star, since the mesh is a manifold.
+bool Patch::is_whole(std::uint32_t v) const {
+  if (is_whole_[v] == Wholeness::kUnknown) {
+    VertexLink link;
+    std::vector<std::uint32_t> near;
+    Box3 at;
+    at.extend(points_[v]);
+    const bool is_so = (find_link(v, link) && link.is_closed) || room_->holds(at, near);
+    is_whole_[v] = is_so ? Wholeness::kWhole : Wholeness::kCut;
+  }
+  return is_whole_[v] == Wholeness::kWhole;
+}
+
+Box3 Patch::box_of(std::uint32_t t) const {
+  Box3 box;
+  for (const std::uint32_t v : triangles_[t]) box.extend(points_[v]);
+  return box;
+}
+
+std::uint32_t Patch::across(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+  for (const std::uint32_t u : stars_[a]) {
+    if (u != t && std::find(triangles_[u].begin(), triangles_[u].end(), b) != triangles_[u].end()) return u;
+  }
+  return kNoVertex;
+}
+
+bool Patch::find_link(std::uint32_t v, VertexLink& link) const {
+  constexpr std::size_t kLongest = 512;
+  const std::vector<std::uint32_t>& star = stars_[v];
+  link.vertices.clear();
+  link.triangles.clear();
+  if (star.empty() || star.size() > kLongest) return false;
+  struct Arc {
+    std::uint32_t from, to, triangle;
+  };
+  std::array<Arc, kLongest> arcs;  // NOLINT(cppcoreguidelines-pro-type-member-init): only as many as are used
+  const auto arcs_end = arcs.begin() + static_cast<std::ptrdiff_t>(star.size());
+  std::transform(star.begin(), star.end(), arcs.begin(), [&](std::uint32_t t) {
+    const auto& corners = triangles_[t];
+    const std::size_t i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+    return Arc{corners[(i + 1) % 3], corners[(i + 2) % 3], t};
+  });
+  const auto is_entered = [&](const Arc& arc) {
+    return std::any_of(arcs.begin(), arcs_end, [&](const Arc& other) { return other.to == arc.from; });
+  };
+  auto at = std::find_if_not(arcs.begin(), arcs_end, is_entered);
+  link.is_closed = at == arcs_end;
+  if (link.is_closed) at = arcs.begin();
+  link.vertices.push_back(at->from);
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    link.triangles.push_back(at->triangle);
+    const bool is_last = i + 1 == star.size();
+    if (is_last && link.is_closed) return at->to == link.vertices.front() && star.size() >= 3;
+    if (std::find(link.vertices.begin(), link.vertices.end(), at->to) != link.vertices.end()) return false;
+    link.vertices.push_back(at->to);
+    if (is_last) return true;
+    at = std::find_if(arcs.begin(), arcs_end, [&](const Arc& arc) { return arc.from == link.vertices.back(); });
+    if (at == arcs_end) return false;
+  }
+  return false;
+}
+
+std::vector<std::uint32_t> Patch::triangles_below(double quality) const {
+  std::vector<std::uint32_t> below;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    if (has(t) && qualities_[t] < quality) below.push_back(t);
+  }
+  return below;
+}
+
+void Patch::leave_stars(std::uint32_t t) {
+  for (const std::uint32_t v : triangles_[t]) std::erase(stars_[v], t);
+  places_.remove(t, box_of(t));
+}
+
+void Patch::enter_stars(std::uint32_t t) {
+  for (const std::uint32_t v : triangles_[t]) stars_[v].push_back(t);
+  places_.add(t, box_of(t));
+}
+
+void Patch::apply(const PatchStep& step) {
+  Applied applied{step.removed, step.added.size(), step.vertex, false, {}};
+  for (const std::uint32_t t : step.removed) {
+    leave_stars(t);
+    is_removed_[t] = 1;
+  }
+  if (step.vertex == points_.size()) {
+    applied.is_new = true;
+    is_whole_[add_vertex(step.point)] = Wholeness::kWhole;
+  } else if (step.vertex != kNoVertex) {
+    applied.old_point = std::exchange(points_[step.vertex], step.point);
+  }
+  for (const auto& corners : step.added) add_triangle(corners);
+  journal_.push_back(std::move(applied));
+}
+
+void Patch::undo() {
+  const Applied applied = std::move(journal_.back());
+  journal_.pop_back();
+  for (std::size_t i = 0; i < applied.added; ++i) {
+    leave_stars(static_cast<std::uint32_t>(triangles_.size() - 1));
+    triangles_.pop_back();
+    qualities_.pop_back();
+    is_removed_.pop_back();
+  }
+  if (applied.is_new) {
+    points_.pop_back();
+    is_whole_.pop_back();
+    stars_.pop_back();
+  } else if (applied.vertex != kNoVertex) {
+    points_[applied.vertex] = applied.old_point;
+  }
+  for (const std::uint32_t t : applied.removed) {
+    is_removed_[t] = 0;
+    enter_stars(t);
+  }
+}
+
+}  // namespace deliso

@@ -1,0 +1,187 @@
+#include "surface/shape/patch_improvement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace deliso {
+
+namespace {
+
+// A step must improve the least quality of what it replaces by this factor: so few steps lead to the end.
+constexpr double kLeastGain = 1.02;
+// Searches go on until the quality is beyond the goal by this factor.
+constexpr double kEnough = 1.15;
+
+void sort_best_first(std::vector<PatchStep>& steps) {
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const PatchStep& a, const PatchStep& b) { return a.quality > b.quality; });
+}
+
+}  // namespace
+
+PatchImprovement::PatchImprovement(Patch& patch, const PatchPlan& plan, const Isosurface& isosurface,
+                                   const ShapeOptions& options, Controls controls, ShapeStats& stats)
+    : patch_(patch),
+      room_(plan.room),
+      goal_(std::sin(options.min_angle)),
+      guard_(patch, plan.crossings, isosurface, options, stats.search),
+      controls_(std::move(controls)),
+      stats_(stats),
+      steps_(patch, isosurface, stats.search) {}
+
+void PatchImprovement::run(std::span<const std::uint32_t> bad, double freedom, int depth) {
+  guard_.set_freedom(freedom);
+  depth_ = depth;
+  steps_.set_thorough(depth > 1);
+  for (const std::uint32_t t : bad) {
+    if (patch_.has(t)) queue_.push({patch_.quality(t), t});
+  }
+  const std::size_t most_steps = patch_.steps() + 100 + 20 * bad.size();
+  while (!queue_.empty() && patch_.steps() < most_steps && !controls_.poll()) {
+    const std::uint32_t t = queue_.top().triangle;
+    queue_.pop();
+    if (patch_.has(t)) improve(t);
+  }
+  queue_ = {};
+}
+
+double PatchImprovement::least_removed(const PatchStep& step) const {
+  double least = 1;
+  for (const std::uint32_t t : step.removed) least = std::min(least, patch_.quality(t));
+  return least;
+}
+
+// Whether all that the step changes lies within one of the boxes, so that all triangles near it are in the patch.
+bool PatchImprovement::has_room(const PatchStep& step) {
+  Box3 box;
+  for (const std::uint32_t t : step.removed) {
+    for (const Vec3& p : patch_.corner_points(t)) box.extend(p);
+  }
+  if (step.vertex != kNoVertex) box.extend(step.point);
+  return room_.holds(box, near_);
+}
+
+bool PatchImprovement::try_step(const PatchStep& step) {
+  if (!has_room(step)) return false;
+  const std::size_t first = patch_.triangle_count();
+  const std::size_t most_bad = count_bad(step.removed);
+  if (!guard_.apply(step)) return false;
+  if (bad_added(first) > most_bad + 1) {
+    patch_.undo();
+    return false;
+  }
+  ++stats_.steps[static_cast<std::size_t>(step.kind)];
+  queue_added(first);
+  return true;
+}
+
+std::size_t PatchImprovement::count_bad(std::span<const std::uint32_t> triangles) const {
+  return static_cast<std::size_t>(
+      std::count_if(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return patch_.quality(t) < goal_; }));
+}
+
+std::size_t PatchImprovement::bad_added(std::size_t first_added) const {
+  std::size_t count = 0;
+  for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
+    count += patch_.has(t) && patch_.quality(t) < goal_ ? 1 : 0;
+  }
+  return count;
+}
+
+void PatchImprovement::queue_added(std::size_t first) {
+  for (std::size_t t = first; t < patch_.triangle_count(); ++t) {
+    const double quality = patch_.quality(static_cast<std::uint32_t>(t));
+    if (quality < goal_) queue_.push({quality, static_cast<std::uint32_t>(t)});
+  }
+}
+
+// The first step that reaches the goal; else, of all, the one that improves most.
+bool PatchImprovement::improve(std::uint32_t triangle) {
+  candidates_.clear();
+  for (std::size_t kind = 0; kind < static_cast<std::size_t>(ShapeStep::kCount); ++kind) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t first = candidates_.size();
+      steps_.propose(static_cast<ShapeStep>(kind), triangle, corner, kEnough * goal_, candidates_);
+      for (std::size_t i = first; i < candidates_.size(); ++i) {
+        if (candidates_[i].quality >= goal_ && try_step(candidates_[i])) return true;
+      }
+    }
+  }
+  sort_best_first(candidates_);
+  for (const PatchStep& step : candidates_) {
+    if (step.quality < goal_ && improves(step) && try_step(step)) return true;
+  }
+  return depth_ > 1 && (improve_on_the_way() || improve_by_several(triangle, depth_));
+}
+
+bool PatchImprovement::improves(const PatchStep& step) const {
+  return step.quality > std::min(goal_, kLeastGain * least_removed(step));
+}
+
+// With places nearer to where the searches started than the best ones, which are refused.
+bool PatchImprovement::improve_on_the_way() {
+  constexpr int kHalvings = 3;
+  for (int i = 0; i < kHalvings; ++i) {
+    for (PatchStep& step : candidates_) {
+      if (steps_.halve(step) && improves(step) && try_step(step)) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<PatchStep> PatchImprovement::all_steps(std::uint32_t triangle) {
+  std::vector<PatchStep> steps;
+  for (std::size_t kind = 0; kind < static_cast<std::size_t>(ShapeStep::kCount); ++kind) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      steps_.propose(static_cast<ShapeStep>(kind), triangle, corner, kEnough * goal_, steps);
+    }
+  }
+  sort_best_first(steps);
+  return steps;
+}
+
+// Several steps that only together are an improvement: after each, one that replaces the worst of what was added. The
+// steps of a trial are taken back unless it ends well.
+bool PatchImprovement::improve_by_several(std::uint32_t triangle, int depth) {
+  const std::size_t first_added = patch_.triangle_count();
+  if (!try_several(triangle, {1, 0}, first_added, depth)) return false;
+  queue_added(first_added);
+  return true;
+}
+
+// `old`: what the trial has replaced, of the triangles from before it.
+bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth) {
+  constexpr std::size_t kMostTried = 6;
+  std::size_t tried = 0;
+  for (const PatchStep& step : all_steps(triangle)) {
+    if (tried == kMostTried) return false;
+    Replaced all = old;
+    for (const std::uint32_t t : step.removed) {
+      if (t >= first_added) continue;
+      all.least = std::min(all.least, patch_.quality(t));
+      all.bad += patch_.quality(t) < goal_ ? 1 : 0;
+    }
+    const double wanted = std::min(goal_, kLeastGain * all.least);
+    if ((depth == 1 && step.quality <= wanted) || !has_room(step) || !guard_.apply(step)) continue;
+    ++tried;
+    const std::uint32_t worst = worst_added(first_added);
+    const bool is_better = patch_.quality(worst) > wanted && bad_added(first_added) <= all.bad + 1;
+    if (is_better || (depth > 1 && try_several(worst, all, first_added, depth - 1))) {
+      ++stats_.steps[static_cast<std::size_t>(step.kind)];
+      return true;
+    }
+    patch_.undo();
+  }
+  return false;
+}
+
+std::uint32_t PatchImprovement::worst_added(std::size_t first_added) const {
+  std::uint32_t worst = static_cast<std::uint32_t>(patch_.triangle_count() - 1);
+  for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
+    if (patch_.has(t) && patch_.quality(t) < patch_.quality(worst)) worst = t;
+  }
+  return worst;
+}
+
+}  // namespace deliso

@@ -1,0 +1,70 @@
+// The shape stage within a patch: its badly shaped triangles, the worst first.
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/base/controls.h"
+#include "surface/shape/patch.h"
+#include "surface/shape/patches.h"
+#include "surface/shape/shape_options.h"
+#include "surface/shape/shape_steps.h"
+#include "surface/shape/step_guard.h"
+
+namespace deliso {
+
+class PatchImprovement {
+ public:
+  // A step's triangles, old and new, lie within one of the plan's boxes.
+  PatchImprovement(Patch& patch, const PatchPlan& plan, const Isosurface& isosurface, const ShapeOptions& options,
+                   Controls controls, ShapeStats& stats);
+
+  // Improves the given triangles as long as steps are found. Each improves the worst of what it replaces and adds no
+  // bad triangle more than it removes. `freedom`: by this factor steps may leave the isosurface farther than usual.
+  // `depth`: up to so many steps are tried together; from 2 on also shorter ways to better places.
+  void run(std::span<const std::uint32_t> bad, double freedom, int depth);
+
+ private:
+  struct Queued {
+    double quality;
+    std::uint32_t triangle;
+    // The worst first, then the lowest number.
+    friend bool operator<(const Queued& a, const Queued& b) {
+      return a.quality != b.quality ? a.quality > b.quality : a.triangle > b.triangle;
+    }
+  };
+  bool improve(std::uint32_t triangle);
+  bool improve_on_the_way();
+  [[nodiscard]] bool improves(const PatchStep& step) const;
+  std::vector<PatchStep> all_steps(std::uint32_t triangle);
+  bool improve_by_several(std::uint32_t triangle, int depth);
+  struct Replaced {
+    double least = 1;     // quality
+    std::size_t bad = 0;  // triangles below the goal
+  };
+  bool try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth);
+  [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
+  [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
+  [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
+  bool try_step(const PatchStep& step);
+  [[nodiscard]] bool has_room(const PatchStep& step);
+  [[nodiscard]] double least_removed(const PatchStep& step) const;
+  void queue_added(std::size_t first);
+
+  Patch& patch_;
+  const BoxSet& room_;
+  int depth_ = 1;
+  double goal_;  // the sine of min_angle
+  StepGuard guard_;
+  Controls controls_;  // of this patch
+  ShapeStats& stats_;
+  ShapeSteps steps_;
+  std::priority_queue<Queued> queue_;
+  std::vector<std::uint32_t> near_;
+  std::vector<PatchStep> candidates_;
+};
+
+}  // namespace deliso

@@ -1,0 +1,39 @@
+// The patches of a mesh: disjoint surroundings of its badly shaped triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/base/exact_surface.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/shape/box_set.h"
+#include "surface/shape/patch.h"
+
+namespace deliso {
+
+struct PatchPlan {
+  BoxSet room;                           // a box around each bad triangle; boxes of different patches do not meet
+  std::vector<std::uint32_t> bad;        // triangles of the mesh
+  std::vector<std::uint32_t> triangles;  // of the mesh, that meet the boxes, ascending
+  std::vector<Vec3> crossings;           // of the isosurface with edges of the grid, in the boxes
+};
+
+// One patch for all bad triangles whose boxes overlap one after the other. A box reaches `reach` longest edges beyond
+// its triangle, and at least two voxels. The same for any number of threads.
+std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
+                                    const ExactSurface& surface);
+
+// A patch with the numbers that its vertices and triangles have in the mesh.
+struct NumberedPatch {
+  Patch patch;
+  std::vector<std::uint32_t> vertices;  // of the patch's first vertices, ascending
+  std::vector<std::uint32_t> bad;       // triangles of the patch
+};
+NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan);
+
+// Brings what was changed in patches into the mesh, which then has no neighbours; removes vertices without triangles.
+void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> patches, SurfaceMesh& mesh);
+
+}  // namespace deliso

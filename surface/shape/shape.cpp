@@ -1,0 +1,70 @@
+#include "surface/shape/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "delaunay/base/parallel.h"
+#include "surface/base/parallel_blocks.h"
+#include "surface/shape/patch_improvement.h"
+#include "surface/shape/patches.h"
+#include "surface/shape/triangle_shape.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kReach = 3;   // of the surroundings of a bad triangle, in its longest edges
+constexpr int kMostDepth = 3;  // of steps that are tried together
+constexpr std::size_t kMostWorst = 10;
+
+std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, int threads) {
+  return collect_in_blocks<std::uint32_t>(
+      mesh.triangles.size(), threads, [&](std::size_t t, std::vector<std::uint32_t>& bad) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (!(squared_sine_of_least_angle(mesh.points[a], mesh.points[b], mesh.points[c]) >= goal * goal)) {
+          bad.push_back(static_cast<std::uint32_t>(t));
+        }
+      });
+}
+
+void count_left(const NumberedPatch& patch, ShapeStats& stats) {
+  for (const std::uint32_t t : patch.bad) {
+    const auto [a, b, c] = patch.patch.corner_points(t);
+    ++stats.bad_after;
+    stats.worst.push_back({patch.patch.quality(t), (a + b + c) / 3});
+  }
+}
+
+}  // namespace
+
+void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
+                   ShapeStats& stats) {
+  const double goal = std::sin(options.min_angle);
+  const std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
+  stats.bad_before += static_cast<std::int64_t>(bad.size());
+  stats.bad_after = 0;
+  stats.worst.clear();
+  if (bad.empty() || controls.poll()) return;
+  controls.report("shape", mesh.points.size(), bad.size());
+  const std::vector<PatchPlan> plans = plan_patches(mesh, bad, kReach, surface);
+  std::vector<NumberedPatch> patches(plans.size());
+  std::vector<ShapeStats> counted(plans.size());
+  run_tasks(plans.size(), surface.threads, [&](std::size_t k) {
+    patches[k] = take_patch(mesh, plans[k]);
+    PatchImprovement improvement(patches[k].patch, plans[k], surface.isosurface, options,
+                                 controls.for_part(1, mesh.points.size()), counted[k]);
+    for (int round = 0; round < options.rounds && !patches[k].bad.empty(); ++round) {
+      improvement.run(patches[k].bad, std::ldexp(1.0, round), std::clamp(round, 1, kMostDepth));
+      patches[k].bad = patches[k].patch.triangles_below(goal);
+    }
+    count_left(patches[k], counted[k]);
+    if (patches[k].patch.steps() == 0) patches[k].patch = {};
+  });
+  put_back(plans, patches, mesh);
+  for (const ShapeStats& part : counted) stats.add(part);
+  stats.keep_worst(kMostWorst);
+  controls.poll();
+}
+
+}  // namespace deliso

@@ -1,0 +1,20 @@
+// Shape: the stage after RefineGeom, which improves badly shaped triangles (ours; the steps are those of mesh
+// improvement, e.g. Freitag and Ollivier-Gooch, 1997).
+//
+// RefineGeom leaves triangles with small angles where an insertion is refused and at or below r_min: at creases of the
+// isosurface, in necks and thin walls. Each is improved by steps that replace a disk of triangles by another.
+#pragma once
+
+#include "surface/base/controls.h"
+#include "surface/base/exact_surface.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/shape/shape_options.h"
+
+namespace deliso {
+
+// Improves the triangles of a mesh in mesh space with angles below options.min_angle. Only points and triangles are
+// used and kept. The same for any number of threads.
+void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
+                   ShapeStats& stats);
+
+}  // namespace deliso

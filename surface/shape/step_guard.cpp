@@ -1,0 +1,208 @@
+#include "surface/shape/step_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delaunay/triangle_contact.h"
+#include "raycast/gradients_at.h"
+#include "surface/mesh/triangle_distance.h"
+#include "surface/shape/place_search.h"
+
+namespace deliso {
+
+namespace {
+
+// A triangle may always lie this far from the isosurface, as a fraction of its longest edge (epsilon1 of the paper is
+// 0.1 of the circumradius).
+constexpr double kFreeHeight = 0.1;
+constexpr double kFreeDistance = 0.05;
+// With this freedom a triangle need only face lower values in one of the cells at two of its corners.
+constexpr double kSideways = 4;
+
+double longest_edge(const std::array<Vec3, 3>& p) {
+  return std::sqrt(
+      std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])}));
+}
+
+}  // namespace
+
+StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosurface& isosurface,
+                     const ShapeOptions& options, SearchCounters& counters)
+    : patch_(patch),
+      isosurface_(isosurface),
+      max_height_(options.max_height),
+      counters_(counters),
+      vertices_(patch.points(), options.max_height),
+      crossings_(crossings, options.max_distance) {}
+
+bool StepGuard::apply(const PatchStep& step) {
+  if (!learn_old(step.removed)) return false;
+  const std::size_t first_added = patch_.triangle_count();
+  patch_.apply(step);
+  limits_.clear();
+  for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
+    const double longest = longest_edge(patch_.corner_points(static_cast<std::uint32_t>(t)));
+    limits_.push_back(
+        std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
+  }
+  if (keeps_disks(step) && covers(vertices_, first_added) && covers(crossings_, first_added) &&
+      lies_near(first_added) && crosses_nothing(first_added)) {
+    return true;
+  }
+  patch_.undo();
+  return false;
+}
+
+// What there is before the step: links, points of the mesh and of the isosurface, normal, heights. False when a vertex
+// is no disk.
+bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
+  changed_.clear();
+  for (const std::uint32_t t : removed) {
+    changed_.insert(changed_.end(), patch_.corners(t).begin(), patch_.corners(t).end());
+  }
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  was_closed_.clear();
+  for (const std::uint32_t v : changed_) {
+    if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return false;
+    was_closed_.push_back(link_.is_closed ? 1 : 0);
+  }
+  old_normal_ = {};
+  for (const std::uint32_t t : removed) {
+    const auto [a, b, c] = patch_.corner_points(t);
+    old_normal_ += cross(b - a, c - a);
+  }
+  old_height_ = 0;
+  for (const std::uint32_t t : removed) {
+    const auto [a, b, c] = patch_.corner_points(t);
+    const double height = height_of(t, longest_edge({a, b, c}));
+    if (std::isfinite(height)) old_height_ = std::max(old_height_, height);
+  }
+  find_witnesses(removed);
+  return true;
+}
+
+void StepGuard::find_witnesses(std::span<const std::uint32_t> removed) {
+  Box3 box;
+  double longest = 0;
+  for (const std::uint32_t t : removed) {
+    const std::array<Vec3, 3> corners = patch_.corner_points(t);
+    for (const Vec3& p : corners) box.extend(p);
+    longest = std::max(longest, longest_edge(corners));
+  }
+  vertices_.reach = std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest));
+  for (Witnesses* witnesses : {&vertices_, &crossings_}) {
+    witnesses->near.clear();
+    const Vec3 margin{witnesses->reach, witnesses->reach, witnesses->reach};
+    witnesses->grid.for_each_near({box.low - margin, box.high + margin}, [&](std::uint32_t i) {
+      const Vec3& p = witnesses->points[i];
+      const auto is_near = [&](std::uint32_t t) { return is_within(p, t, witnesses->reach); };
+      if (std::any_of(removed.begin(), removed.end(), is_near)) witnesses->near.push_back(p);
+    });
+  }
+}
+
+bool StepGuard::is_within(const Vec3& p, std::uint32_t triangle, double reach) const {
+  const auto [a, b, c] = patch_.corner_points(triangle);
+  return squared_distance_to_triangle(p, a, b, c) <= reach * reach;
+}
+
+// The links of all vertices around are what they were, cycles or paths; one vertex may be gone. Edges of the boundary
+// lie in a face of the box.
+bool StepGuard::keeps_disks(const PatchStep& step) {
+  const Box3& box = isosurface_.box();
+  const auto is_right = [&](std::uint32_t v, bool is_closed) {
+    if (!patch_.find_link(v, link_) || link_.is_closed != is_closed) return false;
+    if (is_closed) return true;
+    const unsigned faces = faces_at(box, patch_.point(v));
+    return (faces & faces_at(box, patch_.point(link_.vertices.front()))) != 0 &&
+           (faces & faces_at(box, patch_.point(link_.vertices.back()))) != 0;
+  };
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    const std::uint32_t v = changed_[i];
+    if (!patch_.star(v).empty() && !is_right(v, was_closed_[i] != 0)) return false;
+  }
+  const bool is_new = step.vertex != kNoVertex && !std::binary_search(changed_.begin(), changed_.end(), step.vertex);
+  return !is_new || is_right(step.vertex, !step.is_on_boundary);
+}
+
+// Whether a triangle faces lower values as the field in some cell around each of two corners tells: the test of stage
+// 2, but at creases, where cells meet, one of them is enough. (With one corner small components were turned inside
+// out.)
+bool StepGuard::faces_down(std::uint32_t triangle, const Vec3& normal) const {
+  const std::array<Vec3, 3> corners = patch_.corner_points(triangle);
+  return std::count_if(corners.begin(), corners.end(), [&](const Vec3& p) {
+           bool is_so = false;
+           for_each_gradient_at(isosurface_, p,
+                                [&](const Vec3& gradient) { is_so = is_so || dot(gradient, normal) < 0; });
+           return is_so;
+         }) >= 2;
+}
+
+// From the centroid to the isosurface where it faces as the triangle does: along the triangle's own normal, the normal
+// of the triangles that were there, or down the gradient, whichever is shortest; infinity where none reaches it.
+double StepGuard::height_of(std::uint32_t triangle, double reach) {
+  constexpr double kFaces = 0.1;  // least cosine between a triangle's normal and the line along which it is near
+  const auto [a, b, c] = patch_.corner_points(triangle);
+  const Vec3 normal = cross(b - a, c - a);
+  const double length = norm(normal);
+  double height = std::numeric_limits<double>::infinity();
+  if (!(length > 0)) return height;
+  const Vec3 centroid = (a + b + c) / 3;
+  for (const Vec3& direction : {normal, old_normal_, -isosurface_.gradient(centroid)}) {
+    const double size = norm(direction);
+    if (!(size > 0) || !(dot(direction, normal) > kFaces * size * length)) continue;
+    const auto hit = isosurface_.nearest_falling_hit({centroid, direction / size}, reach, counters_);
+    if (hit) height = std::min(height, std::abs(*hit));
+    if (height <= kFreeDistance) break;
+  }
+  if (freedom_ < kSideways || height <= kFreeDistance || !faces_down(triangle, normal)) return height;
+  for (const Vec3& direction : {normal, old_normal_, isosurface_.gradient(centroid)}) {
+    const double size = norm(direction);
+    if (!(size > 0)) continue;
+    isosurface_.all_hits({centroid, direction / size}, -reach, reach, hits_, counters_);
+    for (const Hit& hit : hits_) height = std::min(height, std::abs(hit.t));
+  }
+  return height;
+}
+
+// Whether the mesh is still near all witnesses: else steps could cut off the tip of a thin part, one after the other.
+bool StepGuard::covers(const Witnesses& witnesses, std::size_t first_added) {
+  const double reach = witnesses.reach;
+  const Vec3 margin{reach, reach, reach};
+  return std::all_of(witnesses.near.begin(), witnesses.near.end(), [&](const Vec3& p) {
+    for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
+      if (is_within(p, static_cast<std::uint32_t>(t), reach)) return true;
+    }
+    near_.clear();
+    patch_.append_near({p - margin, p + margin}, near_);
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t t) { return is_within(p, t, reach); });
+  });
+}
+
+bool StepGuard::lies_near(std::size_t first_added) {
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    if (height_of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
+  }
+  return true;
+}
+
+bool StepGuard::crosses_nothing(std::size_t first_added) {
+  for (std::size_t i = first_added; i < patch_.triangle_count(); ++i) {
+    const auto t = static_cast<std::uint32_t>(i);
+    if (!(patch_.quality(t) > 0)) return false;
+    near_.clear();
+    patch_.append_near(patch_.box_of(t), near_);
+    for (const std::uint32_t u : near_) {
+      if (u == t) continue;
+      if (!(patch_.quality(u) > 0)) continue;
+      const TriangleContact contact =
+          triangle_contact(patch_.corners(t), patch_.corner_points(t), patch_.corners(u), patch_.corner_points(u));
+      if (contact != TriangleContact::kNone) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace deliso

@@ -1,0 +1,67 @@
+// Whether a step of the shape stage keeps what the mesh has been proven to be: each replaces a disk by a disk, no
+// triangle meets another beyond what they share, and each new one faces lower values and lies near the isosurface.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raycast/isosurface.h"
+#include "surface/search/point_grid.h"
+#include "surface/shape/patch.h"
+
+namespace deliso {
+
+class StepGuard {
+ public:
+  // `crossings`: points of the isosurface that the mesh has to stay near, within options.max_distance.
+  StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosurface& isosurface, const ShapeOptions& options,
+            SearchCounters& counters);
+
+  // By this factor triangles may be farther from the isosurface than usual; from 4 on they need only face
+  // lower values in one of the cells at two of their corners.
+  void set_freedom(double freedom) { freedom_ = freedom; }
+
+  // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
+  // triangles are whole.
+  bool apply(const PatchStep& step);
+
+ private:
+  [[nodiscard]] bool learn_old(std::span<const std::uint32_t> removed);
+  [[nodiscard]] bool keeps_disks(const PatchStep& step);
+  // Points that the mesh is near, and has to stay near.
+  struct Witnesses {
+    std::vector<Vec3> points;
+    PointGrid grid;
+    double reach;
+    std::vector<Vec3> near;  // those that the triangles to be removed are near
+
+    Witnesses(std::span<const Vec3> all, double distance)
+        : points(all.begin(), all.end()), grid(points, distance), reach(distance) {}
+  };
+  void find_witnesses(std::span<const std::uint32_t> removed);
+  [[nodiscard]] bool is_within(const Vec3& p, std::uint32_t triangle, double reach) const;
+  [[nodiscard]] bool covers(const Witnesses& witnesses, std::size_t first_added);
+  [[nodiscard]] bool lies_near(std::size_t first_added);
+  [[nodiscard]] bool crosses_nothing(std::size_t first_added);
+  [[nodiscard]] bool faces_down(std::uint32_t triangle, const Vec3& normal) const;
+  [[nodiscard]] double height_of(std::uint32_t triangle, double reach);
+
+  Patch& patch_;
+  const Isosurface& isosurface_;
+  double max_height_, freedom_ = 1;
+  SearchCounters& counters_;
+  Witnesses vertices_;   // of the patch as it was first; how near follows from the step
+  Witnesses crossings_;  // of the isosurface
+  // Before the step:
+  std::vector<std::uint32_t> changed_;    // the vertices of the removed triangles, ascending,
+  std::vector<std::uint8_t> was_closed_;  // and whether their links were
+  Vec3 old_normal_;                       // the sum of their normals
+  double old_height_ = 0;                 // the largest of them
+  std::vector<double> limits_;            // of each added triangle: how far it may be from the isosurface
+  std::vector<std::uint32_t> near_;
+  std::vector<Hit> hits_;
+  VertexLink link_;
+};
+
+}  // namespace deliso

@@ -1,0 +1,115 @@
+// The shape stage in whole runs: better angles, the same topology, proven by mesher and verification.
+#include "surface/shape/shape.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "delaunay/base/rng.h"
+#include "surface/deliso.h"
+#include "surface/mesh/mesh_quality.h"
+#include "surface/shape/triangle_shape.h"
+#include "surface/verification/verification.h"
+#include "tests/support/mesh_fields.h"
+
+namespace deliso {
+namespace {
+
+MeshingResult meshed(const ScalarGrid& grid, double isovalue, int rounds, int threads = 1, double rho = 2) {
+  MeshingOptions options;
+  options.parameters.shape.rounds = rounds;
+  options.parameters.stage2.rho = rho;
+  options.threads = threads;
+  return mesh_isosurface(grid, isovalue, options);
+}
+
+ScalarGrid random_mask(int side, std::uint64_t seed) {
+  Rng rng(seed);
+  return testing::sampled({side, side, side}, [&](const Vec3&) { return static_cast<double>(rng.below(2)); });
+}
+ScalarGrid random_noise(int side, std::uint64_t seed) {
+  Rng rng(seed);
+  return testing::sampled({side, side, side}, [&](const Vec3&) { return std::floor(256 * rng.uniform()); });
+}
+
+std::int64_t count_below(const TriangleMesh& mesh, double sine) {
+  return std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return sine_of_least_angle(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) < sine;
+  });
+}
+
+TEST(Shape, ImprovesNoiseAndMasksAndKeepsThePromise) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const bool is_mask = seed % 2 == 0;
+    const ScalarGrid grid = is_mask ? random_mask(6, seed) : random_noise(6, seed);
+    const double isovalue = is_mask ? 0.5 : 127.5;
+    const MeshingResult before = meshed(grid, isovalue, 0);
+    const MeshingResult after = meshed(grid, isovalue, 4);
+    ASSERT_TRUE(is_proven(before.certificate)) << seed;
+    EXPECT_TRUE(is_proven(after.certificate)) << seed;
+    EXPECT_TRUE(verify_mesh(after.mesh, grid, after.isovalue_used).proven) << seed;
+    const MeshQuality old_quality = measure_quality(before.mesh), quality = measure_quality(after.mesh);
+    EXPECT_GE(quality.min_angle_degrees, old_quality.min_angle_degrees) << seed;
+    EXPECT_GT(quality.min_angle_degrees, 1) << seed;
+    EXPECT_GT(after.shape.bad_before, 0) << seed;
+    EXPECT_LT(after.shape.bad_after, after.shape.bad_before / 4) << seed;
+  }
+}
+
+// On unit spacing mesh space is the world.
+TEST(Shape, CountsTheTrianglesThatItLeaves) {
+  const ScalarGrid grid = random_noise(8, 11);
+  const MeshingResult result = meshed(grid, 100.5, 1, 1, 1);
+  const double goal = 0.5;  // sin 30 degrees
+  EXPECT_EQ(result.shape.bad_after, count_below(result.mesh, goal));
+  EXPECT_EQ(result.shape.bad_before, count_below(meshed(grid, 100.5, 0, 1, 1).mesh, goal));
+  ASSERT_FALSE(result.shape.worst.empty());
+  EXPECT_NEAR(result.shape.worst.front().degrees(), measure_quality(result.mesh).min_angle_degrees, 1e-6);
+  EXPECT_TRUE(std::is_sorted(result.shape.worst.begin(), result.shape.worst.end(),
+                             [](const BadTriangle& a, const BadTriangle& b) { return a.sine < b.sine; }));
+}
+
+TEST(Shape, IsTheSameForAnyNumberOfThreads) {
+  const ScalarGrid grid = random_noise(9, 12);
+  const MeshingResult one = meshed(grid, 127.5, 4);
+  for (const int threads : {2, 3}) {
+    const MeshingResult several = meshed(grid, 127.5, 4, threads);
+    EXPECT_EQ(one.mesh.points, several.mesh.points);
+    EXPECT_EQ(one.mesh.triangles, several.mesh.triangles);
+  }
+}
+
+// A smooth ball has no triangle to improve: the stage must leave it alone.
+TEST(Shape, LeavesGoodMeshesAlone) {
+  const ScalarGrid grid = testing::sampled({20, 20, 20}, testing::ball_field({9.3, 9.6, 9.4}, 6));
+  const MeshingResult before = meshed(grid, 0, 0);
+  const MeshingResult after = meshed(grid, 0, 4);
+  if (after.shape.bad_before == 0) {
+    EXPECT_EQ(before.mesh.points, after.mesh.points);
+    EXPECT_EQ(before.mesh.triangles, after.mesh.triangles);
+  } else {
+    EXPECT_EQ(after.shape.bad_after, 0);
+  }
+}
+
+TEST(Shape, IsLeftOutWithoutRepair) {
+  MeshingOptions options;
+  options.parameters.repair.max_rounds = 0;
+  const MeshingResult result = mesh_isosurface(random_noise(6, 13), 127.5, options);
+  EXPECT_EQ(result.shape.bad_before, 0);
+}
+
+// The limit of rho is the angle across from an edge that is the circumradius over rho.
+TEST(Shape, AimsAtTheAngleThatRhoBounds) {
+  Parameters parameters;
+  EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 14.4775, 1e-4);
+  parameters.stage2.rho = 1;
+  EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 30, 1e-12);
+  parameters.shape.min_angle = 20;
+  EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 20, 1e-12);
+}
+
+}  // namespace
+}  // namespace deliso
