@@ -238,6 +238,8 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.is_manifold = result_.certificate.manifold;
   figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
   figures.reversed_components = geometry_.reversed_components;
+  figures.off_box_edges =
+      count_off_box(result_.mesh, result_.certificate.boundary_edges, *isosurface_, promise_);
   figures.topology = result_.certificate.verdict;
   // Repair and RefineGeom have seen to it in mesh space.
   if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {

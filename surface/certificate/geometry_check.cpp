@@ -10,6 +10,7 @@
 
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
+#include "surface/certificate/other_side.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/occupied_blocks.h"
 #include "surface/search/point_grid.h"
@@ -19,11 +20,10 @@ namespace deliso {
 namespace {
 
 constexpr double kBlock = 3;      // side of the blocks in which crossings are looked for, in distances promised
-constexpr int kMostPerEdge = 64;  // samples along an edge
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
 // Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and
-// in the end lines in many directions.
+// in the end all around.
 bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, double reach) {
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
@@ -44,23 +44,7 @@ bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, do
       is_found = is_found || (distance <= reach && changes(direction, distance));
     }
   });
-  if (is_found) return true;
-  // Along lines towards the points of a cube's surface, one of each pair: a thin part is passed twice.
-  constexpr int kSide = 4;
-  std::vector<Hit> hits;
-  SearchCounters ignored;
-  for (int z = 0; z <= kSide; ++z) {
-    for (int y = z == 0 ? 0 : -kSide; y <= kSide; ++y) {
-      for (int x = -kSide; x <= kSide; ++x) {
-        if (std::max({std::abs(x), std::abs(y), z}) != kSide) continue;
-        const Vec3 direction{double(x), double(y), double(z)};
-        const double end = reach / norm(direction);
-        isosurface.all_hits({p, direction}, -end, end, hits, ignored);
-        if (!hits.empty()) return true;
-      }
-    }
-  }
-  return false;
+  return is_found || has_other_side_within(isosurface, p, reach);
 }
 
 struct Corners {
@@ -80,7 +64,7 @@ struct Corners {
 template <class Visit>
 void for_each_sample(const Corners& corners, double longest, const Visit& visit) {
   const auto& [a, b, c] = corners.p;
-  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
+  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
   visit((a + b + c) / 3);
   for (int i = 0; i <= order; ++i) {
     for (int j = 0; i + j <= order; ++j) {
@@ -186,12 +170,12 @@ void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const
 
 // Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
 // should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
-// thin part.
+// thin part; nearer ones than vertices may be off the isosurface tell nothing.
 int facing(const Isosurface& isosurface, const Corners& corners) {
   const double area = norm(corners.normal);
   if (!(area > 0) || !std::isfinite(area)) return 0;
   const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
-  for (const double beside : {1.0 / 4096, 1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
+  for (const double beside : {1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
     const Vec3 offset = (beside / area) * corners.normal;
     const bool before = isosurface.is_above(centroid + offset), behind = isosurface.is_above(centroid - offset);
     if (before != behind) return before ? -1 : 1;
@@ -235,6 +219,24 @@ GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surfac
   check_crossings(mesh, surface, promise, check);
   check_orientation(mesh, surface, check);
   return check;
+}
+
+std::int64_t count_off_box(const TriangleMesh& mesh, std::span<const MeshEdge> boundary_edges,
+                           const Isosurface& isosurface, const Promise& promise) {
+  const ScalarGrid& grid = isosurface.grid();
+  const Box3 box = grid.box();
+  const auto is_on = [&](const Vec3& p, std::size_t axis, double face) {
+    return std::abs(p[axis] - face) <= promise.on_box * grid.spacing()[axis] / isosurface.step()[axis];
+  };
+  return std::count_if(boundary_edges.begin(), boundary_edges.end(), [&](const MeshEdge& edge) {
+    const Vec3 &a = mesh.points[edge.low], &b = mesh.points[edge.high];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const double face : {box.low[axis], box.high[axis]}) {
+        if (is_on(a, axis, face) && is_on(b, axis, face)) return false;
+      }
+    }
+    return true;
+  });
 }
 
 }  // namespace deliso

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/promise.h"
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
@@ -27,5 +29,9 @@ struct GeometryCheck {
 // Of a mesh in mesh space with the exact topology's crossings. Triangles are sampled where the distances of their
 // corners do not tell, at points one voxel apart. The same for any number of threads.
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise);
+
+// How many boundary edges have no face of the box in common, within promise.on_box. For a mesh in the world.
+std::int64_t count_off_box(const TriangleMesh& mesh, std::span<const MeshEdge> boundary_edges,
+                           const Isosurface& isosurface, const Promise& promise);
 
 }  // namespace deliso

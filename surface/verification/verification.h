@@ -39,8 +39,7 @@ struct ManifoldCheck {
 struct OrientationCheck {
   bool pass = false;                   // manifold, neighbours agree, and every component faces lower values
   std::int64_t misoriented_edges = 0;  // edges whose two triangles disagree
-  // Components whose normals point to higher values on the whole, by more than the residuals of their vertices can
-  // explain.
+  // Components whose normals point to higher values on the whole, where they pass grid edges (facing_votes.h).
   std::int64_t reversed_components = 0;
   std::vector<Vec3> reversed_at;  // a vertex of each of the first ten, in the world
 };

@@ -1,0 +1,87 @@
+#include "surface/verification/facing_votes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "surface/certificate/promise.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kLineOffset = 0x1p-12;  // voxels from a grid edge to the lines beside it
+
+// Where a line parallel to `axis` through `on_line` meets a triangle; nothing where it passes beside it.
+std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on_line, std::size_t axis) {
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  std::array<double, 3> weight{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 a = corners[(i + 1) % 3] - on_line, b = corners[(i + 2) % 3] - on_line;
+    weight[i] = a[u] * b[v] - a[v] * b[u];
+  }
+  const bool is_inside = (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) ||
+                         (weight[0] < 0 && weight[1] < 0 && weight[2] < 0);
+  if (!is_inside) return std::nullopt;
+  const double sum = weight[0] + weight[1] + weight[2];
+  return (weight[0] * corners[0][axis] + weight[1] * corners[1][axis] + weight[2] * corners[2][axis]) / sum;
+}
+
+// The vote of a triangle at its pass of a line beside a grid edge.
+int vote(const std::array<Vec3, 3>& corners, const Vec3& on_line, std::size_t axis, const IsosurfaceProbe& probe) {
+  const std::optional<double> at = pass_of(corners, on_line, axis);
+  if (!at) return 0;
+  const double step = probe.step()[axis], last = std::round(probe.box().high[axis] / step);
+  const double low = std::clamp(std::floor(*at / step), 0.0, last - 1);
+  Vec3 from = on_line, to = on_line;
+  from[axis] = low * step;
+  to[axis] = (low + 1) * step;
+  const double least = Promise().max_residual;
+  if (*at - from[axis] <= least || to[axis] - *at <= least) return 0;
+  const double before = probe.value(from), behind = probe.value(to);
+  if ((before < 0) == (behind < 0)) return 0;
+  const double along = cross(corners[1] - corners[0], corners[2] - corners[0])[axis];
+  if (along == 0) return 0;
+  return (along > 0) == (behind < 0) ? 1 : -1;
+}
+
+// The sum over the lines that may meet a triangle.
+std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, const IsosurfaceProbe& probe) {
+  std::int64_t sum = 0;
+  Box3 box{corners[0], corners[0]};
+  for (const Vec3& p : corners) box.extend(p);
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3& step = probe.step();
+  const auto first = [&](std::size_t a) { return std::floor(std::max(0.0, box.low[a] - kLineOffset) / step[a]); };
+  const auto last = [&](std::size_t a) {
+    return std::min(box.high[a] + kLineOffset, probe.box().high[a] + 0.5 * step[a]) / step[a];
+  };
+  for (double i = first(u); i <= last(u); ++i) {
+    for (double j = first(v); j <= last(v); ++j) {
+      for (const double side_u : {-kLineOffset, kLineOffset}) {
+        for (const double side_v : {-kLineOffset, kLineOffset}) {
+          Vec3 on_line;
+          on_line[u] = i * step[u] + side_u;
+          on_line[v] = j * step[v] + side_v;
+          if (probe.box().contains(on_line)) sum += vote(corners, on_line, axis, probe);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+                                       std::size_t components, const IsosurfaceProbe& probe) {
+  std::vector<std::int64_t> votes(components, 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    for (std::size_t axis = 0; axis < 3; ++axis) votes[component_of_vertex[a]] += votes_along(corners, axis, probe);
+  }
+  return votes;
+}
+
+}  // namespace deliso
