@@ -108,8 +108,8 @@ void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const 
     if (isosurface.value(p) == 0) return;
     if (!is_near(isosurface, p, isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
   };
-  check.vertices_off = static_cast<std::int64_t>(
-      collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off).size());
+  check.off_vertices = collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off);
+  check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
 }
 
 // The crossings that no vertex is near, and no triangle with its centroid beside them, as far as those in the same
@@ -172,8 +172,9 @@ void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const
 // should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
 // thin part; nearer ones than vertices may be off the isosurface tell nothing.
 int facing(const Isosurface& isosurface, const Corners& corners) {
-  const double area = norm(corners.normal);
-  if (!(area > 0) || !std::isfinite(area)) return 0;
+  // A triangle flatter than its vertices may be off the isosurface may face either way.
+  const double area = norm(corners.normal), least = 2 * Promise().max_residual * std::sqrt(corners.squared_longest());
+  if (!(area > least) || !std::isfinite(area)) return 0;
   const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
   for (const double beside : {1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
     const Vec3 offset = (beside / area) * corners.normal;
@@ -207,7 +208,10 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
     its.count += std::abs(vote);
     its.sum += vote;
   }
-  check.reversed_components = std::count_if(votes.begin(), votes.end(), [](const Votes& v) { return v.sum < 0; });
+  for (std::uint32_t v = 0; v < votes.size(); ++v) {
+    if (votes[v].sum < 0) check.reversed_vertices.push_back(v);
+  }
+  check.reversed_components = static_cast<std::int64_t>(check.reversed_vertices.size());
 }
 
 }  // namespace

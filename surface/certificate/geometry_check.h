@@ -18,10 +18,12 @@ namespace deliso {
 
 struct GeometryCheck {
   std::int64_t vertices_off = 0;             // farther than promise.max_residual from the isosurface
+  std::vector<std::uint32_t> off_vertices;   // these, ascending
   std::int64_t mesh_off = 0;                 // sampled points of triangles farther than promise.max_distance from it
   std::vector<std::uint32_t> far_triangles;  // that such points lie on, ascending
   std::vector<Vec3> missed_crossings;        // of the isosurface, farther than promise.max_distance from every triangle
   std::int64_t reversed_components = 0;      // that face higher values on the whole
+  std::vector<std::uint32_t> reversed_vertices;  // one of each of these
 
   [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
 };

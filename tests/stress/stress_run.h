@@ -23,7 +23,7 @@ enum class Outcome {
 struct StressResult {
   Outcome outcome = Outcome::kBroken;
   std::int64_t vertices = 0;
-  double seconds = 0;                // of the mesher
+  double seconds = 0;                // of the mesher, in which the processor ran
   std::vector<std::string> reasons;  // what either says
 };
 
