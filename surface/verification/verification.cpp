@@ -198,7 +198,7 @@ AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& 
     pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
   }
   const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
-  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
+  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components, points});
 }
 
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {

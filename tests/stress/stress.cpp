@@ -19,7 +19,7 @@ namespace deliso::testing {
 namespace {
 
 struct StressOptions {
-  std::int64_t runs = 100;           // of each kind; of large ones a twentieth
+  std::int64_t runs = 100;           // of each kind; fewer of large ones
   std::uint64_t first_seed = 1;
   std::string kinds;                 // names with commas between them; empty: all
   std::filesystem::path out = "stress_out";
@@ -62,10 +62,9 @@ void keep_case(const StressKind& kind, std::uint64_t seed, const StressCase& str
 }
 
 StressSums run_kind(const StressKind& kind, const StressOptions& options, std::ostream& log) {
-  constexpr std::int64_t kLargeShare = 20;
   StressSums sums;
   const Stopwatch watch;
-  const std::int64_t runs = kind.is_large ? std::max<std::int64_t>(1, options.runs / kLargeShare) : options.runs;
+  const std::int64_t runs = std::max<std::int64_t>(1, options.runs / kind.share);
   for (std::int64_t i = 0; i < runs && watch.seconds() < options.kind_seconds; ++i) {
     const std::uint64_t seed = options.first_seed + static_cast<std::uint64_t>(i);
     const StressCase stress_case = make_stress_case(kind, seed);

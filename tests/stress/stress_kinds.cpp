@@ -23,10 +23,10 @@ const std::vector<StressKind>& stress_kinds() {
       {"at_the_box", "within 1e-15 to 1e-6 of faces, edges and corners of the box", at_the_box},
       {"at_grid_points", "within 1e-15 to 1e-6 of samples", at_grid_points},
       {"cut_bumps", "smooth 16 bits, 9x7x5, cut by the box", cut_bumps},
-      {"flat_smooth", "waves, spacings 1 : 12 to 1 : 40", flat_smooth, true},
-      {"flat_rough", "noise, spacings 1 : 12 to 1 : 40", flat_rough, true},
+      {"flat_smooth", "waves, spacings 1 : 12 to 1 : 40", flat_smooth, 5},
+      {"flat_rough", "noise, spacings 1 : 12 to 1 : 40", flat_rough, 5},
       {"no_r_min", "waves and specks, stage2.r_min = 0", no_r_min},
-      {"large_balls", "radius 80 to 130", large_balls, true},
+      {"large_balls", "radius 80 to 130", large_balls, 50},
   };
   return kKinds;
 }

@@ -23,7 +23,7 @@ struct StressKind {
   std::string_view name;
   std::string_view what;
   StressCase (*make)(Rng& rng);
-  bool is_large = false;  // a run takes seconds: few are made
+  std::int64_t share = 1;  // runs take so long that only one in so many is made
 };
 
 // All kinds; the first is the ordinary one that the others' times are compared with.
