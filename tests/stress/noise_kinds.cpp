@@ -17,28 +17,28 @@ StressCase ordinary_waves(Rng& rng) {
 }
 
 StressCase white_noise(Rng& rng) {
-  const Dims dims = small_dims(rng, 5, 9);
+  const Dims dims = small_dims(rng, 4, 7);
   ScalarGrid grid = byte_grid(dims, {1, 1, 1}, [&] { return rng.below(256); });
   return {std::move(grid), 100.5 + static_cast<double>(rng.below(56)), rng.below(3) == 0};
 }
 
 StressCase masks(Rng& rng) {
   const double share = rng.uniform(0.1, 0.9);
-  ScalarGrid grid = byte_grid(small_dims(rng, 5, 9), {1, 1, 1}, [&] { return rng.uniform() < share ? 1u : 0u; });
+  ScalarGrid grid = byte_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&] { return rng.uniform() < share ? 1u : 0u; });
   return {std::move(grid), 0.5, rng.below(2) == 0};
 }
 
 // Few values, and an isovalue between them.
 StressCase few_values(Rng& rng) {
   const std::uint64_t most = 2 + rng.below(5);
-  ScalarGrid grid = byte_grid(small_dims(rng, 5, 9), {1, 1, 1}, [&] { return rng.below(most + 1); });
+  ScalarGrid grid = byte_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&] { return rng.below(most + 1); });
   return {std::move(grid), rng.uniform(0.02, static_cast<double>(most) - 0.02), rng.below(2) == 0};
 }
 
 // Few values, and an isovalue that samples have.
 StressCase integers_at_samples(Rng& rng) {
   const std::uint64_t most = 2 + rng.below(5);
-  ScalarGrid grid = byte_grid(small_dims(rng, 5, 8), {1, 1, 1}, [&] { return rng.below(most + 1); });
+  ScalarGrid grid = byte_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&] { return rng.below(most + 1); });
   return {std::move(grid), 1 + static_cast<double>(rng.below(most)), rng.below(2) == 0};
 }
 
@@ -54,7 +54,7 @@ StressCase integers_flat(Rng& rng) {
 // The isovalue is the largest or the smallest sample.
 StressCase integers_at_an_end(Rng& rng) {
   const std::uint64_t most = 2 + rng.below(5);
-  ScalarGrid grid = byte_grid(small_dims(rng, 5, 9), {1, 1, 1}, [&] { return rng.below(most + 1); });
+  ScalarGrid grid = byte_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&] { return rng.below(most + 1); });
   const bool is_top = rng.below(4) != 0;
   return {std::move(grid), is_top ? static_cast<double>(most) : 0, rng.below(4) != 0};
 }
@@ -63,12 +63,12 @@ StressCase integers_at_an_end(Rng& rng) {
 StressCase magnitudes(Rng& rng) {
   const Vec3 spacing{1, 1, rng.below(3) == 0 ? 0.2 : 1};
   ScalarGrid grid =
-      float_grid(small_dims(rng, 5, 8), spacing, [&](const Vec3&) { return std::pow(10, rng.uniform(-6, 6)); });
+      float_grid(small_dims(rng, 4, 7), spacing, [&](const Vec3&) { return std::pow(10, rng.uniform(-6, 6)); });
   return {std::move(grid), std::pow(10, rng.uniform(-2, 2)), rng.below(3) == 0};
 }
 
 StressCase signed_magnitudes(Rng& rng) {
-  ScalarGrid grid = float_grid(small_dims(rng, 5, 8), {1, 1, 1}, [&](const Vec3&) {
+  ScalarGrid grid = float_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&](const Vec3&) {
     return random_magnitude(rng, -6, 6);
   });
   return {std::move(grid), 0};

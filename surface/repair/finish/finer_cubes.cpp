@@ -100,6 +100,13 @@ std::optional<std::uint32_t> same_component(std::uint32_t component, const Exact
   return std::nullopt;
 }
 
+// Crossings that round to a sample would coincide there, and their triangles cross. At a distance from it, far less than
+// vertices may be off the isosurface, they do not.
+void keep_apart(IsosurfaceTopology& topology) {
+  constexpr double kLeast = 2e-4;  // of an edge
+  for (EdgeCrossing& crossing : topology.crossings) crossing.t = std::clamp(crossing.t, kLeast, 1 - kLeast);
+}
+
 }  // namespace
 
 bool append_finer_cubes(std::uint32_t component, const ExactSurface& surface, double max_distance, SurfaceMesh& mesh) {
@@ -117,9 +124,10 @@ bool append_finer_cubes(std::uint32_t component, const ExactSurface& surface, do
     grid = finer_grid(surface.grid(), box, times);
   }
   if (!grid || has_sample(*grid, isovalue)) return false;
-  const IsosurfaceTopology topology = exact_topology(*grid, isovalue, surface.threads);
+  IsosurfaceTopology topology = exact_topology(*grid, isovalue, surface.threads);
   const auto same = same_component(component, surface, topology, grid->dims(), box, times);
   if (!same || topology.components[*same] != surface.topology.components[component]) return false;
+  keep_apart(topology);
 
   const Isosurface isosurface(*grid, isovalue, SearchOptions{});
   ExactPolygonization cubes = exact_polygonization({isosurface, topology, surface.threads});

@@ -102,10 +102,8 @@ std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& su
     SurfaceMesh next = mesh;
     next.pole_heights.assign(next.points.size(), 1);
     set_side_adjacency(next);
-    const std::vector<bool> before = is_marked;
     mark_components(next, surface, faults, is_marked);
-    if (is_marked == before) break;
-    const std::int64_t count = replace_marked(surface, is_marked, promise.max_distance, next);
+    const std::int64_t count = replace_marked(surface, is_marked, promise.max_distance / (1 + round), next);
     if (count == 0) break;
     MeshFaults left{check_geometry(next, surface, promise),
                     crossing_in_world(next, surface.isosurface, surface.threads)};
