@@ -196,8 +196,8 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
   }
 }
 
-// What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space. Components
-// with faults come from finer cubes; for these the crossings are found once more.
+// What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
+// Components with faults come from finer cubes; for these the crossings are found once more.
 void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
     if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
@@ -256,8 +256,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.is_manifold = result_.certificate.manifold;
   figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
   figures.reversed_components = last_.geometry.reversed_components;
-  figures.off_box_edges =
-      count_off_box(result_.mesh, result_.certificate.boundary_edges, *isosurface_, promise_);
+  figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
   figures.topology = result_.certificate.verdict;
   figures.crossing_pairs = last_.crossing.crossing_pairs;
   figures.vertices_off = last_.geometry.vertices_off;

@@ -91,13 +91,12 @@ Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopolog
     return certificate;
   }
 
-  MeshTopology topology = mesh_topology(mesh, threads);
+  const MeshTopology topology = mesh_topology(mesh, threads);
   certificate.manifold = topology.is_manifold();
   certificate.oriented = topology.is_oriented();
   certificate.mesh = counts_of(sorted_components(topology));
   add_defects(topology, certificate.differences);
   add_count_differences(certificate.mesh, certificate.isosurface, certificate.differences);
-  certificate.boundary_edges = std::move(topology.boundary_edges);
   if (certificate.differences.empty()) certificate.verdict = Verdict::kHomeomorphic;
   return certificate;
 }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/triangle_mesh.h"
 #include "volume/topology/exact_topology.h"
 
@@ -24,7 +23,6 @@ struct Certificate {
   std::vector<TopologyCount> mesh;        // sorted by (euler_characteristic, boundary_loops)
   std::vector<TopologyCount> isosurface;  // the same for the exact topology
   std::vector<std::string> differences;   // one sentence each
-  std::vector<MeshEdge> boundary_edges;   // of the mesh
   std::vector<std::string> broken;        // what a proven mesh would have to keep and this one does not (promise.h)
 };
 

@@ -10,6 +10,7 @@
 
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
+#include "surface/certificate/boundary_check.h"
 #include "surface/certificate/other_side.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/occupied_blocks.h"
@@ -19,7 +20,7 @@ namespace deliso {
 
 namespace {
 
-constexpr double kBlock = 3;      // side of the blocks in which crossings are looked for, in distances promised
+constexpr double kBlock = 3;  // side of the blocks in which crossings are looked for, in distances promised
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
 // Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and
@@ -222,25 +223,8 @@ GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surfac
   check_triangles(mesh, surface, promise, check);
   check_crossings(mesh, surface, promise, check);
   check_orientation(mesh, surface, check);
+  check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
   return check;
-}
-
-std::int64_t count_off_box(const TriangleMesh& mesh, std::span<const MeshEdge> boundary_edges,
-                           const Isosurface& isosurface, const Promise& promise) {
-  const ScalarGrid& grid = isosurface.grid();
-  const Box3 box = grid.box();
-  const auto is_on = [&](const Vec3& p, std::size_t axis, double face) {
-    return std::abs(p[axis] - face) <= promise.on_box * grid.spacing()[axis] / isosurface.step()[axis];
-  };
-  return std::count_if(boundary_edges.begin(), boundary_edges.end(), [&](const MeshEdge& edge) {
-    const Vec3 &a = mesh.points[edge.low], &b = mesh.points[edge.high];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const double face : {box.low[axis], box.high[axis]}) {
-        if (is_on(a, axis, face) && is_on(b, axis, face)) return false;
-      }
-    }
-    return true;
-  });
 }
 
 }  // namespace deliso

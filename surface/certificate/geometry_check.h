@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
@@ -24,6 +23,7 @@ struct GeometryCheck {
   std::vector<Vec3> missed_crossings;        // of the isosurface, farther than promise.max_distance from every triangle
   std::int64_t reversed_components = 0;      // that face higher values on the whole
   std::vector<std::uint32_t> reversed_vertices;  // one of each of these
+  std::vector<MeshEdge> off_box_edges;           // of the boundary, that lie on no face of the box
 
   [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
 };
@@ -31,9 +31,5 @@ struct GeometryCheck {
 // Of a mesh in mesh space with the exact topology's crossings. Triangles are sampled where the distances of their
 // corners do not tell, at points one voxel apart. The same for any number of threads.
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise);
-
-// How many boundary edges have no face of the box in common, within promise.on_box. For a mesh in the world.
-std::int64_t count_off_box(const TriangleMesh& mesh, std::span<const MeshEdge> boundary_edges,
-                           const Isosurface& isosurface, const Promise& promise);
 
 }  // namespace deliso

@@ -19,8 +19,8 @@ struct Promise {
   double on_box = 1e-3;        // of a boundary edge from the face of the box that it lies on
 };
 
-// Distances are sampled at the same points of a triangle by both: at its centroid, and at the points of a lattice about a
-// voxel apart, with at most so many along an edge.
+// Distances are sampled at the same points of a triangle by both: at its centroid, and at the points of a lattice about
+// a voxel apart, with at most so many along an edge.
 inline constexpr int kMostSamplesPerEdge = 64;
 
 // What was found of a mesh. A count of 0 is right.

@@ -21,29 +21,32 @@ std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on
     const Vec3 a = corners[(i + 1) % 3] - on_line, b = corners[(i + 2) % 3] - on_line;
     weight[i] = a[u] * b[v] - a[v] * b[u];
   }
-  const bool is_inside = (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) ||
-                         (weight[0] < 0 && weight[1] < 0 && weight[2] < 0);
+  const bool is_inside =
+      (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) || (weight[0] < 0 && weight[1] < 0 && weight[2] < 0);
   if (!is_inside) return std::nullopt;
   const double sum = weight[0] + weight[1] + weight[2];
   return (weight[0] * corners[0][axis] + weight[1] * corners[1][axis] + weight[2] * corners[2][axis]) / sum;
 }
 
-// The vote of a triangle at its pass of a line beside a grid edge.
-int vote(const std::array<Vec3, 3>& corners, const Vec3& on_line, std::size_t axis, const IsosurfaceProbe& probe) {
+// The vote of a triangle at its pass of a line beside a grid edge. The line's ends have to lie on the sides that the
+// edge's samples lie on: else the isosurface runs along the edge, and not across it.
+int vote(const std::array<Vec3, 3>& corners, const Vec3& on_edge, const Vec3& on_line, std::size_t axis,
+         const IsosurfaceProbe& probe) {
   const std::optional<double> at = pass_of(corners, on_line, axis);
   if (!at) return 0;
   const double step = probe.step()[axis], last = std::round(probe.box().high[axis] / step);
   const double low = std::clamp(std::floor(*at / step), 0.0, last - 1);
-  Vec3 from = on_line, to = on_line;
-  from[axis] = low * step;
-  to[axis] = (low + 1) * step;
-  const double least = Promise().max_residual;
-  if (*at - from[axis] <= least || to[axis] - *at <= least) return 0;
-  const double before = probe.value(from), behind = probe.value(to);
-  if ((before < 0) == (behind < 0)) return 0;
+  const double from = low * step, to = (low + 1) * step, least = Promise().max_residual;
+  if (*at - from <= least || to - *at <= least) return 0;
+  const auto is_below = [&](Vec3 p, double end) {
+    p[axis] = end;
+    return probe.value(p) < 0;
+  };
+  const bool before = is_below(on_edge, from), behind = is_below(on_edge, to);
+  if (before == behind || is_below(on_line, from) != before || is_below(on_line, to) != behind) return 0;
   const double along = cross(corners[1] - corners[0], corners[2] - corners[0])[axis];
   if (along == 0) return 0;
-  return (along > 0) == (behind < 0) ? 1 : -1;
+  return (along > 0) == behind ? 1 : -1;
 }
 
 // The sum over the lines that may meet a triangle.
@@ -61,10 +64,13 @@ std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, c
     for (double j = first(v); j <= last(v); ++j) {
       for (const double side_u : {-kLineOffset, kLineOffset}) {
         for (const double side_v : {-kLineOffset, kLineOffset}) {
-          Vec3 on_line;
-          on_line[u] = i * step[u] + side_u;
-          on_line[v] = j * step[v] + side_v;
-          if (probe.box().contains(on_line)) sum += vote(corners, on_line, axis, probe);
+          Vec3 on_edge;
+          on_edge[u] = i * step[u];
+          on_edge[v] = j * step[v];
+          Vec3 on_line = on_edge;
+          on_line[u] += side_u;
+          on_line[v] += side_v;
+          if (probe.box().contains(on_line)) sum += vote(corners, on_edge, on_line, axis, probe);
         }
       }
     }

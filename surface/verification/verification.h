@@ -93,7 +93,8 @@ struct Verification {
   DelaunayBallCheck delaunay_balls;
   MeshQuality quality;
 
-  // All conditions of promise.h hold. Normals, shape and Delaunay balls do not count: they are further figures of merit.
+  // All conditions of promise.h hold. Normals, shape and Delaunay balls do not count: they are further figures of
+  // merit.
   bool proven = false;
   std::vector<std::string> failures;  // one sentence for each condition of `proven` that fails
   double seconds = 0;

@@ -11,8 +11,7 @@ StressCase ordinary_waves(Rng& rng) {
   const Dims dims = small_dims(rng, 6, 10);
   const auto wave = random_waves(rng, 0.3, 0.9);
   const double noise = rng.uniform(0, 0.1);
-  return {float_grid(dims, {1, 1, 1},
-                     [&](const Vec3& p) { return wave(p) + noise * rng.uniform(-1, 1); }),
+  return {float_grid(dims, {1, 1, 1}, [&](const Vec3& p) { return wave(p) + noise * rng.uniform(-1, 1); }),
           rng.uniform(-0.3, 0.3)};
 }
 
@@ -68,9 +67,8 @@ StressCase magnitudes(Rng& rng) {
 }
 
 StressCase signed_magnitudes(Rng& rng) {
-  ScalarGrid grid = float_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&](const Vec3&) {
-    return random_magnitude(rng, -6, 6);
-  });
+  ScalarGrid grid =
+      float_grid(small_dims(rng, 4, 7), {1, 1, 1}, [&](const Vec3&) { return random_magnitude(rng, -6, 6); });
   return {std::move(grid), 0};
 }
 

@@ -55,11 +55,12 @@ StressCase cut_bumps(Rng& rng) {
     bumps.emplace_back(centre, rng.uniform(0.5, 2.5));
   }
   const double height = rng.uniform(500, 30000);
-  ScalarGrid grid = grid_of<std::uint16_t>(dims, {1, 1, rng.below(3) == 0 ? rng.uniform(0.3, 3) : 1}, [&](const Vec3& p) {
-    double sum = 0;
-    for (const auto& [centre, width] : bumps) sum += std::exp(-squared_distance(p, centre) / (width * width));
-    return std::min(65535.0, height * sum);
-  });
+  ScalarGrid grid =
+      grid_of<std::uint16_t>(dims, {1, 1, rng.below(3) == 0 ? rng.uniform(0.3, 3) : 1}, [&](const Vec3& p) {
+        double sum = 0;
+        for (const auto& [centre, width] : bumps) sum += std::exp(-squared_distance(p, centre) / (width * width));
+        return std::min(65535.0, height * sum);
+      });
   const auto [lowest, highest] = grid.range();
   const double isovalue = lowest + rng.uniform(0.02, 0.98) * (highest - lowest) + 0.5;
   return {std::move(grid), std::min(isovalue, highest), rng.below(4) == 0};

@@ -19,12 +19,12 @@ namespace deliso::testing {
 namespace {
 
 struct StressOptions {
-  std::int64_t runs = 100;           // of each kind; fewer of large ones
+  std::int64_t runs = 100;  // of each kind; fewer of large ones
   std::uint64_t first_seed = 1;
-  std::string kinds;                 // names with commas between them; empty: all
+  std::string kinds;  // names with commas between them; empty: all
   std::filesystem::path out = "stress_out";
-  double kind_seconds = 600;         // no further run of a kind after these
-  double run_seconds = 60;           // a run's limit
+  double kind_seconds = 600;  // no further run of a kind after these
+  double run_seconds = 60;    // a run's limit
 };
 
 bool is_wanted(std::string_view kind, const std::string& kinds) {
@@ -80,8 +80,9 @@ void print_row(const StressKind& kind, const StressSums& sums, double ordinary) 
   const double per_vertex = sums.seconds / static_cast<double>(std::max<std::int64_t>(1, sums.vertices));
   std::cout << "| " << kind.name << " | " << sums.runs << " | " << sums.proven << " | " << sums.told << " | "
             << sums.contradicted << " | " << sums.alarms << " | " << sums.refused << " | " << sums.stopped << " | "
-            << sums.broken << " | " << std::setprecision(3) << sums.seconds / double(std::max<std::int64_t>(1, sums.runs))
-            << " | " << sums.slowest << " | " << (ordinary > 0 ? per_vertex / ordinary : 1) << " |" << std::endl;
+            << sums.broken << " | " << std::setprecision(3)
+            << sums.seconds / double(std::max<std::int64_t>(1, sums.runs)) << " | " << sums.slowest << " | "
+            << (ordinary > 0 ? per_vertex / ordinary : 1) << " |" << std::endl;
 }
 
 bool run_all(const StressOptions& options) {

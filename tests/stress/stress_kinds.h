@@ -15,8 +15,9 @@ namespace deliso::testing {
 struct StressCase {
   ScalarGrid grid;
   double isovalue = 0;
-  bool is_closed = false;                                 // boundary = closed
-  std::vector<std::pair<std::string_view, double>> sets = {};  // further parameters that differ from the defaults, by key
+  bool is_closed = false;  // boundary = closed
+  std::vector<std::pair<std::string_view, double>> sets =
+      {};  // further parameters that differ from the defaults, by key
 };
 
 struct StressKind {

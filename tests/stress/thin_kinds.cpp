@@ -69,8 +69,9 @@ StressCase bent_tubes(Rng& rng) {
 StressCase specks(Rng& rng) {
   const double width = rng.uniform(0.01, 0.9), share = rng.uniform(0.01, 0.15);
   const Vec3 spacing{1, 1, is_one_in(rng, 3) ? rng.uniform(0.2, 1) : 1};
-  return {ThinField(rng, small_dims(rng, 4, 7), spacing, width, [&](const Vec3&) { return rng.uniform() < share; }).grid,
-          0};
+  return {
+      ThinField(rng, small_dims(rng, 4, 7), spacing, width, [&](const Vec3&) { return rng.uniform() < share; }).grid,
+      0};
 }
 
 // A sheet one sample thick: a plane, a box, or a ball's shell.

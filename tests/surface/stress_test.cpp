@@ -23,8 +23,7 @@ TEST(Stress, EveryShortRunIsProvenOrRefused) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const testing::StressCase stress_case = testing::make_stress_case(kind, seed);
       const testing::StressResult result = testing::run_stress_case(stress_case, 60, directory);
-      const bool is_right =
-          result.outcome == testing::Outcome::kProven || result.outcome == testing::Outcome::kRefused;
+      const bool is_right = result.outcome == testing::Outcome::kProven || result.outcome == testing::Outcome::kRefused;
       EXPECT_TRUE(is_right) << kind.name << " " << seed;
       for (const std::string& reason : result.reasons) {
         if (!is_right) ADD_FAILURE() << reason;
@@ -69,16 +68,16 @@ INSTANTIATE_TEST_SUITE_P(
         // Components a few thousandths of a voxel thin were taken for reversed: fluxes through wide triangles tip.
         StressInput{"top_integers_0", 6, true}, StressInput{"top_integers_1", 4, true},
         StressInput{"top_integers_2", 3, true},
-        // Beside a huge value crossings round to samples: vertices off the isosurface, crossing triangles, parts missed.
-        // In the last, layers of thousands of slivers took minutes.
+        // Beside a huge value crossings round to samples: vertices off the isosurface, crossing triangles, parts
+        // missed. In the last, layers of thousands of slivers took minutes.
         StressInput{"fill_value_0", -0.10954653631503875}, StressInput{"fill_value_1", 0.11889209766053715},
         StressInput{"fill_value_2", 0.14606894033937384},
         // The surface within 1e-15 to 1e-6 of faces of the box and of samples: the mesher took vertices for off and
         // components for reversed that were not; vertices beside a sample counted for the wrong one of two components.
         StressInput{"at_the_box_0", 0}, StressInput{"at_the_box_1", 0}, StressInput{"at_the_box_2", 0},
         StressInput{"at_grid_points", 0},
-        // Four triangles crossed where small integers meet a flat spacing; samples over twelve decades left a vertex and
-        // parts of the mesh off the isosurface.
+        // Four triangles crossed where small integers meet a flat spacing; samples over twelve decades left a vertex
+        // and parts of the mesh off the isosurface.
         StressInput{"flat_crossing", 1}, StressInput{"contradiction", 1}),
     [](const auto& input) { return std::string(input.param.name); });
 

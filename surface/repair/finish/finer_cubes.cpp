@@ -100,8 +100,8 @@ std::optional<std::uint32_t> same_component(std::uint32_t component, const Exact
   return std::nullopt;
 }
 
-// Crossings that round to a sample would coincide there, and their triangles cross. At a distance from it, far less than
-// vertices may be off the isosurface, they do not.
+// Crossings that round to a sample would coincide there, and their triangles cross. At a distance from it, far less
+// than vertices may be off the isosurface, they do not.
 void keep_apart(IsosurfaceTopology& topology) {
   constexpr double kLeast = 2e-4;  // of an edge
   for (EdgeCrossing& crossing : topology.crossings) crossing.t = std::clamp(crossing.t, kLeast, 1 - kLeast);

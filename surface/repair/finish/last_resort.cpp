@@ -21,6 +21,7 @@ std::vector<bool> faulty_triangles(const SurfaceMesh& mesh, const MeshFaults& fa
   std::vector<bool> is_faulty(mesh.triangles.size(), false), is_off(mesh.points.size(), false);
   for (const std::uint32_t v : faults.geometry.off_vertices) is_off[v] = true;
   for (const std::uint32_t v : faults.geometry.reversed_vertices) is_off[v] = true;
+  for (const MeshEdge& edge : faults.geometry.off_box_edges) is_off[edge.low] = is_off[edge.high] = true;
   for (const std::uint32_t t : faults.geometry.far_triangles) is_faulty[t] = true;
   for (const TrianglePair& pair : faults.crossing.crossing) is_faulty[pair.first] = is_faulty[pair.second] = true;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

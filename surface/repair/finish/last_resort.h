@@ -18,7 +18,7 @@ struct MeshFaults {
 
   [[nodiscard]] std::int64_t count() const {
     return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.crossing_pairs +
-           static_cast<std::int64_t>(geometry.missed_crossings.size());
+           static_cast<std::int64_t>(geometry.missed_crossings.size() + geometry.off_box_edges.size());
   }
 };
 
