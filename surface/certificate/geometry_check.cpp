@@ -29,7 +29,7 @@ bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, do
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
   const auto changes = [&](const Vec3& direction, double distance) {
-    const double length = norm(direction);
+    const double length = norm_of_any_size(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
     const Vec3 offset = (distance / length) * direction;
     return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
@@ -41,7 +41,7 @@ bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, do
   const double value = std::abs(isosurface.value(p));
   for_each_gradient_at(isosurface, p, [&](const Vec3& gradient) {
     for (const Vec3& direction : {gradient, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      const double distance = kBeyond * value * norm(direction) / std::abs(dot(gradient, direction));
+      const double distance = kBeyond * value * norm_of_any_size(direction) / std::abs(dot(gradient, direction));
       is_found = is_found || (distance <= reach && changes(direction, distance));
     }
   });

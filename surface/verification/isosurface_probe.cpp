@@ -174,7 +174,7 @@ FootPoint IsosurfaceProbe::foot_along_gradients(const Vec3& p) {
   // Tries a direction and keeps its foot point if that is nearer. Returns whether it is nearer by enough for another
   // walk.
   const auto try_direction = [&](const Vec3& direction, double guess) {
-    const double length = norm(direction);
+    const double length = norm_of_any_size(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
     const std::optional<FootPoint> found =
         along_line(p, f, direction / length, 1.0625 * std::min(guess, kFirstStep), std::min(kReach, best.distance));
@@ -187,7 +187,7 @@ FootPoint IsosurfaceProbe::foot_along_gradients(const Vec3& p) {
   // not valid. Then many directions are tried: along those in a grid face or edge all its cells have the same values.
   const double uphill = f > 0 ? -1 : 1;
   const Vec3 normal = gradient(p);
-  const double promised = std::abs(f) / norm(normal);
+  const double promised = std::abs(f) / norm_of_any_size(normal);
   try_direction(uphill * normal, promised);
   if (!(best.distance <= std::min(kSurprising * promised, kFar))) {
     for (int i = 0; i < 125; ++i) {
