@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -181,10 +182,14 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
   constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
   options.epsilon2 = std::numeric_limits<double>::infinity();
   options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
+  std::int64_t off_before = 0;
   for (int round = 0;; ++round) {
     last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
     const bool may_refine = repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage;
-    if (last_.geometry.is_near() || !may_refine || round == kMostRounds || controls_.poll()) return;
+    const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings);
+    const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
+    if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
+    off_before = off;
     const std::int64_t before = result_.refine.insertions;
     timed(result_.refine, [&] {
       set_side_adjacency(mesh);

@@ -56,17 +56,20 @@ std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, c
   for (const Vec3& p : corners) box.extend(p);
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3& step = probe.step();
-  const auto first = [&](std::size_t a) { return std::floor(std::max(0.0, box.low[a] - kLineOffset) / step[a]); };
-  const auto last = [&](std::size_t a) {
-    return std::min(box.high[a] + kLineOffset, probe.box().high[a] + 0.5 * step[a]) / step[a];
+  const auto first = [&](std::size_t a) {
+    return static_cast<std::int64_t>(std::max(0.0, box.low[a] - kLineOffset) / step[a]);
   };
-  for (double i = first(u); i <= last(u); ++i) {
-    for (double j = first(v); j <= last(v); ++j) {
+  const auto last = [&](std::size_t a) {
+    return static_cast<std::int64_t>(
+        std::max(0.0, std::min(box.high[a] + kLineOffset, probe.box().high[a] + 0.5 * step[a]) / step[a]));
+  };
+  for (auto i = first(u), last_i = last(u); i <= last_i; ++i) {
+    for (auto j = first(v), last_j = last(v); j <= last_j; ++j) {
       for (const double side_u : {-kLineOffset, kLineOffset}) {
         for (const double side_v : {-kLineOffset, kLineOffset}) {
           Vec3 on_edge;
-          on_edge[u] = i * step[u];
-          on_edge[v] = j * step[v];
+          on_edge[u] = static_cast<double>(i) * step[u];
+          on_edge[v] = static_cast<double>(j) * step[v];
           Vec3 on_line = on_edge;
           on_line[u] += side_u;
           on_line[v] += side_v;
