@@ -76,6 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
         // components for reversed that were not; vertices beside a sample counted for the wrong one of two components.
         StressInput{"at_the_box_0", 0}, StressInput{"at_the_box_1", 0}, StressInput{"at_the_box_2", 0},
         StressInput{"at_grid_points", 0},
+        // Boundary edges that lay on no face of the box: the mesher did not count them.
+        StressInput{"off_box_0", -114}, StressInput{"off_box_1", 30.66796875},
+        // The isosurface runs along a grid edge, whose ends tell nothing of the way it faces.
+        StressInput{"thin_tube", 6.125, true},
         // Four triangles crossed where small integers meet a flat spacing; samples over twelve decades left a vertex
         // and parts of the mesh off the isosurface.
         StressInput{"flat_crossing", 1}, StressInput{"contradiction", 1}),
