@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -17,13 +18,13 @@
 #include "surface/certificate/final_certificate.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/extract/recovered_surface.h"
-#include "surface/intersection/self_intersection.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/recover/coverage.h"
 #include "surface/recover/init_triangulation.h"
 #include "surface/recover/recover.h"
 #include "surface/refine/refine.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
+#include "surface/repair/finish/last_resort.h"
 #include "surface/repair/repair.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/restricted_delaunay.h"
@@ -74,6 +75,7 @@ class Pipeline {
   void improve(SurfaceMesh& mesh, int most_rounds);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
   void drop_crossings();
+  void find_last_faults(SurfaceMesh& mesh);
   void certify(SurfaceMesh mesh);
 
   const ScalarGrid& grid_;
@@ -89,7 +91,7 @@ class Pipeline {
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
   AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
   Promise promise_;
-  GeometryCheck geometry_;
+  MeshFaults last_;  // of the mesh that RefineGeom has made
 };
 
 // DelIso(O, isovalue) of the paper, Figure 4.
@@ -172,6 +174,7 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   if (result_.build.bounds_a_solid) improve(mesh, parameters_.shape.rounds);
   if (parameters_.certify && result_.build.bounds_a_solid) refine_by_distance(mesh, options);
   drop_crossings();
+  if (parameters_.certify && result_.build.bounds_a_solid && !controls_.stopped()) find_last_faults(mesh);
   return mesh;
 }
 
@@ -193,20 +196,40 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
   constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
   options.epsilon2 = std::numeric_limits<double>::infinity();
   options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
+  std::int64_t off_before = 0;
   for (int round = 0;; ++round) {
-    geometry_ = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
     const bool may_refine = repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage;
-    if (geometry_.is_near() || !may_refine || round == kMostRounds || controls_.poll()) return;
+    const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings);
+    const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
+    if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
+    off_before = off;
     const std::int64_t before = result_.refine.insertions;
     timed(result_.refine, [&] {
       set_side_adjacency(mesh);
       mesh.pole_heights.assign(mesh.points.size(), isosurface_->box().diagonal());
-      options.coverage_targets = geometry_.missed_crossings;
+      options.coverage_targets = last_.geometry.missed_crossings;
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
     if (round == 0) improve(mesh, kCautiousRounds);
     if (result_.refine.insertions == before) return;
   }
+}
+
+// What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
+// Components with faults come from finer cubes; for these the crossings are found once more.
+void Pipeline::find_last_faults(SurfaceMesh& mesh) {
+  timed(result_.certify_stage, [&] {
+    if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
+      last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+    }
+  });
+  if (!repairs(parameters_) || last_.count() == 0) return;
+  timed(result_.repair, [&] {
+    topology_ = exact_topology(grid_, result_.isovalue_used, options_.threads);
+    result_.repair.components_polygonized += replace_faulty_components(mesh, *surface_, promise_, last_, controls_);
+  });
+  drop_crossings();
 }
 
 // Poles and meshes that repair has found for further rounds count as what they are.
@@ -256,16 +279,13 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());
   figures.is_manifold = result_.certificate.manifold;
   figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
-  figures.reversed_components = geometry_.reversed_components;
+  figures.reversed_components = last_.geometry.reversed_components;
+  figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
   figures.topology = result_.certificate.verdict;
-  // Repair and RefineGeom have seen to it in mesh space.
-  if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
-    figures.crossing_pairs =
-        self_intersections(result_.mesh.points, result_.mesh.triangles, 0, options_.threads).crossing_pairs;
-  }
-  figures.vertices_off = geometry_.vertices_off;
-  figures.mesh_off = geometry_.mesh_off;
-  figures.isosurface_off = static_cast<std::int64_t>(geometry_.missed_crossings.size());
+  figures.crossing_pairs = last_.crossing.crossing_pairs;
+  figures.vertices_off = last_.geometry.vertices_off;
+  figures.mesh_off = last_.geometry.mesh_off;
+  figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_crossings.size());
   result_.certificate.broken = broken_promises(figures, promise_);
 }
 

@@ -1,4 +1,5 @@
 // deliso verify: checks any mesh as an image of an isosurface, ours or another tool's.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -182,6 +183,11 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   remark_isovalue(judged, isovalue, verification.isovalue_used);
   std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
   for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
+  constexpr std::size_t kMostDifferences = 10;
+  const std::vector<std::string>& differences = verification.topology.differences;
+  for (std::size_t i = 0; i < std::min(kMostDifferences, differences.size()); ++i) {
+    std::cout << "  " << differences[i] << '\n';
+  }
   return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;
 }
 

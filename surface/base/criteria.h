@@ -11,8 +11,10 @@
 // x_sigma is inserted when sigma is larger than r_min and one of the others holds.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
+#include "delaunay/base/box3.h"
 #include "surface/base/parameters.h"
 
 namespace deliso {
@@ -26,6 +28,14 @@ struct Criteria {
   double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / h_mean; needs pole heights
   Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / h_mean
 };
+
+// r_min in mesh space, from the fraction of the smallest side of the volume's box that a parameter gives. At a crease
+// of the isosurface h / r stays what it is however small the triangles are. A triangle as small as the distance that a
+// vertex may be off the isosurface tells nothing by its shape: there refinement ends, whatever the fraction.
+inline double absolute_r_min(double fraction, const Box3& box) {
+  constexpr double kLeast = 1e-3;  // smallest spacings
+  return std::max(fraction * box.smallest_side(), kLeast);
+}
 
 // What the criteria measure of sigma.
 struct TriangleMeasures {

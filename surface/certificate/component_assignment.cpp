@@ -9,6 +9,7 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/component_match.h"
 #include "surface/certificate/mesh_pieces.h"
+#include "surface/certificate/promise.h"
 
 namespace deliso {
 
@@ -17,6 +18,15 @@ namespace {
 void sort_and_drop_repeated(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Whether a piece is no larger than vertices may be off the isosurface.
+bool is_tiny(const AssignedPieces& pieces, std::uint32_t piece) {
+  Box3 box;
+  for (std::size_t v = 0; v < pieces.points.size(); ++v) {
+    if (pieces.piece_of[v] == piece) box.extend(pieces.points[v]);
+  }
+  return !pieces.points.empty() && box.diagonal() < Promise().max_residual;
 }
 
 }  // namespace
@@ -43,6 +53,7 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
   for (const ComponentShare& share : shares) {
     const std::uint32_t counts_for = main_of_piece[share.piece].component;
     if (share.component == counts_for || share.vertices < own[share.component].vertices) continue;
+    if (own[share.component].vertices > 0 && is_tiny(pieces, own[share.component].piece)) continue;
     faults.overrunning.push_back(counts_for);
   }
   sort_and_drop_repeated(faults.repeated);
@@ -80,13 +91,13 @@ std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const Sca
 
 AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface) {
   std::vector<std::uint32_t> component_of;
+  std::vector<Vec3> points;
   ComponentMatch match;
   run_tasks(2, surface.threads, [&](std::size_t task) {
     if (task == 0) {
       match = find_pieces(mesh);
     } else {
       const Vec3& step = surface.isosurface.step();
-      std::vector<Vec3> points;
       points.reserve(mesh.points.size());
       for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
       component_of =
@@ -96,7 +107,7 @@ AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& 
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return assignment_faults({match.piece_of, component_of, topologies, surface.topology.components});
+  return assignment_faults({match.piece_of, component_of, topologies, surface.topology.components, points});
 }
 
 }  // namespace deliso

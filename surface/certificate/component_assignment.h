@@ -19,10 +19,11 @@ namespace deliso {
 
 // The pieces of a mesh, and the exact components on which their vertices lie.
 struct AssignedPieces {
-  std::span<const std::uint32_t> piece_of;  // of each vertex; a number beyond the pieces for one without triangles
-  std::span<const std::uint32_t> component_of;    // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
-  std::span<const ComponentTopology> topology;    // of each piece
+  std::span<const std::uint32_t> piece_of;      // of each vertex; a number beyond the pieces for one without triangles
+  std::span<const std::uint32_t> component_of;  // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
+  std::span<const ComponentTopology> topology;  // of each piece
   std::span<const ComponentTopology> components;  // the exact ones
+  std::span<const Vec3> points = {};              // of each vertex, in index space; may be left out
 };
 
 // A piece is assigned to the component that most of its vertices lie on.
@@ -30,7 +31,9 @@ struct AssignmentFaults {
   std::vector<std::uint32_t> without;   // components without an assigned piece
   std::vector<std::uint32_t> repeated;  // components with several pieces
   std::vector<std::uint32_t> unlike;    // components whose piece has another topology
-  // Components whose piece has at least as many vertices on some other component as that component's own piece has.
+  // Components whose piece has at least as many vertices on some other component as that component's own piece has. One
+  // whose own piece is smaller than vertices may be off the isosurface does not count as such another: beside it
+  // vertices do not tell what they lie on.
   std::vector<std::uint32_t> overrunning;
 
   [[nodiscard]] bool is_empty() const {

@@ -10,6 +10,8 @@
 
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
+#include "surface/certificate/boundary_check.h"
+#include "surface/certificate/other_side.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/occupied_blocks.h"
 #include "surface/search/point_grid.h"
@@ -18,17 +20,16 @@ namespace deliso {
 
 namespace {
 
-constexpr double kBlock = 3;      // side of the blocks in which crossings are looked for, in distances promised
-constexpr int kMostPerEdge = 64;  // samples along an edge
+constexpr double kBlock = 3;  // side of the blocks in which crossings are looked for, in distances promised
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
 // Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and
-// in the end lines in many directions.
+// in the end all around.
 bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, double reach) {
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
   const auto changes = [&](const Vec3& direction, double distance) {
-    const double length = norm(direction);
+    const double length = norm_of_any_size(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
     const Vec3 offset = (distance / length) * direction;
     return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
@@ -40,27 +41,11 @@ bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, do
   const double value = std::abs(isosurface.value(p));
   for_each_gradient_at(isosurface, p, [&](const Vec3& gradient) {
     for (const Vec3& direction : {gradient, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      const double distance = kBeyond * value * norm(direction) / std::abs(dot(gradient, direction));
+      const double distance = kBeyond * value * norm_of_any_size(direction) / std::abs(dot(gradient, direction));
       is_found = is_found || (distance <= reach && changes(direction, distance));
     }
   });
-  if (is_found) return true;
-  // Along lines towards the points of a cube's surface, one of each pair: a thin part is passed twice.
-  constexpr int kSide = 4;
-  std::vector<Hit> hits;
-  SearchCounters ignored;
-  for (int z = 0; z <= kSide; ++z) {
-    for (int y = z == 0 ? 0 : -kSide; y <= kSide; ++y) {
-      for (int x = -kSide; x <= kSide; ++x) {
-        if (std::max({std::abs(x), std::abs(y), z}) != kSide) continue;
-        const Vec3 direction{double(x), double(y), double(z)};
-        const double end = reach / norm(direction);
-        isosurface.all_hits({p, direction}, -end, end, hits, ignored);
-        if (!hits.empty()) return true;
-      }
-    }
-  }
-  return false;
+  return is_found || has_other_side_within(isosurface, p, reach);
 }
 
 struct Corners {
@@ -80,7 +65,7 @@ struct Corners {
 template <class Visit>
 void for_each_sample(const Corners& corners, double longest, const Visit& visit) {
   const auto& [a, b, c] = corners.p;
-  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
+  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
   visit((a + b + c) / 3);
   for (int i = 0; i <= order; ++i) {
     for (int j = 0; i + j <= order; ++j) {
@@ -124,8 +109,8 @@ void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const 
     if (isosurface.value(p) == 0) return;
     if (!is_near(isosurface, p, isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
   };
-  check.vertices_off = static_cast<std::int64_t>(
-      collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off).size());
+  check.off_vertices = collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off);
+  check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
 }
 
 // The crossings that no vertex is near, and no triangle with its centroid beside them, as far as those in the same
@@ -186,12 +171,13 @@ void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const
 
 // Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
 // should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
-// thin part.
+// thin part; nearer ones than vertices may be off the isosurface tell nothing.
 int facing(const Isosurface& isosurface, const Corners& corners) {
-  const double area = norm(corners.normal);
-  if (!(area > 0) || !std::isfinite(area)) return 0;
+  // A triangle flatter than its vertices may be off the isosurface may face either way.
+  const double area = norm(corners.normal), least = 2 * Promise().max_residual * std::sqrt(corners.squared_longest());
+  if (!(area > least) || !std::isfinite(area)) return 0;
   const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
-  for (const double beside : {1.0 / 4096, 1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
+  for (const double beside : {1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
     const Vec3 offset = (beside / area) * corners.normal;
     const bool before = isosurface.is_above(centroid + offset), behind = isosurface.is_above(centroid - offset);
     if (before != behind) return before ? -1 : 1;
@@ -223,7 +209,10 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
     its.count += std::abs(vote);
     its.sum += vote;
   }
-  check.reversed_components = std::count_if(votes.begin(), votes.end(), [](const Votes& v) { return v.sum < 0; });
+  for (std::uint32_t v = 0; v < votes.size(); ++v) {
+    if (votes[v].sum < 0) check.reversed_vertices.push_back(v);
+  }
+  check.reversed_components = static_cast<std::int64_t>(check.reversed_vertices.size());
 }
 
 }  // namespace
@@ -234,6 +223,7 @@ GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surfac
   check_triangles(mesh, surface, promise, check);
   check_crossings(mesh, surface, promise, check);
   check_orientation(mesh, surface, check);
+  check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
   return check;
 }
 

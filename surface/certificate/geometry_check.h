@@ -10,16 +10,20 @@
 
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/promise.h"
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
 
 struct GeometryCheck {
   std::int64_t vertices_off = 0;             // farther than promise.max_residual from the isosurface
+  std::vector<std::uint32_t> off_vertices;   // these, ascending
   std::int64_t mesh_off = 0;                 // sampled points of triangles farther than promise.max_distance from it
   std::vector<std::uint32_t> far_triangles;  // that such points lie on, ascending
   std::vector<Vec3> missed_crossings;        // of the isosurface, farther than promise.max_distance from every triangle
   std::int64_t reversed_components = 0;      // that face higher values on the whole
+  std::vector<std::uint32_t> reversed_vertices;  // one of each of these
+  std::vector<MeshEdge> off_box_edges;           // of the boundary, that lie on no face of the box
 
   [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
 };

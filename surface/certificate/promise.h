@@ -19,6 +19,10 @@ struct Promise {
   double on_box = 1e-3;        // of a boundary edge from the face of the box that it lies on
 };
 
+// Distances are sampled at the same points of a triangle by both: at its centroid, and at the points of a lattice about
+// a voxel apart, with at most so many along an edge.
+inline constexpr int kMostSamplesPerEdge = 64;
+
 // What was found of a mesh. A count of 0 is right.
 struct PromiseFigures {
   std::int64_t triangles = 0;
@@ -26,8 +30,7 @@ struct PromiseFigures {
   std::string manifold_faults;           // what keeps it from being one, if that is known
   std::int64_t misoriented_edges = 0;    // whose two triangles disagree
   std::int64_t reversed_components = 0;  // that face higher values
-  // Boundary edges that do not lie on one face of the box. The mesher does not count them: its boundary is built there.
-  std::int64_t off_box_edges = 0;
+  std::int64_t off_box_edges = 0;        // boundary edges that do not lie on one face of the box
   Verdict topology = Verdict::kNotChecked;
   std::int64_t crossing_pairs = 0;  // of triangles, in the coordinates as they are written
   std::int64_t vertices_off = 0;    // farther than max_residual from the isosurface

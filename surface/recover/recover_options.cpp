@@ -8,7 +8,7 @@ RecoverOptions recover_options(const Parameters& parameters, const Box3& box, in
   const Stage1Parameters& stage1 = parameters.stage1;
   RecoverOptions options;
   options.threads = threads;
-  options.geometry = {.epsilon = stage1.epsilon, .rho = stage1.rho, .r_min = stage1.r_min * box.smallest_side()};
+  options.geometry = {.epsilon = stage1.epsilon, .rho = stage1.rho, .r_min = absolute_r_min(stage1.r_min, box)};
   options.size_bound = std::max(options.geometry.r_min, stage1.size_bound_voxels);
   options.order = parameters.queue_order;
   return options;
@@ -19,7 +19,7 @@ RecoverOptions full3d_options(const Parameters& parameters, const Box3& box) {
   RecoverOptions options;
   options.geometry = {.epsilon = stage2.epsilon1,
                       .rho = stage2.rho,
-                      .r_min = stage2.r_min * box.smallest_side(),
+                      .r_min = absolute_r_min(stage2.r_min, box),
                       .epsilon2 = stage2.epsilon2,
                       .criterion2 = stage2.criterion2};
   options.new_pole = stage2.new_pole;

@@ -9,7 +9,7 @@ RefineOptions refine_options(const Parameters& parameters, const Box3& box, std:
   options.epsilon1 = stage2.epsilon1;
   options.epsilon2 = stage2.epsilon2;
   options.rho = stage2.rho;
-  options.r_min = stage2.r_min * box.smallest_side();
+  options.r_min = absolute_r_min(stage2.r_min, box);
   if (stage2.max_distance) options.max_distance = *stage2.max_distance;
   options.order = parameters.queue_order;
   options.restart_at_crossings = repairs(parameters);

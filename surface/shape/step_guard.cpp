@@ -39,6 +39,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
 bool StepGuard::apply(const PatchStep& step) {
   if (!learn_old(step.removed)) return false;
   const std::size_t first_added = patch_.triangle_count();
+  const std::optional<double> old_volume = volume_around(step.removed.front());
   patch_.apply(step);
   limits_.clear();
   for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
@@ -47,7 +48,7 @@ bool StepGuard::apply(const PatchStep& step) {
         std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
   }
   if (keeps_disks(step) && covers(vertices_, first_added) && covers(crossings_, first_added) &&
-      lies_near(first_added) && crosses_nothing(first_added)) {
+      lies_near(first_added) && keeps_volume(old_volume, first_added) && crosses_nothing(first_added)) {
     return true;
   }
   patch_.undo();
@@ -186,6 +187,34 @@ bool StepGuard::lies_near(std::size_t first_added) {
     if (height_of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
   }
   return true;
+}
+
+// The volume that a small closed component encloses; none of a larger or an open one.
+std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
+  constexpr std::size_t kSmall = 64;  // triangles
+  near_.assign(1, triangle);
+  const Vec3 apex = patch_.corner_points(triangle)[0];
+  double volume = 0;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const auto [a, b, c] = patch_.corner_points(near_[i]);
+    volume += dot(a - apex, cross(b - apex, c - apex)) / 6;
+    const std::array<std::uint32_t, 3>& corners = patch_.corners(near_[i]);
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::uint32_t beyond = patch_.across(near_[i], corners[(side + 1) % 3], corners[(side + 2) % 3]);
+      if (beyond == kNoVertex) return std::nullopt;
+      if (std::find(near_.begin(), near_.end(), beyond) == near_.end()) near_.push_back(beyond);
+    }
+    if (near_.size() > kSmall) return std::nullopt;
+  }
+  return volume;
+}
+
+// A small component must not be turned inside out or flattened, which no rim and no crossing tells.
+bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_t first_added) {
+  constexpr double kLeastShare = 0.5;
+  if (!old_volume) return true;
+  const std::optional<double> volume = volume_around(static_cast<std::uint32_t>(first_added));
+  return volume && *volume / *old_volume >= kLeastShare;
 }
 
 bool StepGuard::crosses_nothing(std::size_t first_added) {

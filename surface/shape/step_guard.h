@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,8 @@ class StepGuard {
   [[nodiscard]] bool is_within(const Vec3& p, std::uint32_t triangle, double reach) const;
   [[nodiscard]] bool covers(const Witnesses& witnesses, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
+  [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
+  [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
   [[nodiscard]] bool faces_down(std::uint32_t triangle, const Vec3& normal) const;
   [[nodiscard]] double height_of(std::uint32_t triangle, double reach);

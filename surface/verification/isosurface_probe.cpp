@@ -163,7 +163,7 @@ void IsosurfaceProbe::look_beside_creases(const Vec3& p, FootPoint& best) {
   if (std::popcount(faces) >= 2) look_among_crossings(p, best);
 }
 
-FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
+FootPoint IsosurfaceProbe::foot_along_gradients(const Vec3& p) {
   FootPoint best{p, std::numeric_limits<double>::infinity()};
   const double f = value(p);
   if (f == 0) {
@@ -174,7 +174,7 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   // Tries a direction and keeps its foot point if that is nearer. Returns whether it is nearer by enough for another
   // walk.
   const auto try_direction = [&](const Vec3& direction, double guess) {
-    const double length = norm(direction);
+    const double length = norm_of_any_size(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
     const std::optional<FootPoint> found =
         along_line(p, f, direction / length, 1.0625 * std::min(guess, kFirstStep), std::min(kReach, best.distance));
@@ -187,7 +187,7 @@ FootPoint IsosurfaceProbe::foot_point(const Vec3& p) {
   // not valid. Then many directions are tried: along those in a grid face or edge all its cells have the same values.
   const double uphill = f > 0 ? -1 : 1;
   const Vec3 normal = gradient(p);
-  const double promised = std::abs(f) / norm(normal);
+  const double promised = std::abs(f) / norm_of_any_size(normal);
   try_direction(uphill * normal, promised);
   if (!(best.distance <= std::min(kSurprising * promised, kFar))) {
     for (int i = 0; i < 125; ++i) {
@@ -236,8 +236,14 @@ void IsosurfaceProbe::look_in_box(const Vec3& p, bool is_below, const Box3& box,
   }
 }
 
-FootPoint IsosurfaceProbe::nearest_point(const Vec3& p) {
-  FootPoint best = foot_point(p);
+FootPoint IsosurfaceProbe::foot_point(const Vec3& p, double most) {
+  const FootPoint best = foot_along_gradients(p);
+  if (best.distance <= most || !(most > 0)) return best;
+  return foot_within(p, most).value_or(best);
+}
+
+FootPoint IsosurfaceProbe::nearest_point(const Vec3& p, double most) {
+  FootPoint best = foot_point(p, most);
   if (best.distance <= kMoved) return best;
   const double f = value(p), reach = std::min(best.distance, kFar);
   const Vec3 low = box_.clamp(p - Vec3{reach, reach, reach}), high = box_.clamp(p + Vec3{reach, reach, reach});

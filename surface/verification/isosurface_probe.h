@@ -32,7 +32,8 @@ class IsosurfaceProbe {
   [[nodiscard]] double voxel() const { return voxel_; }
   [[nodiscard]] Vec3 to_voxels(const Vec3& world) const { return (world - grid_.origin()) / voxel_; }
   [[nodiscard]] Vec3 to_world(const Vec3& p) const { return grid_.origin() + voxel_ * p; }
-  // The volume's box in voxel space.
+  // The volume's box in voxel space, and its spacing there.
+  [[nodiscard]] const Vec3& step() const { return step_; }
   [[nodiscard]] const Box3& box() const { return box_; }
 
   // Interpolant minus isovalue, and its gradient; outside the box, those at the nearest point of the box.
@@ -42,13 +43,14 @@ class IsosurfaceProbe {
   // A point of the isosurface near p: where lines through p along gradients meet it (far off or near creases also lines
   // in about a hundred directions), or the nearest of its points on grid edges if that is nearer. So the distance is
   // never below the true one (but for rounding). It exceeds the true one only where the isosurface bends strongly
-  // within a voxel.
-  FootPoint foot_point(const Vec3& p);
+  // within a voxel. If it is farther than `most`, the ball of that radius is searched completely: a point of the
+  // isosurface there is found, however the surface bends.
+  FootPoint foot_point(const Vec3& p, double most = 0);
 
   // The same for a point that should lie on the isosurface. If the foot point is farther than 1e-4, the surroundings of
   // p are searched completely, up to a quarter of a voxel. A foot point within that range is at most two thirds farther
   // than the nearest point of the isosurface, however the surface bends.
-  FootPoint nearest_point(const Vec3& p);
+  FootPoint nearest_point(const Vec3& p, double most = 0);
 
   // The positions of `crossings` in voxel space, in their order.
   [[nodiscard]] std::vector<Vec3> crossing_points() const;
@@ -65,6 +67,9 @@ class IsosurfaceProbe {
   void look_around_grid_face(const Vec3& p, unsigned axis, FootPoint& best) const;
   void look_beside_creases(const Vec3& p, FootPoint& best);
   void look_among_crossings(const Vec3& p, FootPoint& best);
+  FootPoint foot_along_gradients(const Vec3& p);
+  [[nodiscard]] std::optional<FootPoint> foot_within(const Vec3& p, double reach) const;
+  [[nodiscard]] std::optional<Vec3> other_side_in(const Vec3& p, const Box3& box, double reach, int halvings) const;
   void look_in_box(const Vec3& p, bool is_below, const Box3& box, FootPoint& beyond) const;
 
   const ScalarGrid& grid_;

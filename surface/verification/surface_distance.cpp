@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "surface/certificate/promise.h"
 #include "surface/search/box_tree.h"
 
 namespace deliso {
@@ -56,14 +57,14 @@ double squared_distance_to(const Vec3& p, const Vec3& a, const Vec3& b, const Ve
 
 }  // namespace
 
-std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe) {
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most) {
   std::vector<bool> is_referenced(mesh.points.size(), false);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) is_referenced[v] = true;
   }
   std::vector<std::optional<double>> distances(mesh.points.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (is_referenced[v]) distances[v] = probe.nearest_point(mesh.points[v]).distance;
+    if (is_referenced[v]) distances[v] = probe.nearest_point(mesh.points[v], most).distance;
   }
   return distances;
 }
@@ -78,14 +79,13 @@ DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const 
 
 DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most,
                                        std::int64_t* beyond) {
-  constexpr int kMostPerEdge = 16;
   FigureBuilder builder;
   std::vector<Vec3> samples;
   for (const auto& [ia, ib, ic] : mesh.triangles) {
     const Vec3 &a = mesh.points[ia], &b = mesh.points[ib], &c = mesh.points[ic];
     const double longest =
         std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-    const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostPerEdge)));
+    const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
     // The points of a lattice except the corners, and the centroid.
     samples.clear();
     samples.push_back((a + b + c) / 3);
@@ -97,7 +97,7 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
     }
     const double weight = 0.5 * norm(cross(b - a, c - a)) / static_cast<double>(samples.size());
     for (const Vec3& p : samples) {
-      const double distance = probe.foot_point(p).distance;
+      const double distance = probe.foot_point(p, most).distance;
       builder.add(distance, weight, p);
       if (beyond != nullptr && distance > most) ++*beyond;
     }

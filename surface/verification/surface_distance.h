@@ -18,14 +18,16 @@ struct DistanceFigure {
   Vec3 worst;  // where the maximum is: the sampled point
 };
 
-// The distance of each vertex to the isosurface; nothing for a vertex without a triangle. All in voxel space.
-std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe);
+// The distance of each vertex to the isosurface; nothing for a vertex without a triangle. All in voxel space. A
+// distance above `most` is searched completely.
+std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most = 0);
 // The figure of these distances; the mean is over vertices.
 DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances);
 
 // Triangles to the isosurface. Sampled are the edge midpoints and the centroid of each triangle, and on triangles with
-// an edge longer than two voxels further points, about one per voxel (at most 16 to an edge). The mean is over area.
-// Vertices are not sampled here. `beyond`, if given, gets the number of samples that are farther than `most`.
+// an edge longer than two voxels further points, about one per voxel (promise.h). The mean is over area. Vertices are
+// not sampled here. `beyond`, if given, gets the number of samples that are farther than `most`, after a complete
+// search.
 DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most = 0,
                                        std::int64_t* beyond = nullptr);
 

@@ -13,6 +13,7 @@
 #include "surface/certificate/component_assignment.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/verification/delaunay_balls.h"
+#include "surface/verification/facing_votes.h"
 #include "surface/verification/isosurface_probe.h"
 #include "volume/topology/exact_topology.h"
 
@@ -21,7 +22,6 @@ namespace deliso {
 namespace {
 
 constexpr double kOnBox = Promise().on_box;
-constexpr double kMaxResidual = Promise().max_residual;
 constexpr std::size_t kMostPlaces = 10;
 
 // Triangles with the same three vertices as an earlier one, whatever their order.
@@ -49,11 +49,12 @@ ManifoldCheck check_manifold(const TriangleMesh& mesh, const MeshTopology& topol
   return check;
 }
 
-// A vertex of each of the first components with negative flux.
-std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& topology, std::vector<double> flux) {
+// A vertex of each of the first components with negative votes.
+std::vector<Vec3> reversed_places(const TriangleMesh& mesh, const MeshTopology& topology,
+                                  std::vector<std::int64_t> votes) {
   std::vector<Vec3> places;
   for (const auto& triangle : mesh.triangles) {
-    double& of_component = flux[topology.component_of_vertex[triangle[0]]];
+    std::int64_t& of_component = votes[topology.component_of_vertex[triangle[0]]];
     if (of_component >= 0 || places.size() == kMostPlaces) continue;
     places.push_back(mesh.points[triangle[0]]);
     of_component = 0;  // reported already
@@ -78,40 +79,16 @@ std::vector<NextToCentroid> look_next_to_centroids(const TriangleMesh& voxels, I
   return result;
 }
 
-// The flux of the unit descent direction through a triangle; positive when the triangle faces lower values. The
-// direction is evaluated on the isosurface, and it has unit length, so that steep parts do not count more: near a thin
-// part of the surface the field at the triangle itself belongs to another part. A triangle that is far off the
-// isosurface compared with its height counts less. Its corners are `off` the isosurface; the result is the largest flux
-// that this allows, within the tolerance of residuals: a thinner part may be turned inside out by such residuals.
-double flux_through(const std::array<Vec3, 3>& corners, const std::array<double, 3>& off, const NextToCentroid& next) {
-  constexpr double kFarOff = 0.25;  // distance to the isosurface, in heights, at which a triangle counts half
-  const double steepness = norm_of_any_size(next.descent);
-  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  if (!(norm(normal) > 0 && steepness > 0 && std::isfinite(steepness))) return 0;
-  double longest = 0, doubt = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double opposite = distance(corners[(i + 1) % 3], corners[(i + 2) % 3]);
-    longest = std::max(longest, opposite);
-    doubt += std::min(off[i], kMaxResidual) * opposite;
-  }
-  const double far_off = next.distance / (kFarOff * norm(normal) / longest);
-  return (dot(normal, next.descent / steepness) + doubt) / (1 + far_off * far_off);
-}
-
-// `voxels` is the mesh in voxel space; `off` is how far its vertices are off the isosurface.
+// `voxels` is the mesh in voxel space.
 OrientationCheck check_orientation(const TriangleMesh& mesh, const TriangleMesh& voxels, const MeshTopology& topology,
-                                   std::span<const NextToCentroid> next, std::span<const std::optional<double>> off) {
+                                   const IsosurfaceProbe& probe) {
   OrientationCheck check;
   check.misoriented_edges = topology.misoriented_edges;
-  std::vector<double> flux(topology.components.size(), 0);
-  for (std::size_t t = 0; t < voxels.triangles.size(); ++t) {
-    const auto& [a, b, c] = voxels.triangles[t];
-    flux[topology.component_of_vertex[a]] += flux_through({voxels.points[a], voxels.points[b], voxels.points[c]},
-                                                          {off[a].value(), off[b].value(), off[c].value()}, next[t]);
-  }
-  check.reversed_components = std::count_if(flux.begin(), flux.end(), [](double f) { return f < 0; });
+  std::vector<std::int64_t> votes =
+      facing_votes(voxels, topology.component_of_vertex, topology.components.size(), probe);
+  check.reversed_components = std::count_if(votes.begin(), votes.end(), [](std::int64_t v) { return v < 0; });
   check.pass = topology.is_oriented() && check.reversed_components == 0;
-  check.reversed_at = reversed_places(mesh, topology, std::move(flux));
+  check.reversed_at = reversed_places(mesh, topology, std::move(votes));
   return check;
 }
 
@@ -221,7 +198,7 @@ AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& 
     pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
   }
   const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
-  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components});
+  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components, points});
 }
 
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
@@ -257,7 +234,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
   TriangleMesh voxels = mesh;
   for (Vec3& p : voxels.points) p = probe.to_voxels(p);
-  const std::vector<std::optional<double>> off = vertex_distances(voxels, probe);
+  const std::vector<std::optional<double>> off = vertex_distances(voxels, probe, promise.max_residual);
   const std::vector<NextToCentroid> next = look_next_to_centroids(voxels, probe);
 
   // Combinatorics.
@@ -268,7 +245,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
     const MeshTopology topology = mesh_topology(mesh);
     faults = faults_of_places(mesh, topology, grid, regular);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
-    v.orientation = check_orientation(mesh, voxels, topology, next, off);
+    v.orientation = check_orientation(mesh, voxels, topology, probe);
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
   v.topology = certify(mesh, truth);

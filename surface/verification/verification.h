@@ -39,8 +39,7 @@ struct ManifoldCheck {
 struct OrientationCheck {
   bool pass = false;                   // manifold, neighbours agree, and every component faces lower values
   std::int64_t misoriented_edges = 0;  // edges whose two triangles disagree
-  // Components whose normals point to higher values on the whole, by more than the residuals of their vertices can
-  // explain.
+  // Components whose normals point to higher values on the whole, where they pass grid edges (facing_votes.h).
   std::int64_t reversed_components = 0;
   std::vector<Vec3> reversed_at;  // a vertex of each of the first ten, in the world
 };
@@ -94,7 +93,8 @@ struct Verification {
   DelaunayBallCheck delaunay_balls;
   MeshQuality quality;
 
-  // All conditions of promise.h hold. Normals, shape and Delaunay balls do not count: they are further figures of merit.
+  // All conditions of promise.h hold. Normals, shape and Delaunay balls do not count: they are further figures of
+  // merit.
   bool proven = false;
   std::vector<std::string> failures;  // one sentence for each condition of `proven` that fails
   double seconds = 0;

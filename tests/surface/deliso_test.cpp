@@ -258,7 +258,7 @@ TEST(Deliso, ProgressNamesTheStagesInOrder) {
     if (stages.empty() || stages.back() != p.stage) stages.emplace_back(p.stage);
   };
   mesh_field("torus", 20, options);
-  const std::vector<std::string> order = {"index", "initial", "recover", "repair", "refine", "certify"};
+  const std::vector<std::string> order = {"index", "initial", "recover", "repair", "refine", "shape", "certify"};
   auto at = order.begin();
   for (const std::string& stage : stages) {
     at = std::find(at, order.end(), stage);

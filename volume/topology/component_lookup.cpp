@@ -11,7 +11,7 @@ namespace deliso {
 
 namespace {
 
-constexpr double kNear = 1e-9;  // in voxels
+constexpr double kNear = 1e-13;  // in voxels
 
 // A face of the grid seen as a face of a cell.
 struct CellFace {

@@ -51,7 +51,8 @@ std::optional<std::uint32_t> index_of(std::span<const TetId> tets, TetId t) {
 
 // The signs of some tetrahedra for which the restricted facets have the least area, with the signs around them fixed.
 // This is a minimum cut between above and below in the graph whose nodes are the tetrahedra and whose edges are their
-// facets. It is found by augmenting flow along shortest paths (Edmonds and Karp 1972).
+// facets. It is found by augmenting flow along shortest paths, all those of one length before longer ones (Dinic 1970):
+// layers may have thousands of tetrahedra.
 class LeastCut {
  public:
   // `tets`: ascending.
@@ -71,10 +72,13 @@ class LeastCut {
       }
       join(i, restricted.is_above(tets[i]), kWorthOfKeeping * all);
     }
-    while (finds_path()) send_along();
+    reached_by_.assign(arcs_of_.size(), kNone);
+    while (finds_levels()) {
+      while (finds_path()) send_along();
+    }
   }
 
-  [[nodiscard]] bool is_above(std::size_t i) const { return reached_by_[kFirst + i] != kNone; }
+  [[nodiscard]] bool is_above(std::size_t i) const { return level_[kFirst + i] != kNone; }
 
  private:
   static constexpr std::uint32_t kAbove = 0, kBelow = 1, kFirst = 2;  // nodes
@@ -100,21 +104,42 @@ class LeastCut {
     }
   }
 
-  // Searches a path with remaining capacity from above to below. If there is none, reached_by_ marks the nodes that can
-  // be reached from above.
-  bool finds_path() {
-    reached_by_.assign(arcs_of_.size(), kNone);
+  // The number of arcs with room on the shortest path from above to each node. Returns whether below is reached.
+  bool finds_levels() {
+    level_.assign(arcs_of_.size(), kNone);
+    level_[kAbove] = 0;
     std::vector<std::uint32_t> open = {kAbove};
     for (std::size_t at = 0; at < open.size(); ++at) {
       for (const std::uint32_t arc : arcs_of_[open[at]]) {
         const auto& [to, room] = arcs_[arc];
-        if (!(room > 0) || to == kAbove || reached_by_[to] != kNone) continue;
-        reached_by_[to] = arc;
-        if (to == kBelow) return true;
-        open.push_back(to);
+        if (!(room > 0) || level_[to] != kNone) continue;
+        level_[to] = level_[open[at]] + 1;
+        if (to != kBelow) open.push_back(to);
       }
     }
-    return false;
+    next_.assign(arcs_of_.size(), 0);
+    return level_[kBelow] != kNone;
+  }
+  // Walks from level to level until below is reached. An arc that leads nowhere is not looked at again: next_.
+  bool finds_path() {
+    std::uint32_t node = kAbove;
+    while (node != kBelow) {
+      if (next_[node] == arcs_of_[node].size()) {
+        if (node == kAbove) return false;
+        node = arcs_[reached_by_[node] ^ 1U].to;
+        ++next_[node];
+        continue;
+      }
+      const std::uint32_t arc = arcs_of_[node][next_[node]];
+      const auto& [to, room] = arcs_[arc];
+      if (room > 0 && level_[to] == level_[node] + 1) {
+        reached_by_[to] = arc;
+        node = to;
+      } else {
+        ++next_[node];
+      }
+    }
+    return true;
   }
   void send_along() {
     double flow = std::numeric_limits<double>::infinity();
@@ -132,7 +157,9 @@ class LeastCut {
 
   std::vector<Arc> arcs_;
   std::vector<std::vector<std::uint32_t>> arcs_of_;  // of each node
-  std::vector<std::uint32_t> reached_by_;            // of each node: the arc, or kNone
+  std::vector<std::uint32_t> level_;                 // of each node; kNone where no path with room leads
+  std::vector<std::size_t> next_;                    // of each node: its first arc that may lead on
+  std::vector<std::uint32_t> reached_by_;            // of each node on the path at hand: the arc
 };
 
 }  // namespace

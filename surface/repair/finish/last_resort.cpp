@@ -1,0 +1,119 @@
+#include "surface/repair/finish/last_resort.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "surface/certificate/mesh_pieces.h"
+#include "surface/mesh/side_adjacency.h"
+#include "surface/repair/finish/finer_cubes.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr std::size_t kMostPairsAtLast = 4096;
+constexpr int kMostRoundsAtLast = 4;
+
+// The triangles at which something is wrong.
+std::vector<bool> faulty_triangles(const SurfaceMesh& mesh, const MeshFaults& faults) {
+  std::vector<bool> is_faulty(mesh.triangles.size(), false), is_off(mesh.points.size(), false);
+  for (const std::uint32_t v : faults.geometry.off_vertices) is_off[v] = true;
+  for (const std::uint32_t v : faults.geometry.reversed_vertices) is_off[v] = true;
+  for (const MeshEdge& edge : faults.geometry.off_box_edges) is_off[edge.low] = is_off[edge.high] = true;
+  for (const std::uint32_t t : faults.geometry.far_triangles) is_faulty[t] = true;
+  for (const TrianglePair& pair : faults.crossing.crossing) is_faulty[pair.first] = is_faulty[pair.second] = true;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (is_off[a] || is_off[b] || is_off[c]) is_faulty[t] = true;
+  }
+  return is_faulty;
+}
+
+// The component of each piece; kNoComponent where most of its vertices lie on none. `piece_of`: of each triangle.
+struct Pieces {
+  std::vector<std::uint32_t> piece_of, component;
+};
+Pieces pieces_of(const SurfaceMesh& mesh, const ExactSurface& surface) {
+  Pieces pieces;
+  pieces.piece_of.assign(mesh.triangles.size(), 0);
+  std::vector<bool> is_seen(mesh.triangles.size(), false);
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (is_seen[seed]) continue;
+    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
+    for (const std::uint32_t t : piece) pieces.piece_of[t] = static_cast<std::uint32_t>(pieces.component.size());
+    const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
+    pieces.component.push_back(component.value_or(kNoComponent));
+  }
+  return pieces;
+}
+
+// Adds the components that have faults.
+void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                     std::vector<bool>& is_marked) {
+  const Pieces pieces = pieces_of(mesh, surface);
+  const std::vector<bool> is_faulty = faulty_triangles(mesh, faults);
+  for (std::size_t t = 0; t < is_faulty.size(); ++t) {
+    const std::uint32_t component = pieces.component[pieces.piece_of[t]];
+    if (is_faulty[t] && component != kNoComponent) is_marked[component] = true;
+  }
+  const Vec3& step = surface.isosurface.step();
+  for (const Vec3& p : faults.geometry.missed_crossings) {
+    const auto component = component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
+                                        {p.x / step.x, p.y / step.y, p.z / step.z});
+    if (component) is_marked[*component] = true;
+  }
+}
+
+// Takes the marked components from the finer cubes, as far as they have a mesh there. Returns how many.
+std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>& is_marked, double max_distance,
+                            SurfaceMesh& mesh) {
+  SurfaceMesh finer;
+  std::vector<bool> is_replaced(is_marked.size(), false);
+  for (std::uint32_t c = 0; c < is_marked.size(); ++c) {
+    if (is_marked[c]) is_replaced[c] = append_finer_cubes(c, surface, max_distance, finer);
+  }
+  const std::int64_t count = std::count(is_replaced.begin(), is_replaced.end(), true);
+  if (count == 0) return 0;
+  const Pieces pieces = pieces_of(mesh, surface);
+  std::vector<bool> is_gone(mesh.triangles.size(), false);
+  for (std::size_t t = 0; t < is_gone.size(); ++t) {
+    const std::uint32_t component = pieces.component[pieces.piece_of[t]];
+    is_gone[t] = component != kNoComponent && is_replaced[component];
+  }
+  drop_triangles(mesh, is_gone);
+  append_pieces(finer, std::vector<std::uint32_t>(finer.points.size(), 0), {true}, mesh);
+  return count;
+}
+
+}  // namespace
+
+SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
+  SurfaceMesh points;
+  points.points = mesh.points;
+  return self_intersections(to_world(std::move(points), isosurface).points, mesh.triangles, kMostPairsAtLast, threads);
+}
+
+std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                                       MeshFaults& faults, Controls& controls) {
+  std::vector<bool> is_marked(surface.topology.components.size(), false);
+  std::int64_t replaced = 0;
+  for (int round = 0; round < kMostRoundsAtLast && faults.count() > 0 && !controls.poll(); ++round) {
+    SurfaceMesh next = mesh;
+    next.pole_heights.assign(next.points.size(), 1);
+    set_side_adjacency(next);
+    mark_components(next, surface, faults, is_marked);
+    const std::int64_t count = replace_marked(surface, is_marked, promise.max_distance / (1 + round), next);
+    if (count == 0) break;
+    MeshFaults left{check_geometry(next, surface, promise),
+                    crossing_in_world(next, surface.isosurface, surface.threads)};
+    if (left.count() >= faults.count()) break;
+    mesh = std::move(next);
+    faults = std::move(left);
+    replaced = std::max(replaced, count);
+  }
+  return replaced;
+}
+
+}  // namespace deliso

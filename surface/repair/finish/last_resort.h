@@ -1,0 +1,33 @@
+// The last resort: components whose mesh does not keep what is promised after stage 2 come from marching cubes on a
+// finer grid.
+#pragma once
+
+#include "surface/base/controls.h"
+#include "surface/base/exact_surface.h"
+#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/promise.h"
+#include "surface/intersection/self_intersection.h"
+#include "surface/mesh/surface_mesh.h"
+
+namespace deliso {
+
+// What is wrong with a mesh that has the right topology.
+struct MeshFaults {
+  GeometryCheck geometry;
+  SelfIntersections crossing;  // of its triangles, in the world's coordinates; up to kMostPairsAtLast are listed
+
+  [[nodiscard]] std::int64_t count() const {
+    return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.crossing_pairs +
+           static_cast<std::int64_t>(geometry.missed_crossings.size() + geometry.off_box_edges.size());
+  }
+};
+
+// The triangles that cross once the mesh is in the world's coordinates.
+SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface, int threads);
+
+// Replaces the components that have faults, and those that cross them then, as long as that leaves fewer; updates
+// `faults`. Returns the number of components replaced. In mesh space.
+std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                                       MeshFaults& faults, Controls& controls);
+
+}  // namespace deliso

@@ -1,0 +1,96 @@
+#include "surface/verification/facing_votes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "surface/certificate/promise.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kLineOffset = 0x1p-12;  // voxels from a grid edge to the lines beside it
+
+// Where a line parallel to `axis` through `on_line` meets a triangle; nothing where it passes beside it.
+std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on_line, std::size_t axis) {
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  std::array<double, 3> weight{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 a = corners[(i + 1) % 3] - on_line, b = corners[(i + 2) % 3] - on_line;
+    weight[i] = a[u] * b[v] - a[v] * b[u];
+  }
+  const bool is_inside =
+      (weight[0] > 0 && weight[1] > 0 && weight[2] > 0) || (weight[0] < 0 && weight[1] < 0 && weight[2] < 0);
+  if (!is_inside) return std::nullopt;
+  const double sum = weight[0] + weight[1] + weight[2];
+  return (weight[0] * corners[0][axis] + weight[1] * corners[1][axis] + weight[2] * corners[2][axis]) / sum;
+}
+
+// The vote of a triangle at its pass of a line beside a grid edge. The line's ends have to lie on the sides that the
+// edge's samples lie on: else the isosurface runs along the edge, and not across it.
+int vote(const std::array<Vec3, 3>& corners, const Vec3& on_edge, const Vec3& on_line, std::size_t axis,
+         const IsosurfaceProbe& probe) {
+  const std::optional<double> at = pass_of(corners, on_line, axis);
+  if (!at) return 0;
+  const double step = probe.step()[axis], last = std::round(probe.box().high[axis] / step);
+  const double low = std::clamp(std::floor(*at / step), 0.0, last - 1);
+  const double from = low * step, to = (low + 1) * step, least = Promise().max_residual;
+  if (*at - from <= least || to - *at <= least) return 0;
+  const auto is_below = [&](Vec3 p, double end) {
+    p[axis] = end;
+    return probe.value(p) < 0;
+  };
+  const bool before = is_below(on_edge, from), behind = is_below(on_edge, to);
+  if (before == behind || is_below(on_line, from) != before || is_below(on_line, to) != behind) return 0;
+  const double along = cross(corners[1] - corners[0], corners[2] - corners[0])[axis];
+  if (along == 0) return 0;
+  return (along > 0) == behind ? 1 : -1;
+}
+
+// The sum over the lines that may meet a triangle.
+std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, const IsosurfaceProbe& probe) {
+  std::int64_t sum = 0;
+  Box3 box{corners[0], corners[0]};
+  for (const Vec3& p : corners) box.extend(p);
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3& step = probe.step();
+  const auto first = [&](std::size_t a) {
+    return static_cast<std::int64_t>(std::max(0.0, box.low[a] - kLineOffset) / step[a]);
+  };
+  const auto last = [&](std::size_t a) {
+    return static_cast<std::int64_t>(
+        std::max(0.0, std::min(box.high[a] + kLineOffset, probe.box().high[a] + 0.5 * step[a]) / step[a]));
+  };
+  for (auto i = first(u), last_i = last(u); i <= last_i; ++i) {
+    for (auto j = first(v), last_j = last(v); j <= last_j; ++j) {
+      for (const double side_u : {-kLineOffset, kLineOffset}) {
+        for (const double side_v : {-kLineOffset, kLineOffset}) {
+          Vec3 on_edge;
+          on_edge[u] = static_cast<double>(i) * step[u];
+          on_edge[v] = static_cast<double>(j) * step[v];
+          Vec3 on_line = on_edge;
+          on_line[u] += side_u;
+          on_line[v] += side_v;
+          if (probe.box().contains(on_line)) sum += vote(corners, on_edge, on_line, axis, probe);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+                                       std::size_t components, const IsosurfaceProbe& probe) {
+  std::vector<std::int64_t> votes(components, 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    for (std::size_t axis = 0; axis < 3; ++axis) votes[component_of_vertex[a]] += votes_along(corners, axis, probe);
+  }
+  return votes;
+}
+
+}  // namespace deliso
