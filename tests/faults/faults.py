@@ -152,7 +152,8 @@ def full_disk(place):
             for command in (
                     ("mesh", "v.nrrd", "--isovalue", "0.1", "-o", "small/m.ply", "--report", "small/r.json", "--quiet"),
                     ("generate", "gyroid", "--size", "60", "--encoding", "raw", "-o", "small/g.nrrd"),
-                    ("render", "v.nrrd", "--isovalue", "0.1", "-o", "small/p.png", "--size", "600x600")):
+                    ("render", "v.nrrd", "--isovalue", "0.1", "-o", "small/p.png", "--size", "600x600", "--samples",
+                     "1")):
                 result = place.run(*command, expect=[DONE, BAD_INPUT])
                 left = sorted(p.name for p in small.iterdir())
                 print(kilobytes, command[0], result.returncode, left, result.stderr.strip())
@@ -207,7 +208,7 @@ def little_memory(place):
     place.inputs = sorted(place.names())
     commands = [place.mesh("--threads", "4"), place.mesh(), ("verify", "i.ply", "v.nrrd", "--isovalue", "0.1"),
                 ("topology", "v.nrrd", "--isovalue", "0.1"), ("info", "v.nrrd", "--report", "r.json"),
-                ("render", "v.nrrd", "--isovalue", "0.1", "-o", "p.png", "--size", "100x100", "--threads", "3"),
+                ("render", "v.nrrd", "--isovalue", "0.1", "-o", "p.png", "--size", "60x60", "--threads", "3"),
                 ("generate", "gyroid", "--size", "40", "-o", "g.nrrd"), ("schema",)]
     refused = 0
     for kilobytes in range(7000, 60000, 151 if place.is_long else 1511):
