@@ -22,6 +22,7 @@ from pathlib import Path
 SKIPPED = 77
 DONE, NOT_PROVEN, BAD_INPUT, STOPPED = 0, 1, 2, 3
 SEED = 20070607
+MOST_SECONDS = 40  # of trials in the short form, for slow machines and sanitizers
 
 
 def skip(why):
@@ -70,6 +71,15 @@ class Place:
             path = self.folder / name
             shutil.rmtree(path) if path.is_dir() else path.unlink()
 
+    def trials(self, count, long_count):
+        """Counts trials; in the short form no more than fit into a while, at least three."""
+        begin = time.monotonic()
+        for n in range(long_count if self.is_long else count):
+            if not self.is_long and n >= 3 and time.monotonic() - begin > MOST_SECONDS:
+                print(f"{n} of {count} trials took {MOST_SECONDS} s")
+                return
+            yield n
+
     def read(self, name):
         path = self.folder / name
         return path.read_bytes() if path.exists() else None
@@ -91,7 +101,7 @@ def killed(place):
     whole = {name: place.read(name) for name in ("m.ply", "s.ply")}
     place.clear()
     ended = 0
-    for _ in range(400 if place.is_long else 100):
+    for _ in place.trials(100, 400):
         process = place.start(*place.mesh())
         time.sleep(place.random.uniform(0, 1.1 * seconds))
         process.kill()
@@ -127,7 +137,7 @@ def killed_experiment(place):
     seconds = time.monotonic() - begin
     table = place.read("out/table.md")
     require(table is not None, "there is a table")
-    for _ in range(20 if place.is_long else 4):
+    for _ in place.trials(4, 20):
         shutil.rmtree(place.folder / "out")
         for _ in range(3):
             process = place.start(*command)
@@ -237,11 +247,11 @@ def shrinking_input(place):
     place.run(*command, expect=[DONE])
     seconds = time.monotonic() - begin
     place.clear()
-    said = 0
-    trials = 60 if place.is_long else 12
-    for trial in range(trials):
+    said = trials = 0
+    for _ in place.trials(12, 60):
+        trials += 1
         process = place.start(*command)
-        time.sleep(seconds * trial / trials)
+        time.sleep(place.random.uniform(0.1, 0.9) * seconds)
         os.truncate(place.folder / "large.nrrd", place.random.choice((0, 1, size // 3, size - 4096)))
         result = place.end(process)
         if result.returncode != DONE:
@@ -255,7 +265,7 @@ def shrinking_input(place):
 
 def two_signals(place):
     """Two signals in a row, as `timeout` sends them, ask once: the partial mesh is written."""
-    place.run("generate", "gyroid", "--size", "128", "-o", "large.nrrd", expect=[DONE])
+    place.run("generate", "gyroid", "--size", "64", "-o", "large.nrrd", expect=[DONE])
     command = ("mesh", "large.nrrd", "--isovalue", "0.1", "-o", "m.ply", "--report", "r.json", "--quiet",
                "--set", "stage2.epsilon1=0.005", "--set", "stage2.epsilon2=0.01")
     gaps = (0, 0, 0.001, 0.01, 0.1, 0.3, 0.8) if place.is_long else (0, 0.01, 0.3)

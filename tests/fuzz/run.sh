@@ -15,7 +15,7 @@ fuzz() {
   if [[ -f tests/fuzz/$1.dict ]]; then dictionary=("-dict=tests/fuzz/$1.dict"); fi
   mkdir -p "$found/inputs"
   ASAN_OPTIONS=malloc_context_size=8:quarantine_size_mb=16 \
-    "build/fuzz/tests/fuzz/fuzz_$1" "$found/inputs" "$corpus" "${dictionary[@]}" "-max_total_time=$seconds" -timeout=20 \
+    "build/fuzz/tests/fuzz/fuzz_$1" "$found/inputs" "$corpus" "${dictionary[@]}" "-max_total_time=$seconds" -timeout=60 \
     -rss_limit_mb=2000 -malloc_limit_mb=1000 "-artifact_prefix=$found/" -print_final_stats=1 >"$found/log" 2>&1
 }
 
