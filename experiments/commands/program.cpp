@@ -43,8 +43,8 @@ std::string version_text() {
          info.flags;
 }
 
-// The stack grows as calls need it. Where memory is limited (ulimit -v) it may be unable to, in the midst of a call, which
-// ends a program without a word. So it grows now, after a look whether it can.
+// The stack grows as calls need it. Where memory is limited (ulimit -v) it may be unable to, in the midst of a call,
+// which ends a program without a word. So it grows now, after a look whether it can.
 constexpr std::size_t kStackBytes = std::size_t{1} << 20;
 
 [[gnu::noinline]] void check_room_for_stack() {

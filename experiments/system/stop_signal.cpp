@@ -29,8 +29,8 @@ std::int64_t steady_nanoseconds() {
   return kPerSecond * now.tv_sec + now.tv_nsec;
 }
 
-// The first signal asks for an end. Whoever sends one often sends two at once (`timeout` one to the program and one to its
-// group), so what follows within a second is the same request; later ones have their default effect.
+// The first signal asks for an end. Whoever sends one often sends two at once (`timeout` one to the program and one to
+// its group), so what follows within a second is the same request; later ones have their default effect.
 extern "C" void request_stop(int signal) {
   constexpr std::int64_t kSameRequest = 1'000'000'000;
   stop_requested.store(true);

@@ -33,7 +33,8 @@ SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
                                      int threads = 1);
 // The same for the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
-// none, which marks all; coordinates as orient3d requires them. The mesh, if moved in, is freed before the search, which needs the most memory.
+// none, which marks all; coordinates as orient3d requires them. The mesh, if moved in, is freed before the search,
+// which needs the most memory.
 SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep = 10,
                                         int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {

@@ -124,7 +124,8 @@ def killed_experiment(place):
     """kill -9 during an experiment: --resume goes on, and the table has every run."""
     experiment = {
         "title": "Killed", "question": "Is every run there?", "base": {"name": "default", "parameters": {}},
-        "datasets": [{"name": "sphere", "field": "sphere", "size": 16}, {"name": "torus", "field": "torus", "size": 16}],
+        "datasets": [{"name": "sphere", "field": "sphere", "size": 16},
+                     {"name": "torus", "field": "torus", "size": 16}],
         "variants": [{"name": "two_stage", "extends": "default"},
                      {"name": "full3d", "extends": "default", "set": {"algorithm": "full3d"}}],
         "repeats": 3,

@@ -1,7 +1,8 @@
-// Small grids through the whole pipeline: of every sample type, with any spacing, isovalue and boundary. Where the mesher
-// says "proven", the verifier must say so, too; a run that stopped early still leaves a manifold mesh.
+// Small grids through the whole pipeline: of every sample type, with any spacing, isovalue and boundary. Where the
+// mesher says "proven", the verifier must say so, too; a run that stopped early still leaves a manifold mesh.
 //
-// With DELISO_FUZZ_KEEP=FILE.nrrd in the environment the volume is written there, and the command that meshes it to stderr.
+// With DELISO_FUZZ_KEEP=FILE.nrrd in the environment the volume is written there, and the command that meshes it to
+// stderr.
 // With DELISO_FUZZ_NOTE=1 the two may disagree; it is noted on stderr.
 #include <algorithm>
 #include <array>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstdio>
 #include <cstdlib>
 #include <span>
@@ -81,7 +81,8 @@ ScalarGrid grid_of(Bytes& bytes) {
   for (std::int32_t& n : dims) n = 2 + bytes.next() % 5;
   while (dims[0] * dims[1] * dims[2] > kMostSamples) --*std::max_element(dims.begin(), dims.end());
   Vec3 spacing{1, 1, 1};
-  for (int axis = 0; axis < 3; ++axis) spacing[static_cast<std::size_t>(axis)] = kSpacings[bytes.next() % kSpacings.size()];
+  for (int axis = 0; axis < 3; ++axis)
+    spacing[static_cast<std::size_t>(axis)] = kSpacings[bytes.next() % kSpacings.size()];
   const Vec3 origin = kOrigins[bytes.next() % kOrigins.size()];
   const int count = dims[0] * dims[1] * dims[2];
   Samples samples = visit_samples(empty_samples(type), [&]<class Sample>(const SampleArray<Sample>&) -> Samples {
