@@ -53,7 +53,11 @@ class Place:
                                 stderr=subprocess.PIPE, **options)
 
     def end(self, process, expect=None, limit=120):
-        out, err = process.communicate(timeout=limit)
+        try:
+            out, err = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
         result = subprocess.CompletedProcess(process.args, process.returncode, out.decode(), err.decode())
         if expect is not None:
             require(result.returncode in expect, result.args, "ended with", result.returncode, result.stderr)
