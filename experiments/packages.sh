@@ -17,6 +17,18 @@ tidy_packages=(
   "clang:/usr/bin/clang++"
   "clang-tidy:/usr/bin/clang-tidy"
 )
+# For the tests of system faults, which are skipped without them.
+fault_packages=(
+  "python3:/usr/bin/python3"
+  "faketime:/usr/bin/faketime"
+)
+
+# The package with libFuzzer and the sanitizers for the clang++ that is there.
+fuzz_package() {
+  local version
+  version=$(clang++ -dumpversion)
+  printf 'libclang-rt-%s-dev:%s' "${version%%.*}" "$(clang++ -print-resource-dir)/lib/linux/libclang_rt.fuzzer-$(uname -m).a"
+}
 
 say() { printf '== %s\n' "$*"; }
 

@@ -10,6 +10,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
 #include "experiments/system/parse_number.h"
+#include "experiments/system/shrinking_input.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
 #include "volume/sample_type.h"
@@ -95,6 +96,7 @@ ScalarGrid load_volume(const VolumeOptions& options) {
   if (described && !is_raw(options.path)) {
     throw InputError("--dims, --type, --endian and --spacing describe a .raw file, but the volume is " + options.path);
   }
+  end_where_input_shrinks(options.path);
   return read_volume(options.path, raw_options(options));
 }
 

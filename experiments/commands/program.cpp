@@ -1,10 +1,13 @@
 #include "experiments/commands/program.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
@@ -40,6 +43,22 @@ std::string version_text() {
          info.flags;
 }
 
+// The stack grows as calls need it. Where memory is limited (ulimit -v) it may be unable to, in the midst of a call,
+// which ends a program without a word. So it grows now, after a look whether it can.
+constexpr std::size_t kStackBytes = std::size_t{1} << 20;
+
+[[gnu::noinline]] void check_room_for_stack() {
+  const std::vector<char> room(kStackBytes);
+  static_cast<void>(*static_cast<const volatile char*>(room.data()));
+}
+
+[[gnu::noinline]] void grow_stack() {
+  constexpr std::size_t kPage = 4096;
+  std::array<char, kStackBytes> stack;  // NOLINT: only its pages are wanted
+  volatile char* const pages = stack.data();
+  for (std::size_t i = kStackBytes; i >= kPage; i -= kPage) pages[i - 1] = 0;
+}
+
 ExitCode run(int argc, const char* const* argv) {
   CommandLine line(
       "Certified Delaunay meshes of isosurfaces of scalar volumes",
@@ -63,6 +82,8 @@ ExitCode run(int argc, const char* const* argv) {
 
 ExitCode run_program(int argc, const char* const* argv) {
   try {
+    check_room_for_stack();
+    grow_stack();
     stop_at_signals();
     const ExitCode exit_code = run(argc, argv);
     // A result that did not reach its reader (a full disk, say) is no success.

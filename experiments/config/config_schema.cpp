@@ -1,5 +1,6 @@
 // Descriptions of the parameters: schema, help text and Markdown.
 #include <cmath>
+#include <cstdint>
 
 #include "experiments/config/config.h"
 #include "experiments/config/parameter_table.h"
@@ -14,6 +15,12 @@ std::string described(const ParameterField& field) {
 }
 
 std::string default_text(const ParameterField& field) { return value_to_json(field.get(Parameters{})).dump(); }
+
+// Whole for integers: only so does a validator compare the largest of them exactly.
+Json bound_schema(const ParameterField& field, double bound) {
+  if (field.type == ParameterType::kInteger) return static_cast<std::int64_t>(bound);
+  return bound;
+}
 
 Json field_schema(const ParameterField& field) {
   Json schema;
@@ -37,8 +44,8 @@ Json field_schema(const ParameterField& field) {
   }
   if (field.type == ParameterType::kChoice) schema["enum"] = field.choices;
   if (field.type == ParameterType::kNumber || field.type == ParameterType::kInteger) {
-    schema[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
-    if (std::isfinite(field.range.high)) schema["maximum"] = field.range.high;
+    schema[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = bound_schema(field, field.range.low);
+    if (std::isfinite(field.range.high)) schema["maximum"] = bound_schema(field, field.range.high);
   }
   schema["default"] = value_to_json(field.get(Parameters{}));
   schema["description"] = described(field);

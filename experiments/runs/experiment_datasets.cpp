@@ -7,6 +7,7 @@
 #include "delaunay/base/nearest_name.h"
 #include "delaunay/base/shortest_text.h"
 #include "experiments/runs/experiment_keys.h"
+#include "experiments/system/shrinking_input.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
 #include "volume/io/sha256.h"
@@ -158,6 +159,7 @@ fs::path dataset_path(const Dataset& dataset, const fs::path& data_folder) {
 ScalarGrid load_dataset(const Dataset& dataset, const fs::path& data_folder) {
   if (!dataset.field.empty()) return generate_field(dataset.field, dataset.size, dataset.seed);
   const fs::path path = dataset_path(dataset, data_folder);
+  end_where_input_shrinks(path);
   ScalarGrid grid = read_volume(path);
   if (!dataset.sha256.empty()) {
     const std::string found = sample_sha256(grid);

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <string_view>
 
 #include "experiments/system/exit_code.h"
@@ -13,12 +15,31 @@ namespace {
 // The only globals of the program: a signal handler can access nothing else.
 std::atomic<bool> stop_requested{false};
 std::atomic<bool> stop_held{false};
+std::atomic<std::int64_t> first_stop{0};  // when the first signal came, in nanoseconds; 0: none yet
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
 constexpr const char* kStoppedText = "stopped by a signal, no file was written";
 constexpr std::string_view kStoppedLine = "deliso: stopped by a signal, no file was written\n";
 
-extern "C" void request_stop(int /*signal*/) { stop_requested.store(true); }
+std::int64_t steady_nanoseconds() {
+  constexpr std::int64_t kPerSecond = 1'000'000'000;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return kPerSecond * now.tv_sec + now.tv_nsec;
+}
+
+// The first signal asks for an end. Whoever sends one often sends two at once (`timeout` one to the program and one to
+// its group), so what follows within a second is the same request; later ones have their default effect.
+extern "C" void request_stop(int signal) {
+  constexpr std::int64_t kSameRequest = 1'000'000'000;
+  stop_requested.store(true);
+  const std::int64_t now = steady_nanoseconds();
+  std::int64_t first = 0;
+  if (first_stop.compare_exchange_strong(first, now) || now - first < kSameRequest) return;
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
 
 // Calls only what is safe in a signal handler.
 extern "C" void stop_now(int /*signal*/) {
@@ -39,8 +60,7 @@ void handle_stop_signals(void (*handler)(int), int flags) {
 }  // namespace
 
 const std::atomic<bool>& catch_stop_signals() {
-  // The second signal has its default effect.
-  handle_stop_signals(request_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
+  handle_stop_signals(request_stop, static_cast<int>(SA_RESTART));
   return stop_requested;
 }
 

@@ -6,8 +6,8 @@
 
 namespace deliso {
 
-// For a command with partial results: from now on the first SIGINT or SIGTERM sets the flag that is returned; a second
-// one ends the program at once.
+// For a command with partial results: from now on the first SIGINT or SIGTERM sets the flag that is returned; one that
+// comes a second later, or more, ends the program at once.
 const std::atomic<bool>& catch_stop_signals();
 
 // For every other command: from now on SIGINT or SIGTERM ends the program at once, with one line on stderr and

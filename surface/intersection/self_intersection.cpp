@@ -1,6 +1,7 @@
 #include "surface/intersection/self_intersection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "delaunay/base/box3.h"
@@ -220,12 +221,35 @@ SelfIntersections examined(const OrderedTriangles& ordered, std::size_t triangle
   return result;
 }
 
+// The power of two that brings the largest coordinate to where products of coordinates neither overflow nor vanish; 1
+// where it is there already. Scaling by it changes no sign.
+double scale_to_exact_range(std::span<const Vec3> points) {
+  constexpr int kSmallest = -60, kLargest = 199;  // exponents
+  double largest = 0;
+  for (const Vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (largest == 0) return 1;
+  const int exponent = std::ilogb(largest);
+  return std::ldexp(1.0, std::clamp(exponent, kSmallest, kLargest) - exponent);
+}
+
+void scale_positions(std::vector<TrianglePair>& pairs, double scale) {
+  for (TrianglePair& pair : pairs) pair.position = scale * pair.position;
+}
+
 }  // namespace
 
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
                                      int threads) {
-  return examined(OrderedTriangles(points, triangles, threads), triangles.size(), {}, keep, threads);
+  const double scale = scale_to_exact_range(points);
+  if (scale == 1) return examined(OrderedTriangles(points, triangles, threads), triangles.size(), {}, keep, threads);
+  std::vector<Vec3> scaled_points(points.begin(), points.end());
+  for (Vec3& p : scaled_points) p = scale * p;
+  SelfIntersections found =
+      examined(OrderedTriangles(scaled_points, triangles, threads), triangles.size(), {}, keep, threads);
+  scale_positions(found.crossing, 1 / scale);
+  scale_positions(found.touching, 1 / scale);
+  return found;
 }
 
 SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep,

@@ -28,12 +28,13 @@ struct SelfIntersections {
 };
 
 // Finds all pairs and keeps at most `keep` of each kind, the same for any number of threads. Precondition: indices in
-// range, coordinates as orient3d requires them (delaunay/predicates.h).
+// range, finite coordinates; they are scaled to where orient3d is exact (delaunay/predicates.h).
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep = 10,
                                      int threads = 1);
 // The same for the pairs with a marked triangle (a mark that is not 0). Precondition: as many marks as triangles, or
-// none, which marks all. The mesh, if moved in, is freed before the search, which needs the most memory.
+// none, which marks all; coordinates as orient3d requires them. The mesh, if moved in, is freed before the search,
+// which needs the most memory.
 SelfIntersections self_intersections_of(std::span<const std::uint8_t> marks, TriangleMesh mesh, std::size_t keep = 10,
                                         int threads = 1);
 inline SelfIntersections self_intersections(const TriangleMesh& mesh, std::size_t keep = 10) {

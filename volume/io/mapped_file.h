@@ -9,8 +9,9 @@
 
 namespace deliso {
 
-// A read-only view of a whole file. If someone shortens the file while it is mapped, this process is killed: map only
-// files that do not change.
+// A read-only view of a whole file. If someone shortens the file while it is mapped, this process gets a SIGBUS, which
+// the program takes for a bad input (experiments/system/shrinking_input.h); elsewhere map only files that do not
+// change.
 class MappedFile {
  public:
   // Nothing when the system cannot map the file, or its size is not `size` bytes (any more).

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "tests/support/program_runner.h"
 
@@ -54,6 +57,32 @@ TEST(StopSignalDeathTest, WithoutAHoldTheProgramEndsAtOnce) {
           std::raise(signal);
         },
         ::testing::ExitedWithCode(3), "^deliso: stopped by a signal, no file was written\n$");
+  }
+}
+
+// Signals in a row are one request; a later one ends the program.
+TEST(StopSignalDeathTest, OnlyALaterSignalEndsARunWithPartialResults) {
+  for (const auto& [first, second] : {std::pair{SIGTERM, SIGTERM}, {SIGINT, SIGTERM}}) {
+    const auto raise_two = [a = first, b = second] {
+      const std::atomic<bool>& stop = catch_stop_signals();
+      std::raise(a);
+      std::raise(b);
+      std::raise(a);
+      if (!stop.load()) std::exit(1);
+    };
+    EXPECT_EXIT(
+        {
+          raise_two();
+          std::exit(44);
+        },
+        ::testing::ExitedWithCode(44), "^$");
+    EXPECT_EXIT(
+        {
+          raise_two();
+          std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+          std::raise(SIGTERM);
+        },
+        ::testing::KilledBySignal(SIGTERM), "^$");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "delaunay/predicates.h"
@@ -116,6 +117,29 @@ TEST(SelfIntersections, AllPairsAgreeWithTestingEveryPair) {
     for (std::size_t i = 0; i < found.crossing.size(); ++i) {
       EXPECT_EQ(found.crossing[i].first, pairs[i].first) << "seed " << seed;
       EXPECT_EQ(found.crossing[i].second, pairs[i].second) << "seed " << seed;
+    }
+  }
+}
+
+// Coordinates whose products overflow, or vanish: what meets does not depend on the unit of length.
+TEST(SelfIntersections, DoNotDependOnTheScale) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Rng rng(seed);
+    const TriangleMesh mesh = testing::random_soup(rng, 40, 60);
+    const SelfIntersections expected = self_intersections(mesh);
+    ASSERT_GT(expected.crossing_pairs, 0);
+    for (const int exponent : {-900, -300, 200, 400, 1000}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", exponent " + std::to_string(exponent));
+      const double scale = std::ldexp(1.0, exponent);
+      TriangleMesh scaled_mesh = mesh;
+      for (Vec3& p : scaled_mesh.points) p = scale * p;
+      const SelfIntersections found = self_intersections(scaled_mesh);
+      EXPECT_EQ(found.crossing_pairs, expected.crossing_pairs);
+      EXPECT_EQ(found.touching_pairs, expected.touching_pairs);
+      EXPECT_EQ(found.zero_area_triangles, expected.zero_area_triangles);
+      for (std::size_t i = 0; i < expected.crossing.size(); ++i) {
+        EXPECT_EQ(found.crossing[i].position, scale * expected.crossing[i].position);
+      }
     }
   }
 }

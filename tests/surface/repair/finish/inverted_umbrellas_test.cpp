@@ -80,6 +80,42 @@ TEST(InvertedUmbrellas, ATriangleDrawnThroughABodyComesBack) {
   }
 }
 
+// Draws triangle t to a point, with a new vertex there.
+void draw(SurfaceMesh& mesh, std::uint32_t t, const Vec3& to) {
+  const auto [a, b, c] = mesh.triangles[t];
+  const auto apex = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back(to);
+  mesh.pole_heights.push_back(1);
+  mesh.triangles[t] = {a, b, apex};
+  mesh.triangles.push_back({b, c, apex});
+  mesh.triangles.push_back({c, a, apex});
+}
+
+// Two that run side by side, end in each other's base, or share all but a corner: neither keeps the other.
+TEST(InvertedUmbrellas, TwoThatInteractBothGo) {
+  const Scene scene = ball();
+  const SurfaceMesh whole = sphere(scene, 2);
+  for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) {
+    std::set<std::uint32_t> across;
+    for (const std::uint32_t v : whole.triangles[t]) across.insert(opposite(whole, v));
+    for (std::uint32_t other = 0; other < whole.triangles.size(); ++other) {
+      const auto& corners = whole.triangles[other];
+      const std::set<std::uint32_t> of_other(corners.begin(), corners.end());
+      const bool is_opposite = of_other == across;
+      const bool is_neighbour = std::any_of(whole.neighbours[t].begin(), whole.neighbours[t].end(),
+                                            [&](TriangleSide side) { return side >> 2 == other; });
+      if (!is_opposite && !is_neighbour) continue;
+      SurfaceMesh mesh = whole;
+      draw(mesh, t, inside_of(whole.points[opposite(whole, whole.triangles[t][0])]));
+      draw(mesh, other, inside_of(whole.points[opposite(whole, corners[1])]));
+      set_side_adjacency(mesh);
+      ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 2) << t << " and " << other;
+      expect_good_sphere(mesh, scene, t);
+      EXPECT_EQ(mesh.points, whole.points) << t << " and " << other;
+    }
+  }
+}
+
 TEST(InvertedUmbrellas, AVertexDrawnThroughABodyGoes) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
