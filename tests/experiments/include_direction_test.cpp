@@ -140,7 +140,7 @@ TEST(IncludeDirection, NoFolderIsCrowded) {
 TEST(IncludeDirection, WrongArrowsWouldBeSeen) {
   constexpr std::array<std::pair<const char*, const char*>, 11> kWrong = {{
       {"volume/scalar_grid.h", "delaunay/predicates.h"},
-      {"volume/scalar_grid.h", "volume/io/nrrd.h"},
+      {"volume/scalar_grid.h", "volume/io/nrrd/nrrd.h"},
       {"volume/topology/exact_topology.h", "volume/marching_cubes/marching_cubes.h"},
       {"delaunay/predicates.h", "volume/scalar_grid.h"},
       {"delaunay/base/vec3.h", "delaunay/ids.h"},
@@ -154,8 +154,8 @@ TEST(IncludeDirection, WrongArrowsWouldBeSeen) {
   for (const auto& [path, target] : kWrong) EXPECT_FALSE(may_include(path, target)) << path << " includes " << target;
   EXPECT_TRUE(may_include("raycast/line.h", "volume/scalar_grid.h"));
   EXPECT_TRUE(may_include("volume/scalar_grid.h", "delaunay/base/vec3.h"));
-  EXPECT_TRUE(may_include("volume/io/nrrd.h", "volume/scalar_grid.h"));
-  EXPECT_TRUE(may_include("volume/io/gzip_stream.cpp", "zlib.h"));
+  EXPECT_TRUE(may_include("volume/io/nrrd/nrrd.h", "volume/scalar_grid.h"));
+  EXPECT_TRUE(may_include("volume/io/base/gzip_stream.cpp", "zlib.h"));
   EXPECT_TRUE(may_include("surface/deliso.h", "surface/repair/repair.h"));
 }
 

@@ -16,7 +16,7 @@
 #include "delaunay/base/check.h"
 #include "tests/support/bad_volumes.h"
 #include "tests/support/volume_files.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {

@@ -1,6 +1,6 @@
 // Volumes that are mapped into memory: the same samples and the same errors as when they are read, and nothing mapped
 // that cannot be used as it lies in the file.
-#include "volume/io/mapped_file.h"
+#include "volume/io/base/mapped_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include "tests/support/volume_files.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
-#include "volume/io/input_file.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/base/input_file.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {

@@ -1,5 +1,5 @@
 // NRRD files: round trips over every type, byte order and encoding, and the header's many spellings.
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <bit>
 
 #include "tests/support/volume_files.h"
-#include "volume/io/gzip_stream.h"
+#include "volume/io/base/gzip_stream.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
