@@ -30,7 +30,13 @@ const std::map<std::string, std::set<std::string>> kBelow = {
 // The layers within a top folder, from the lowest up. Folders of one layer do not include each other.
 using Floors = std::vector<std::set<std::string>>;
 const std::map<std::string, Floors> kFloors = {
-    {"volume", {{"volume"}, {"volume/io", "volume/topology", "volume/fields"}, {"volume/marching_cubes"}}},
+    {"volume",
+     {{"volume"},
+      {"volume/io/base", "volume/topology", "volume/fields"},
+      {"volume/io/nrrd", "volume/io/nifti", "volume/io/metaimage", "volume/io/vtk", "volume/io/numpy", "volume/io/mrc",
+       "volume/io/inr", "volume/io/pvm", "volume/io/raw", "volume/io/itk"},
+      {"volume/io"},
+      {"volume/marching_cubes"}}},
     {"surface",
      {{"surface/base"},
       {"surface/mesh"},

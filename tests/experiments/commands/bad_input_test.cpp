@@ -78,7 +78,7 @@ TEST_F(BadInput, EmptyNamesOfInputs) {
 }
 
 TEST_F(BadInput, NamesThatTellNoFormat) {
-  expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr or .raw"});
+  expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr, .nii"});
   expect_refusal({"info", "@/volume.png"}, {"/volume.png: has the extension \".png\", a volume is read from"});
 }
 

@@ -69,6 +69,11 @@ Volume read_described(ByteStream& stream, VolumeDescription description, const C
                       const InputFile* mappable) {
   choose_channel(stream, choice, description.layout);
   turn_forwards(description);
+  try {
+    static_cast<void>(frame_of(description.index_to_world));
+  } catch (const InputError& error) {
+    stream.fail(error.what());
+  }
   Samples samples = read_samples(stream, description.layout, mappable);
   return make_volume(stream, description, std::move(samples));
 }

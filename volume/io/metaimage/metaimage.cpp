@@ -247,7 +247,11 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
   }
   std::optional<UnpackedFile> detached;
   if (!files.empty()) {
-    detached.emplace(files[0]);
+    try {
+      detached.emplace(files[0]);
+    } catch (const InputError& error) {
+      bytes.fail(std::string("the data file ") + error.what());
+    }
     if (!detached->is_packed()) skip_header(detached->file(), fields, values * stored_size(layout.type));
     if (layout.compression == Compression::kGzip && detached->is_packed()) layout.compression = Compression::kNone;
   }

@@ -232,8 +232,13 @@ Volume read_nifti(UnpackedFile& file, const ChannelChoice& choice) {
     bytes.fail("\"vox_offset\" is " + std::to_string(offset) + ", expected the byte at which the samples begin");
   layout.skipped_bytes = static_cast<std::uint64_t>(offset - header_size);
   if (!is_pair) return read_described(bytes, volume, choice, file.mappable());
-  UnpackedFile image(image_beside(file.file().path()));
-  return read_described(image.bytes(), volume, choice, image.mappable());
+  std::optional<UnpackedFile> image;
+  try {
+    image.emplace(image_beside(file.file().path()));
+  } catch (const InputError& error) {
+    bytes.fail(std::string("the data file ") + error.what());
+  }
+  return read_described(image->bytes(), volume, choice, image->mappable());
 }
 
 }  // namespace deliso

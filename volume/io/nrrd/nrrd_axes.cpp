@@ -181,6 +181,13 @@ Affine read_nrrd_geometry(const NrrdFields& fields, const NrrdAxes& axes) {
   }
   if (const NrrdField* origin = fields.find("space origin"))
     map.offset = fields.vectors(*origin, 1)[0].value_or(Vec3{});
+  const NrrdField* field = fields.find("space directions");
+  if (field == nullptr) return map;
+  try {
+    static_cast<void>(frame_of(map));
+  } catch (const InputError& error) {
+    fields.fail(field->line, error.what());
+  }
   return map;
 }
 

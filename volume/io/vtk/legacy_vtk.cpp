@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +43,7 @@ struct LegacyArray {
   std::uint64_t components = 1;
   std::uint64_t tuples = 0;
   bool is_of_points = false;
+  bool is_color = false;  // as text: bytes as fractions of 255
 };
 
 // Goes through a file once: its header, then one array after another.
@@ -158,8 +160,8 @@ std::optional<LegacyArray> LegacyFile::attribute(const std::vector<std::string>&
     return array;
   }
   if (keyword == "COLOR_SCALARS" && words.size() == 3) {
-    array.type = is_text_ ? StoredType::kF32 : StoredType::kU8;
     array.components = count(words[2]);
+    array.is_color = true;
     return array;
   }
   return std::nullopt;
@@ -206,6 +208,19 @@ void LegacyFile::skip(const LegacyArray& array) {
   }
 }
 
+// Colours in text are bytes as fractions of 255.
+std::string bytes_of_colors(ByteStream& stream, std::uint64_t count) {
+  const std::string numbers = bytes_of_numbers(stream, StoredType::kF32, count, true);
+  std::string out;
+  for (std::size_t place = 0; place < numbers.size(); place += sizeof(float)) {
+    float fraction = 0;
+    std::memcpy(&fraction, numbers.data() + place, sizeof fraction);
+    if (!(fraction >= 0 && fraction <= 1)) stream.fail("COLOR_SCALARS has a number that is not from 0 to 1");
+    out += static_cast<char>(static_cast<std::uint8_t>(fraction * 255.0f + 0.5f));
+  }
+  return out;
+}
+
 }  // namespace
 
 Volume read_legacy_vtk(UnpackedFile& file, const ChannelChoice& choice, const std::string& array) {
@@ -243,7 +258,9 @@ Volume read_legacy_vtk(UnpackedFile& file, const ChannelChoice& choice, const st
   if (!legacy.is_text()) return read_described(bytes, volume, choice, file.mappable());
   layout.endian = kHostEndian;
   choose_channel(bytes, choice, layout);
-  MemoryStream text(bytes, bytes_of_numbers(bytes, layout.type, found->tuples * found->components, true));
+  const std::uint64_t numbers = found->tuples * found->components;
+  MemoryStream text(bytes, found->is_color ? bytes_of_colors(bytes, numbers)
+                                           : bytes_of_numbers(bytes, layout.type, numbers, true));
   return read_described(text, volume, choice);
 }
 
