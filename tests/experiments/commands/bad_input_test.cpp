@@ -140,8 +140,8 @@ TEST_F(BadInput, MissingFileOrFolderInstead) {
 }
 
 TEST_F(BadInput, UnknownExtension) {
-  write_file(folder_ / "v.vtk", good_volume());
-  expect_refusal({"info", "@/v.vtk"}, {".vtk", ".nrrd"});
+  write_file(folder_ / "v.xyz", "no volume");
+  expect_refusal({"info", "@/v.xyz"}, {"v.xyz", ".vtk"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.vtk"}, {"m.vtk", ".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m"}, {".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--stage1-out", "@/s.xyz"}, {"s.xyz", ".ply"});
