@@ -52,16 +52,18 @@ void judge_rounding(const TriangleMesh& mesh, const Affine& to_world, double vox
   double moved = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     moved = std::max(moved, distance(rounded.points[v], mesh.points[v]) / voxel);
-  const std::int64_t together = coinciding(rounded.points);
+  // In STL vertices are one where they coincide; in other files they are what their numbers say.
+  const std::int64_t together = keeps_floats(path) ? coinciding(rounded.points) : 0;
   const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
   if (together == 0 && !crosses && moved <= kFarthest) return;
+  const std::string what = "; here vertices move by up to " + shortest_text(moved) + " voxels, " +
+                           counted(together, "vertex coincides with another", "vertices coincide with others") +
+                           " and " + counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + ".";
   certificate.broken.push_back(
-      path.string() + (keeps_floats(path) ? ": STL rounds coordinates to single precision" : ": the map to the world rounds coordinates") +
-      "; here vertices move by up to " + shortest_text(moved) + " voxels, " +
-      counted(together, "vertex coincides with another", "vertices coincide with others") + " and " +
-      counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + "." +
-      (keeps_floats(path) ? " PLY, OFF and OBJ keep the mesh as it is, or use --local-origin." : ""));
+      keeps_floats(path) ? path.string() + ": STL rounds coordinates to single precision" + what +
+                               " PLY, OFF and OBJ keep the mesh as it is; --local-origin helps far from the origin."
+                         : path.string() + ": the map to the world rounds coordinates" + what);
 }
 
 }  // namespace deliso
