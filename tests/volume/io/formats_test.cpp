@@ -262,6 +262,19 @@ TEST_F(Formats, DirectionsOfAnyKindPlaceTheSamples) {
   expect_input_error([&] { in_space(Placement(), "RAS"); }, {"does not say its space"});
 }
 
+TEST_F(Formats, NumpyHeadersThatAreNone) {
+  const auto npy = [](const std::string& dictionary) {
+    return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(dictionary.size()) + '\0' + dictionary + kTwelve;
+  };
+  EXPECT_EQ(read("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3, 2), }")).grid.samples(),
+            kTwelveSamples);
+  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': , }"), {"'shape'", "tuple"});
+  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 6), }"), {"'shape'", "three axes"});
+  refuse("a.npy", npy("{'descr': '|O', 'fortran_order': False, 'shape': (2, 3, 2), }"), {"'descr'", "\"'|O'\""});
+  refuse("a.npy", npy("{'descr': '|u1', 'shape': (2, 3, 2), }"), {"'fortran_order'"});
+  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3, 99), }"), {"12 bytes", "594"});
+}
+
 TEST_F(Formats, OthersAreNamedWithAProgramThatConvertsThem) {
   expect_input_error([&] { read_volume(directory_ / "scan.dcm"); }, {"dcm2niix"});
   std::filesystem::create_directory(directory_ / "series");

@@ -53,7 +53,9 @@ class NpyHeader {
   [[nodiscard]] std::vector<std::int64_t> shape() const {
     std::vector<std::int64_t> sizes;
     std::string word;
-    for (const char c : value("shape").substr(1) + ',') {
+    const std::string tuple = value("shape");
+    if (!tuple.starts_with('(')) fail("shape", "a tuple like (4, 5, 6)");
+    for (const char c : tuple.substr(1) + ',') {
       if (c == ' ') continue;
       if (c != ',') {
         word += c;
