@@ -36,8 +36,8 @@ struct GridFrame {
   Vec3 origin{};
   Affine to_world;
 };
-// Throws InputError when a direction is zero, not finite or in the plane of the others, or the place is so far away that
-// coordinates cannot resolve 1e-4 of a spacing.
+// Throws InputError when a direction is zero, not finite or in the plane of the others, or the place is so far away
+// that coordinates cannot resolve 1e-4 of a spacing.
 GridFrame frame_of(const Affine& index_to_world);
 
 // The placement in another space, "LPS" or "RAS"; "native" gives the placement as it is. Throws InputError when the

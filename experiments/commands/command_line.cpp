@@ -65,7 +65,9 @@ RawOptions raw_options(const VolumeOptions& options) {
 }  // namespace
 
 void add_volume_options(Command& command, VolumeOptions& options) {
-  command.add_option("VOLUME", options.path, "The volume: " + std::string(kVolumeExtensions) + "; each may be packed (.gz)")
+  command
+      .add_option("VOLUME", options.path,
+                  "The volume: " + std::string(kVolumeExtensions) + "; each may be packed (.gz)")
       .type_name("")
       .required()
       .check(refuse_empty_name);
@@ -85,7 +87,8 @@ void add_volume_options(Command& command, VolumeOptions& options) {
   command.add_option("--skip", options.skip, "Of a .raw file: bytes before the first sample (default 0)")
       .type_name("BYTES")
       .check(refuse_empty_value);
-  command.add_option("--channel", options.channel, "Of a file with several values a voxel, or several volumes: which one")
+  command
+      .add_option("--channel", options.channel, "Of a file with several values a voxel, or several volumes: which one")
       .type_name("N")
       .check(refuse_empty_value);
   command.add_option("--array", options.array, "Of a .vtk or .vti file with several arrays: which one")

@@ -43,7 +43,9 @@ std::string on_one_line(std::string text) {
 }  // namespace
 
 void add_world_options(Command& command, WorldOptions& options) {
-  command.add_option("--space", options.space, "World coordinates of the mesh: native (as in the volume's file), LPS or RAS")
+  command
+      .add_option("--space", options.space,
+                  "World coordinates of the mesh: native (as in the volume's file), LPS or RAS")
       .type_name("SPACE")
       .show_default();
   command.add_flag("--local-origin", options.local_origin,
@@ -108,9 +110,12 @@ Json source_json(const Volume& volume) {
   Json rows = Json::array();
   for (std::size_t row = 0; row < 3; ++row)
     rows.push_back(Json::array({map.columns[0][row], map.columns[1][row], map.columns[2][row], map.offset[row]}));
-  return Json{{"format", volume.format},       {"stored_type", volume.stored_type},
-              {"channels", volume.channels},   {"channel", volume.channel},
-              {"space", name_json(volume.placement.space)}, {"units", name_json(volume.placement.units)},
+  return Json{{"format", volume.format},
+              {"stored_type", volume.stored_type},
+              {"channels", volume.channels},
+              {"channel", volume.channel},
+              {"space", name_json(volume.placement.space)},
+              {"units", name_json(volume.placement.units)},
               {"index_to_world", rows}};
 }
 

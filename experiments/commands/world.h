@@ -32,11 +32,11 @@ World world_of(const Volume& volume, const WorldOptions& options);
 // Throws InputError when the option's value is no space; to be checked before the volume is read.
 void check_space(const std::string& space);
 
-// A length as typed, in voxels (smallest spacings): a plain number, or with the suffix `w` in units of the world, or with
-// `mm`. Throws InputError naming the option. Without a volume only the form is checked.
+// A length as typed, in voxels (smallest spacings): a plain number, or with the suffix `w` in units of the world, or
+// with `mm`. Throws InputError naming the option. Without a volume only the form is checked.
 double parse_length(const std::string& text, const std::string& option, const Volume* volume);
-// An assignment `key=value` of --set with its value in voxels, where the key is a length and the value is in units of the
-// world; any other as it is.
+// An assignment `key=value` of --set with its value in voxels, where the key is a length and the value is in units of
+// the world; any other as it is.
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume);
 
 // What a mesh file says of its origin: program, volume, hash, isovalue, space and units, one line each.

@@ -9,8 +9,8 @@
 
 namespace deliso {
 
-// A mesh is written under a map from the grid's own coordinates to the world, whose rounding the verification undoes but
-// for the last digits; STL, too, stores coordinates as floats. This rounding may make triangles cross, or (in STL)
+// A mesh is written under a map from the grid's own coordinates to the world, whose rounding the verification undoes
+// but for the last digits; STL, too, stores coordinates as floats. This rounding may make triangles cross, or (in STL)
 // vertices coincide, or move a vertex farther off the isosurface than the verification allows (`voxel`: the smallest
 // spacing). If it does so where it was not so before, the certificate is broken, with a sentence that says why. Nothing
 // happens where neither rounds, nor if a coordinate is beyond the range of floats: such a file is not written.

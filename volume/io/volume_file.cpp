@@ -28,11 +28,21 @@ enum class VolumeFormat { kNrrd, kNifti, kMetaImage, kLegacyVtk, kVti, kNpy, kMr
 
 std::optional<VolumeFormat> format_of_extension(const std::string& extension) {
   static constexpr std::array<std::pair<std::string_view, VolumeFormat>, 16> kFormats{
-      {{".nrrd", VolumeFormat::kNrrd},    {".nhdr", VolumeFormat::kNrrd},     {".nii", VolumeFormat::kNifti},
-       {".hdr", VolumeFormat::kNifti},    {".mhd", VolumeFormat::kMetaImage}, {".mha", VolumeFormat::kMetaImage},
-       {".vtk", VolumeFormat::kLegacyVtk}, {".vti", VolumeFormat::kVti},       {".npy", VolumeFormat::kNpy},
-       {".mrc", VolumeFormat::kMrc},      {".map", VolumeFormat::kMrc},       {".ccp4", VolumeFormat::kMrc},
-       {".rec", VolumeFormat::kMrc},      {".inr", VolumeFormat::kInr},       {".pvm", VolumeFormat::kPvm},
+      {{".nrrd", VolumeFormat::kNrrd},
+       {".nhdr", VolumeFormat::kNrrd},
+       {".nii", VolumeFormat::kNifti},
+       {".hdr", VolumeFormat::kNifti},
+       {".mhd", VolumeFormat::kMetaImage},
+       {".mha", VolumeFormat::kMetaImage},
+       {".vtk", VolumeFormat::kLegacyVtk},
+       {".vti", VolumeFormat::kVti},
+       {".npy", VolumeFormat::kNpy},
+       {".mrc", VolumeFormat::kMrc},
+       {".map", VolumeFormat::kMrc},
+       {".ccp4", VolumeFormat::kMrc},
+       {".rec", VolumeFormat::kMrc},
+       {".inr", VolumeFormat::kInr},
+       {".pvm", VolumeFormat::kPvm},
        {".raw", VolumeFormat::kRaw}}};
   for (const auto& [known, format] : kFormats) {
     if (extension == known) return format;

@@ -97,8 +97,8 @@ std::string metaimage_file(const Affine& map) {
     matrix += numbers_text(column / norm(column), " ") + " ";
     spacing += Json(norm(column)).dump() + " ";
   }
-  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nTransformMatrix = " + matrix +
-         "\nOffset = " + numbers_text(map.offset, " ") + "\nElementSpacing = " + spacing +
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nTransformMatrix = " +
+         matrix + "\nOffset = " + numbers_text(map.offset, " ") + "\nElementSpacing = " + spacing +
          "\nDimSize = 12 11 9\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n" + sample_text();
 }
 
@@ -118,8 +118,7 @@ std::string vti_file(const Affine& map) {
 
 double signed_volume(const TriangleMesh& mesh) {
   double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    volume += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c])) / 6;
+  for (const auto& [a, b, c] : mesh.triangles) volume += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c])) / 6;
   return volume;
 }
 
@@ -217,8 +216,8 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
   for (const std::string name : {"m.ply", "m.off", "m.obj"}) {
     mesh("a.nrrd", name, {}, false);
     const std::string text = read_file(folder_ / name);
-    for (const char* const part : {"DelIso 0.1.0, isovalue 40", "space left-posterior-superior, units mm", "volume a.nrrd",
-                                   "samples sha256 "})
+    for (const char* const part :
+         {"DelIso 0.1.0, isovalue 40", "space left-posterior-superior, units mm", "volume a.nrrd", "samples sha256 "})
       EXPECT_NE(text.find(part), std::string::npos) << name << part;
   }
   mesh("a.nrrd", "m.stl", {"--ascii"}, false);

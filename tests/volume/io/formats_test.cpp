@@ -1,5 +1,5 @@
-// What no other tool at hand writes: types that are converted, channels, data in several files, INR, PVM, raw names; and
-// sentences for files that are read by others.
+// What no other tool at hand writes: types that are converted, channels, data in several files, INR, PVM, raw names;
+// and sentences for files that are read by others.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -124,17 +124,20 @@ TEST_F(Formats, NrrdEncodingsInAnyCaseAndTextWithItsMarks) {
 }
 
 TEST_F(Formats, NrrdDataMayEndTheFileOrLieInSeveral) {
-  EXPECT_EQ(read("a.nrrd", nrrd("uchar", "encoding: gzip\nbyte skip: -1\n", packed("anything" + kTwelve))).grid.samples(),
-            kTwelveSamples);
+  EXPECT_EQ(
+      read("a.nrrd", nrrd("uchar", "encoding: gzip\nbyte skip: -1\n", packed("anything" + kTwelve))).grid.samples(),
+      kTwelveSamples);
   for (int n = 0; n < 4; ++n) {
     const std::string part = kTwelve.substr(3 * static_cast<std::size_t>(n), 3);
     write_text(directory_ / ("p0" + std::to_string(n) + ".raw"), "head" + part);
     write_text(directory_ / ("p0" + std::to_string(n) + ".gz"), packed(part));
   }
-  EXPECT_EQ(read("a.nhdr", nrrd("uchar", "encoding: raw\nbyte skip: 4\ndata file: p%02d.raw 0 3 1 2\n", "")).grid.samples(),
-            kTwelveSamples);
-  EXPECT_EQ(read("a.nhdr", nrrd("uchar", "encoding: raw\nbyte skip: -1\ndata file: p%02d.raw 0 3 1\n", "")).grid.samples(),
-            kTwelveSamples);
+  EXPECT_EQ(
+      read("a.nhdr", nrrd("uchar", "encoding: raw\nbyte skip: 4\ndata file: p%02d.raw 0 3 1 2\n", "")).grid.samples(),
+      kTwelveSamples);
+  EXPECT_EQ(
+      read("a.nhdr", nrrd("uchar", "encoding: raw\nbyte skip: -1\ndata file: p%02d.raw 0 3 1\n", "")).grid.samples(),
+      kTwelveSamples);
   const std::string list = "encoding: gzip\ndata file: LIST 2\np00.gz\np01.gz\np02.gz\np03.gz\n";
   EXPECT_EQ(read("a.nhdr", nrrd("uchar", list, "")).grid.samples(), kTwelveSamples);
   const std::string backwards = "encoding: raw\nbyte skip: 4\ndata file: p%02d.raw 3 0 -1\n";
@@ -162,8 +165,9 @@ TEST_F(Formats, ChannelsAreChosenOrNamed) {
 }
 
 TEST_F(Formats, InrHasItsGeometryAndScale) {
-  std::string header = "#INRIMAGE-4#{\nXDIM=2\nYDIM=3\nZDIM=2\nVDIM=1\nTYPE=unsigned fixed\nSCALE=2**0\n"
-                       "PIXSIZE=8 bits\nCPU=decm\nVX=0.5\nVY=1\nVZ=2.5\nTX=-1\nTY=2\nTZ=3\n";
+  std::string header =
+      "#INRIMAGE-4#{\nXDIM=2\nYDIM=3\nZDIM=2\nVDIM=1\nTYPE=unsigned fixed\nSCALE=2**0\n"
+      "PIXSIZE=8 bits\nCPU=decm\nVX=0.5\nVY=1\nVZ=2.5\nTX=-1\nTY=2\nTZ=3\n";
   const auto file = [](std::string text, const std::string& data) {
     text.resize(256 - 4, '\n');
     return text + "##}\n" + data;
@@ -242,8 +246,10 @@ TEST_F(Formats, RawFilesArePackedByTheirContentAlone) {
 
 TEST_F(Formats, DirectionsOfAnyKindPlaceTheSamples) {
   const auto placed = [&](const std::string& directions) {
-    return read("a.nrrd", nrrd("uchar", "encoding: raw\nspace: LPS\nspace origin: (10,20,30)\nspace directions: " +
-                                            directions + "\n", kTwelve));
+    return read(
+        "a.nrrd",
+        nrrd("uchar", "encoding: raw\nspace: LPS\nspace origin: (10,20,30)\nspace directions: " + directions + "\n",
+             kTwelve));
   };
   // Axes permuted and reversed: sample (1, 2, 1) is where the header puts it.
   const Volume turned = placed("(0,2,0) (0,0,-3) (-0.5,0,0)");

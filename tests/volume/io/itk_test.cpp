@@ -1,5 +1,5 @@
-// Where ITK is built in: it reads the same of NIfTI, MetaImage and NRRD files as our own readers, and formats that we do
-// not read.
+// Where ITK is built in: it reads the same of NIfTI, MetaImage and NRRD files as our own readers, and formats that we
+// do not read.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,11 +41,13 @@ TEST(Itk, ReadsTheSameOfAskewVolumes) {
   for (int n = 0; n < 24; ++n) samples += static_cast<char>(n * 7);
   write_text(directory / "a.nrrd",
              "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 3 4\nspace: left-posterior-superior\nencoding: raw\n"
-             "space directions: (0.6,0.8,0) (0,0,-2) (-2.4,1.8,0)\nspace origin: (1,2,3)\n\n" + samples);
+             "space directions: (0.6,0.8,0) (0,0,-2) (-2.4,1.8,0)\nspace origin: (1,2,3)\n\n" +
+                 samples);
   write_text(directory / "b.mha",
              "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nCompressedData = False\n"
              "TransformMatrix = 0.6 0.8 0 0 0 -1 -0.8 0.6 0\nOffset = 1 2 3\nElementSpacing = 1 2 3\nDimSize = 2 3 4\n"
-             "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + samples);
+             "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
+                 samples);
   const Volume first = read_placed_volume(directory / "a.nrrd");
   for (const char* const name : {"a.nrrd", "b.mha"}) {
     expect_equal(first, read_placed_volume(directory / name), name);

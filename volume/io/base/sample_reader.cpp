@@ -82,9 +82,7 @@ LargeArray<Stored> read_values(ByteStream& stream, const SampleLayout& layout, s
 }
 
 Samples read_stored(ByteStream& stream, const SampleLayout& layout, std::size_t count, const NeededBytes& needed) {
-  const auto values = [&]<class Stored>(Stored /*type*/) {
-    return read_values<Stored>(stream, layout, count, needed);
-  };
+  const auto values = [&]<class Stored>(Stored /*type*/) { return read_values<Stored>(stream, layout, count, needed); };
   switch (layout.type) {
     case StoredType::kU32:
       return narrowed(values(std::uint32_t{}), layout.dims, stream);
@@ -140,8 +138,7 @@ Samples arranged(Samples samples, const SampleLayout& layout) {
 
 }  // namespace
 
-Samples read_samples(ByteStream& stream, const SampleLayout& layout, const InputFile* file,
-                     std::uint64_t mapped_from) {
+Samples read_samples(ByteStream& stream, const SampleLayout& layout, const InputFile* file, std::uint64_t mapped_from) {
   std::optional<GzipReader> gzip;
   if (layout.compression == Compression::kGzip) gzip.emplace(stream);
   ByteStream& bytes = gzip ? static_cast<ByteStream&>(*gzip) : stream;
@@ -152,8 +149,8 @@ Samples read_samples(ByteStream& stream, const SampleLayout& layout, const Input
   const bool is_plain = file != nullptr && !gzip;
   if (needed.all > bytes.bound()) {
     if (is_plain) fail_too_short(stream, bytes.bound(), needed.all);
-    stream.fail("the dimensions and the type need " + bytes_text(needed.all) +
-                ", but the data can hold at most " + std::to_string(bytes.bound()));
+    stream.fail("the dimensions and the type need " + bytes_text(needed.all) + ", but the data can hold at most " +
+                std::to_string(bytes.bound()));
   }
   if (is_plain && !layout.may_go_on && needed.all < file->remaining()) fail_too_long(stream, needed.all);
   if (is_plain && file->size() >= mapped_from) {

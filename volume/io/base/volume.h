@@ -1,4 +1,5 @@
-// A volume as a reader gives it, whatever the format: samples, dimensions, the affine map to the world, space and units.
+// A volume as a reader gives it, whatever the format: samples, dimensions, the affine map to the world, space and
+// units.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +27,9 @@ struct Volume {
   ScalarGrid grid;
   Placement placement;
   std::string format;
-  std::string stored_type;      // short_type_name of the samples in the file; scaled ones are doubles in memory
-  std::uint64_t channels = 1;   // values of each place in the file, and volumes after each other
-  std::uint64_t channel = 0;    // the one that was read
+  std::string stored_type;     // short_type_name of the samples in the file; scaled ones are doubles in memory
+  std::uint64_t channels = 1;  // values of each place in the file, and volumes after each other
+  std::uint64_t channel = 0;   // the one that was read
 };
 
 // Which of several values to read where a file has more than one.

@@ -109,8 +109,7 @@ Volume read_inr(UnpackedFile& file, const ChannelChoice& choice) {
   for (std::size_t n = 0; n < 3; ++n) {
     if (!(spacing[n] > 0)) fields.fail(std::string("V") + "XYZ"[n], "a number above 0");
   }
-  volume.index_to_world =
-      affine_of(spacing, {fields.number("TX", 0), fields.number("TY", 0), fields.number("TZ", 0)});
+  volume.index_to_world = affine_of(spacing, {fields.number("TX", 0), fields.number("TY", 0), fields.number("TZ", 0)});
   return read_described(stream, volume, choice, file.mappable());
 }
 

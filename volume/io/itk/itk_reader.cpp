@@ -71,8 +71,8 @@ std::optional<StoredType> stored_type_of(const itk::ImageIOBase& io) {
   const Type type = io.GetComponentType();
   if (type == Type::FLOAT) return StoredType::kF32;
   if (type == Type::DOUBLE) return StoredType::kF64;
-  const bool is_signed = type == Type::CHAR || type == Type::SHORT || type == Type::INT || type == Type::LONG ||
-                         type == Type::LONGLONG;
+  const bool is_signed =
+      type == Type::CHAR || type == Type::SHORT || type == Type::INT || type == Type::LONG || type == Type::LONGLONG;
   switch (io.GetComponentSize()) {
     case 1:
       return is_signed ? StoredType::kI8 : StoredType::kU8;

@@ -33,7 +33,8 @@ class MetaFields {
       if (line->find_first_not_of(" \t") == std::string::npos) continue;
       const std::size_t equals = line->find_first_of("=:");
       if (equals == std::string::npos)
-        file.fail("line " + std::to_string(n) + ": " + in_quotes(*line) + " is no header line, expected \"Key = value\"");
+        file.fail("line " + std::to_string(n) + ": " + in_quotes(*line) +
+                  " is no header line, expected \"Key = value\"");
       std::string key = trimmed_text(line->substr(0, equals));
       fields_[key] = trimmed_text(line->substr(equals + 1));
       if (key == "ElementDataFile") return;
@@ -103,10 +104,10 @@ class MetaFields {
 
 StoredType read_meta_type(const MetaFields& fields) {
   static const std::map<std::string, StoredType> kTypes{
-      {"MET_CHAR", StoredType::kI8},       {"MET_UCHAR", StoredType::kU8},      {"MET_SHORT", StoredType::kI16},
-      {"MET_USHORT", StoredType::kU16},    {"MET_INT", StoredType::kI32},       {"MET_UINT", StoredType::kU32},
-      {"MET_LONG", StoredType::kI32},      {"MET_ULONG", StoredType::kU32},     {"MET_LONG_LONG", StoredType::kI64},
-      {"MET_ULONG_LONG", StoredType::kU64}, {"MET_FLOAT", StoredType::kF32},     {"MET_DOUBLE", StoredType::kF64}};
+      {"MET_CHAR", StoredType::kI8},        {"MET_UCHAR", StoredType::kU8},  {"MET_SHORT", StoredType::kI16},
+      {"MET_USHORT", StoredType::kU16},     {"MET_INT", StoredType::kI32},   {"MET_UINT", StoredType::kU32},
+      {"MET_LONG", StoredType::kI32},       {"MET_ULONG", StoredType::kU32}, {"MET_LONG_LONG", StoredType::kI64},
+      {"MET_ULONG_LONG", StoredType::kU64}, {"MET_FLOAT", StoredType::kF32}, {"MET_DOUBLE", StoredType::kF64}};
   std::string name = fields.required("ElementType");
   if (name.ends_with("_ARRAY")) name.resize(name.size() - 6);
   const auto place = kTypes.find(name);
@@ -225,8 +226,8 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
   SampleLayout& layout = volume.layout;
   const std::size_t axes = take_meta_dims(bytes, fields, layout);
   layout.type = read_meta_type(fields);
-  layout.endian =
-      fields.is_true("BinaryDataByteOrderMSB") || fields.is_true("ElementByteOrderMSB") ? Endian::kBig : Endian::kLittle;
+  layout.endian = fields.is_true("BinaryDataByteOrderMSB") || fields.is_true("ElementByteOrderMSB") ? Endian::kBig
+                                                                                                    : Endian::kLittle;
   take_meta_geometry(fields, axes, volume);
   choose_channel(bytes, choice, layout);
   const std::uint64_t count = std::uint64_t{sample_count_of(bytes, layout.dims)};

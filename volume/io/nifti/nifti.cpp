@@ -60,7 +60,7 @@ NiftiHeader read_header_1(const HeaderBytes& bytes) {
   header.magic = bytes.text(344, 4);
   header.datatype = bytes.at<std::int16_t>(70);
   header.data_offset = static_cast<double>(bytes.at<float>(108));
-  header.units = bytes.at<std::int8_t>(123);
+  header.units = bytes.at<std::uint8_t>(123);
   header.qform = bytes.at<std::int16_t>(252);
   header.sform = bytes.at<std::int16_t>(254);
   return header;
@@ -198,7 +198,7 @@ std::filesystem::path image_beside(const std::filesystem::path& header) {
   std::filesystem::path stem = header;
   if (stem.extension() == ".gz" || stem.extension() == ".GZ") stem.replace_extension();
   for (const char* const extension : {".img", ".IMG", ".img.gz"}) {
-    const std::filesystem::path path = stem.replace_extension(extension);
+    std::filesystem::path path = stem.replace_extension(extension);
     if (std::filesystem::exists(path)) return path;
     if (stem.extension() == ".gz") stem.replace_extension();
   }

@@ -60,8 +60,11 @@ Volume read_nrrd(UnpackedFile& file, const ChannelChoice& choice) {
     }
     ByteStream& bytes = detached ? *detached : file.bytes();
     const InputFile* mappable = detached ? &*detached : file.mappable();
-    const auto decoded = nrrd_data(bytes, detached ? &*detached : file.is_packed() ? nullptr : &file.file(), header,
-                                   nrrd_data_bytes(bytes, volume.layout));
+    const auto decoded = nrrd_data(bytes,
+                                   detached           ? &*detached
+                                   : file.is_packed() ? nullptr
+                                                      : &file.file(),
+                                   header, nrrd_data_bytes(bytes, volume.layout));
     return decoded ? read_samples(*decoded, volume.layout) : read_samples(bytes, volume.layout, mappable);
   }();
   return make_volume(file.bytes(), volume, std::move(samples));

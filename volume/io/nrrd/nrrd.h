@@ -9,10 +9,10 @@
 
 namespace deliso {
 
-// Reads encodings raw, gzip, text and hex, both byte orders and all types of StoredType; data in the file, in another, or
-// in several; the geometry from `spacings`, `axis mins` and `axis maxs`, or from `space directions` of any direction and
-// `space origin`. Axes beyond three count channels. Throws InputError with one sentence that names the file, the line,
-// the value found and what was expected.
+// Reads encodings raw, gzip, text and hex, both byte orders and all types of StoredType; data in the file, in another,
+// or in several; the geometry from `spacings`, `axis mins` and `axis maxs`, or from `space directions` of any direction
+// and `space origin`. Axes beyond three count channels. Throws InputError with one sentence that names the file, the
+// line, the value found and what was expected.
 Volume read_nrrd(UnpackedFile& file, const ChannelChoice& choice);
 // The grid alone, of a file of one channel.
 ScalarGrid read_nrrd(const std::filesystem::path& path);

@@ -14,8 +14,8 @@ namespace deliso {
 // The bytes of all samples of all channels. Throws InputError when they are more than memory can address.
 std::uint64_t nrrd_data_bytes(const ByteStream& stream, const SampleLayout& layout);
 
-// Goes over what is skipped before the data, `count` bytes when decoded. Gives them decoded, or nothing when they follow
-// in `bytes` as they are. `file`: where the bytes come from, unless it is packed.
+// Goes over what is skipped before the data, `count` bytes when decoded. Gives them decoded, or nothing when they
+// follow in `bytes` as they are. `file`: where the bytes come from, unless it is packed.
 std::unique_ptr<ByteStream> nrrd_data(ByteStream& bytes, InputFile* file, const NrrdHeader& header,
                                       std::uint64_t count);
 

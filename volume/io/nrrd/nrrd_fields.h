@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "delaunay/base/vec3.h"
 #include "volume/io/base/byte_stream.h"
 
 namespace deliso {

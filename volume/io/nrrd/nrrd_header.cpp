@@ -90,7 +90,8 @@ void read_place_of_data(const NrrdFields& fields, const std::filesystem::path& p
     const std::int64_t bytes = fields.integer(*field, field->value);
     const bool is_binary = header.encoding == NrrdData::kRaw || header.encoding == NrrdData::kGzip;
     header.skip_from_end = bytes == -1 && is_binary;
-    if (bytes < 0 && !header.skip_from_end) fields.fail_value(*field, "0 or more (or -1 with the encoding raw or gzip)");
+    if (bytes < 0 && !header.skip_from_end)
+      fields.fail_value(*field, "0 or more (or -1 with the encoding raw or gzip)");
     header.skipped_bytes = header.skip_from_end ? 0 : static_cast<std::uint64_t>(bytes);
   }
 }

@@ -5,8 +5,8 @@
 
 namespace deliso {
 
-// One byte a voxel, or two, the higher first. Versions PVM, PVM2 and PVM3; the latter two have a spacing. More bytes are
-// channels. Throws InputError naming the file and the line of its header.
+// One byte a voxel, or two, the higher first. Versions PVM, PVM2 and PVM3; the latter two have a spacing. More bytes
+// are channels. Throws InputError naming the file and the line of its header.
 Volume read_pvm(UnpackedFile& file, const ChannelChoice& choice);
 
 }  // namespace deliso

@@ -216,7 +216,7 @@ std::string bytes_of_colors(ByteStream& stream, std::uint64_t count) {
     float fraction = 0;
     std::memcpy(&fraction, numbers.data() + place, sizeof fraction);
     if (!(fraction >= 0 && fraction <= 1)) stream.fail("COLOR_SCALARS has a number that is not from 0 to 1");
-    out += static_cast<char>(static_cast<std::uint8_t>(fraction * 255.0f + 0.5f));
+    out += static_cast<char>(static_cast<std::uint8_t>(std::lround(fraction * 255.0f)));
   }
   return out;
 }
@@ -259,8 +259,8 @@ Volume read_legacy_vtk(UnpackedFile& file, const ChannelChoice& choice, const st
   layout.endian = kHostEndian;
   choose_channel(bytes, choice, layout);
   const std::uint64_t numbers = found->tuples * found->components;
-  MemoryStream text(bytes, found->is_color ? bytes_of_colors(bytes, numbers)
-                                           : bytes_of_numbers(bytes, layout.type, numbers, true));
+  MemoryStream text(
+      bytes, found->is_color ? bytes_of_colors(bytes, numbers) : bytes_of_numbers(bytes, layout.type, numbers, true));
   return read_described(text, volume, choice);
 }
 

@@ -56,7 +56,8 @@ std::array<double, kCount> numbers_of(const ByteStream& file, const XmlTag& tag,
 
 void take_encoding(const ByteStream& file, const XmlTag& tag, VtiEncoding& encoding) {
   if (tag.value("type") != "ImageData")
-    file.fail("the file's type is " + in_quotes(tag.value("type")) + ", expected ImageData: other grids are no volumes");
+    file.fail("the file's type is " + in_quotes(tag.value("type")) +
+              ", expected ImageData: other grids are no volumes");
   const std::string order = tag.value("byte_order", "LittleEndian");
   if (order != "LittleEndian" && order != "BigEndian")
     file.fail("byte_order is " + in_quotes(order) + ", expected LittleEndian or BigEndian");
@@ -128,16 +129,17 @@ std::string array_bytes(ByteStream& file, std::string_view text, const VtiFile& 
     std::int64_t offset = 0;
     if (!parse_word(array.value("offset"), offset) || offset < 0 || vti.data == 0 ||
         static_cast<std::uint64_t>(offset) > text.size() - vti.data)
-      file.fail("the array's offset is " + in_quotes(array.value("offset")) + ", expected a place in the appended data");
+      file.fail("the array's offset is " + in_quotes(array.value("offset")) +
+                ", expected a place in the appended data");
     const std::string_view data = text.substr(vti.data + static_cast<std::size_t>(offset));
     if (vti.appended == "raw") return vti_data(file, data, vti.encoding, count);
-    if (vti.appended == "base64")
-      return vti_data_of_base64(file, data.substr(0, data.find('<')), vti.encoding, count);
+    if (vti.appended == "base64") return vti_data_of_base64(file, data.substr(0, data.find('<')), vti.encoding, count);
     file.fail("the appended data have the encoding " + in_quotes(vti.appended) + ", expected raw or base64");
   }
   const std::string_view content = text.substr(array.end, text.find('<', array.end) - array.end);
   if (format == "binary") return vti_data_of_base64(file, content, vti.encoding, count);
-  if (format != "ascii") file.fail("the array has the format " + in_quotes(format) + ", expected ascii, binary or appended");
+  if (format != "ascii")
+    file.fail("the array has the format " + in_quotes(format) + ", expected ascii, binary or appended");
   volume.layout.endian = kHostEndian;
   MemoryStream numbers(file, std::string(content));
   return bytes_of_numbers(numbers, volume.layout.type, values);

@@ -89,8 +89,7 @@ std::string bytes_of_base64(const ByteStream& file, std::string_view text, std::
   return out;
 }
 
-std::string vti_data(const ByteStream& file, std::string_view bytes, const VtiEncoding& encoding,
-                     std::uint64_t count) {
+std::string vti_data(const ByteStream& file, std::string_view bytes, const VtiEncoding& encoding, std::uint64_t count) {
   if (encoding.is_packed) return unpacked_blocks(file, bytes, encoding, count);
   const std::uint64_t size = header_number(file, bytes, encoding, 0);
   if (size != count) fail_size(file, size, count);

@@ -41,8 +41,7 @@ void read_attributes(const ByteStream& file, std::string_view text, XmlTag& tag)
     while (!text.empty() && is_xml_blank(text.front())) text.remove_prefix(1);
     const char quote = text.empty() ? ' ' : text.front();
     const std::size_t end = quote == '"' || quote == '\'' ? text.find(quote, 1) : std::string_view::npos;
-    if (end == std::string_view::npos)
-      file.fail("the attribute " + in_quotes(name) + " has no value in quotes");
+    if (end == std::string_view::npos) file.fail("the attribute " + in_quotes(name) + " has no value in quotes");
     tag.attributes[std::string(name)] = without_entities(text.substr(1, end - 1));
     text.remove_prefix(end + 1);
   }
