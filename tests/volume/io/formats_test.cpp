@@ -221,7 +221,7 @@ TEST_F(Formats, PvmIsReadPlainAndPacked) {
   const Samples words = std::vector<std::uint16_t>{0x6162, 0x6364, 0x6566, 0x6768, 0x696a, 0x6b6c, 1, 2, 3, 4, 5, 6};
   const std::string two = "PVM2\n2 3 2\n1 1 1\n2\n" + kTwelve + std::string("\0\1\0\2\0\3\0\4\0\5\0\6", 12);
   EXPECT_EQ(read("a.pvm", two).grid.samples(), words);
-  for (const std::size_t row : {1, 2, 5}) {
+  for (const std::size_t row : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
     EXPECT_EQ(read("a.pvm", "DDS v3d\n" + dds_of(spaced, 1, row)).grid.samples(), kTwelveSamples) << row;
     EXPECT_EQ(read("a.pvm", "DDS v3e\n" + dds_of(two, 2, row)).grid.samples(), words) << row;
   }
