@@ -245,6 +245,20 @@ TEST_F(WorldTest, LengthsMayBeOfTheWorld) {
             2);
 }
 
+TEST_F(WorldTest, VolumesAsScannersWriteThemAreProvenInTheirPlace) {
+  // Axes permuted and flipped, rotated by 0.1, one axis reversed, directions with noise of 1e-17 and of 1e-9.
+  for (const std::string name : {"mrhead", "oblique", "one_neg", "noise17", "tinytilt"}) {
+    SCOPED_TRACE(name);
+    const std::string path = std::string(DELISO_SOURCE_DIR) + "/tests/regression/direction_" + name + ".nrrd";
+    write_file(folder_ / "v.nrrd", read_file(path));
+    const ProgramResult made = run_deliso(
+        {"mesh", folder_ / "v.nrrd", "--isovalue", "50", "-o", folder_ / "m.ply", "--report", folder_ / "r"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(run_deliso({"verify", folder_ / "m.ply", folder_ / "v.nrrd", "--isovalue", "50"}).exit_code, 0);
+    EXPECT_GT(signed_volume(read_mesh(folder_ / "m.ply")), 0);
+  }
+}
+
 TEST_F(WorldTest, SpacesThatAreNotKnownAreRefused) {
   write_file(folder_ / "a.nrrd", nrrd_file(kAskew, ""));
   for (const std::string space : {"LPS", "RAS", "MNI"}) {

@@ -90,8 +90,11 @@ std::optional<StoredType> stored_type_of(const itk::ImageIOBase& io) {
 VolumeDescription description_of(const ByteStream& file, const itk::ImageIOBase& io) {
   VolumeDescription volume;
   volume.format = io.GetNameOfClass();
-  volume.space = space_name("LPS");
-  volume.units = "mm";
+  // A picture says neither.
+  if (volume.format != "TIFFImageIO") {
+    volume.space = space_name("LPS");
+    volume.units = "mm";
+  }
   const unsigned axes = io.GetNumberOfDimensions();
   if (axes != 3 && axes != 4) file.fail("the file has " + std::to_string(axes) + " axes, expected 3 or 4");
   for (unsigned n = 0; n < 3; ++n) {
