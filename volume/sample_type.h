@@ -1,10 +1,11 @@
-// The sample types of volume files: their spellings, sizes and byte orders.
+// The sample types of volumes and of their files: spellings, sizes and byte orders.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,10 @@ namespace deliso {
 // In the order of the alternatives of Samples.
 enum class SampleType { kU8, kI8, kU16, kI16, kI32, kF32, kF64 };
 
+// The types in files: first those of SampleType, in their order, then those that become one of them when they are read.
+// A half becomes a float, a bool a u8; the others become an i32 when all their values fit, else a double.
+enum class StoredType { kU8, kI8, kU16, kI16, kI32, kF32, kF64, kU32, kU64, kI64, kF16, kBool };
+
 enum class Endian { kLittle, kBig };
 
 inline constexpr Endian kHostEndian = std::endian::native == std::endian::little ? Endian::kLittle : Endian::kBig;
@@ -25,10 +30,22 @@ static_assert(std::endian::native == std::endian::little || std::endian::native 
 // The type named by any of the spellings of NRRD ("unsigned char", "uint8", "uint8_t", "short int", "float", ...), of
 // the Open SciVis collection ("float32", ...) or of ScalarGrid::type_name ("u8", ...). Case and runs of blanks do not
 // matter.
-std::optional<SampleType> parse_sample_type(std::string_view name);
+std::optional<StoredType> parse_stored_type(std::string_view name);
 
 // The list of supported types for error messages.
 std::string supported_sample_types();
+
+// Bytes of one sample in a file.
+std::size_t stored_size(StoredType type);
+
+// The short name: "u8", "i8", "u16", "i16", "i32", "f32", "f64", "u32", "u64", "i64", "f16" or "bool".
+std::string short_type_name(StoredType type);
+
+// The type in memory, where it is the same.
+inline std::optional<SampleType> kept_as(StoredType type) {
+  if (type > StoredType::kF64) return std::nullopt;
+  return static_cast<SampleType>(type);
+}
 
 // Bytes of one sample.
 std::size_t sample_size(SampleType type);

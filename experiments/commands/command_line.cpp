@@ -1,7 +1,6 @@
 #include "experiments/commands/command_line.h"
 
-#include <cctype>
-#include <filesystem>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "delaunay/base/shortest_text.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/shrinking_input.h"
+#include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
 #include "volume/sample_type.h"
@@ -47,18 +47,13 @@ Dims parse_dims(const std::string& text) {
   return dims;
 }
 
-bool is_raw(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".raw";
-}
-
 RawOptions raw_options(const VolumeOptions& options) {
   RawOptions raw;
   if (!options.dims.empty()) raw.dims = parse_dims(options.dims);
   if (!options.spacing.empty()) raw.spacing = parse_spacing(options.spacing);
+  if (!options.skip.empty()) raw.header_bytes = parse_count(options.skip, "--skip", 0, std::uint64_t{1} << 62);
   raw.type = options.type;
-  if (!raw.type.empty() && !parse_sample_type(raw.type)) {
+  if (!raw.type.empty() && !parse_stored_type(raw.type)) {
     throw InputError("--type: expected " + supported_sample_types() + ", found '" + raw.type + "'");
   }
   if (options.endian == "big") raw.endian = Endian::kBig;
@@ -71,7 +66,9 @@ RawOptions raw_options(const VolumeOptions& options) {
 }  // namespace
 
 void add_volume_options(Command& command, VolumeOptions& options) {
-  command.add_option("VOLUME", options.path, "The volume: .nrrd, .nhdr or .raw")
+  command
+      .add_option("VOLUME", options.path,
+                  "The volume: " + std::string(kVolumeExtensions) + "; each may be packed (.gz)")
       .type_name("")
       .required()
       .check(refuse_empty_name);
@@ -88,16 +85,37 @@ void add_volume_options(Command& command, VolumeOptions& options) {
   command.add_option("--spacing", options.spacing, "Of a .raw file: distances of samples along x,y,z (default 1,1,1)")
       .type_name("SX,SY,SZ")
       .check(refuse_empty_value);
+  command.add_option("--skip", options.skip, "Of a .raw file: bytes before the first sample (default 0)")
+      .type_name("BYTES")
+      .check(refuse_empty_value);
+  command
+      .add_option("--channel", options.channel, "Of a file with several values a voxel, or several volumes: which one")
+      .type_name("N")
+      .check(refuse_empty_value);
+  command.add_option("--array", options.array, "Of a .vtk or .vti file with several arrays: which one")
+      .type_name("NAME")
+      .check(refuse_empty_value);
 }
 
-ScalarGrid load_volume(const VolumeOptions& options) {
-  const bool described =
-      !options.dims.empty() || !options.type.empty() || !options.endian.empty() || !options.spacing.empty();
-  if (described && !is_raw(options.path)) {
-    throw InputError("--dims, --type, --endian and --spacing describe a .raw file, but the volume is " + options.path);
+Volume load_volume(const VolumeOptions& options) {
+  const bool described = !options.dims.empty() || !options.type.empty() || !options.endian.empty() ||
+                         !options.spacing.empty() || !options.skip.empty();
+  const std::string extension = lower_case_extension(options.path);
+  if (described && extension != ".raw") {
+    throw InputError("--dims, --type, --endian, --spacing and --skip describe a .raw file, but the volume is " +
+                     options.path);
   }
+  if (!options.array.empty() && extension != ".vtk" && extension != ".vti") {
+    throw InputError("--array names an array of a .vtk or .vti file, but the volume is " + options.path);
+  }
+  ReadOptions read = raw_options(options);
+  if (!options.channel.empty()) {
+    read.channel = parse_count(options.channel, "--channel", 0, std::uint64_t{1} << 40);
+    if (extension == ".raw") throw InputError("--channel: a .raw file has one value a voxel, " + options.path);
+  }
+  read.array = options.array;
   end_where_input_shrinks(options.path);
-  return read_volume(options.path, raw_options(options));
+  return read_placed_volume(options.path, read);
 }
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {

@@ -4,23 +4,28 @@
 #include <string>
 
 #include "experiments/commands/command.h"
+#include "volume/io/base/volume.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
 
-// The options that name a volume, as typed. All but the path describe a .raw file, which has no header.
+// The options that name a volume, as typed. All but the path, the channel and the array describe a .raw file, which has
+// no header.
 struct VolumeOptions {
   std::string path;
   std::string dims;
   std::string type;
   std::string endian;
   std::string spacing;
+  std::string skip;
+  std::string channel;
+  std::string array;
 };
 
 void add_volume_options(Command& command, VolumeOptions& options);
 
 // Throws InputError when the file or the options are wrong.
-ScalarGrid load_volume(const VolumeOptions& options);
+Volume load_volume(const VolumeOptions& options);
 
 // Throws InputError naming the range of the data unless the isosurface has a point (low < isovalue <= high), or when
 // samples are too large or too close to each other to compute with.

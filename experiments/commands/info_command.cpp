@@ -11,6 +11,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/sample_histogram.h"
+#include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
@@ -26,14 +27,16 @@ struct InfoCommandOptions {
   bool json = false;
 };
 
-Json info_report(const VolumeOptions& options, const ScalarGrid& grid, const SampleHistogram& histogram) {
+Json info_report(const VolumeOptions& options, const Volume& volume, const SampleHistogram& histogram) {
+  Json described = volume_json(options.path, volume.grid);
+  described.update(source_json(volume));
   Json suggestions = Json::array();
   for (const IsovalueSuggestion& suggestion : suggested_isovalues(histogram)) {
     suggestions.push_back(Json{{"isovalue", suggestion.isovalue}, {"reason", suggestion.reason}});
   }
   return Json{{"schema", "deliso-info-1"},
               {"program", program_json()},
-              {"volume", volume_json(options.path, grid)},
+              {"volume", described},
               {"histogram", {{"low", histogram.low}, {"high", histogram.high}, {"counts", histogram.counts}}},
               {"suggested_isovalues", suggestions}};
 }
@@ -64,8 +67,32 @@ std::string triple(double a, double b, double c) {
   return number_text(a) + " " + number_text(b) + " " + number_text(c);
 }
 
-void print_info(const Json& report, const ScalarGrid& grid, const SampleHistogram& histogram) {
+// A row of the map from index to world.
+std::string numbers_text(const Json& row) {
+  std::string text;
+  for (const Json& number : row) text += (text.empty() ? "" : " ") + number_text(number.get<double>());
+  return text;
+}
+
+void print_source(const Json& source, TextTable& table) {
+  const auto named = [&](const char* key) {
+    return source[key].is_null() ? std::string("unknown") : source[key].get<std::string>();
+  };
+  const std::string channels = std::to_string(source["channels"].get<std::uint64_t>());
+  table.row({"format", named("format")})
+      .row({"stored type", named("stored_type")})
+      .row({"channels", channels + (channels == "1" ? "" : ", read: " + source["channel"].dump())})
+      .row({"space", named("space")})
+      .row({"units", named("units")})
+      .row({"index to world", numbers_text(source["index_to_world"][0])})
+      .row({"", numbers_text(source["index_to_world"][1])})
+      .row({"", numbers_text(source["index_to_world"][2])});
+}
+
+void print_info(const Json& report, const Volume& volume, const SampleHistogram& histogram) {
+  const ScalarGrid& grid = volume.grid;
   TextTable table;
+  print_source(report["volume"], table);
   table.row({"dims", triple(grid.dims()[0], grid.dims()[1], grid.dims()[2])})
       .row({"type", grid.type_name()})
       .row({"spacing", triple(grid.spacing().x, grid.spacing().y, grid.spacing().z)})
@@ -88,14 +115,15 @@ void print_info(const Json& report, const ScalarGrid& grid, const SampleHistogra
 ExitCode run_info(const InfoCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
-  const ScalarGrid grid = load_volume(options.volume);
+  const Volume volume = load_volume(options.volume);
+  const ScalarGrid& grid = volume.grid;
   const SampleHistogram histogram = sample_histogram(grid);
-  const Json report = info_report(options.volume, grid, histogram);
+  const Json report = info_report(options.volume, volume, histogram);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   if (options.json) {
     std::cout << json_text(report);
   } else {
-    print_info(report, grid, histogram);
+    print_info(report, volume, histogram);
   }
   return ExitCode::kDone;
 }

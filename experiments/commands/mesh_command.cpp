@@ -13,6 +13,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
@@ -24,13 +25,16 @@
 #include "experiments/system/text_table.h"
 #include "surface/deliso.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/mesh_frame.h"
 #include "surface/mesh/mesh_quality.h"
+#include "volume/io/sha256.h"
 
 namespace deliso {
 namespace {
 
 struct MeshCommandOptions {
   VolumeOptions volume;
+  WorldOptions world;
   std::string isovalue;
   std::string output;
   std::string config;
@@ -43,10 +47,12 @@ struct MeshCommandOptions {
   bool ascii = false;
 };
 
-Parameters resolved_parameters(const MeshCommandOptions& options) {
+// Lengths in units of the world are converted with the volume; without one, only their form is checked.
+Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* volume) {
   Parameters parameters;
   if (!options.config.empty()) parameters = read_parameters(options.config);
-  for (const std::string& assignment : options.assignments) set_parameter(assignment, parameters);
+  for (const std::string& assignment : options.assignments)
+    set_parameter(with_length_in_voxels(assignment, volume), parameters);
   return parameters;
 }
 
@@ -67,15 +73,25 @@ void check_outputs(const MeshCommandOptions& options) {
                  {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
 }
 
-void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const MeshingResult& result) {
+Json report_of(const MeshRun& run, const Volume& volume, const World& world, const MeshingResult& result) {
+  Json report = mesh_report(run, result);
+  report["volume"].update(source_json(volume));
+  report["world"] = world_json(world);
+  return report;
+}
+
+void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const Volume& volume, const World& world,
+                   MeshingResult& result) {
   // First the report is made in memory, or written where it cannot be taken back: if this fails, no mesh may be left
   // behind.
-  const std::string report = options.report.empty() ? "" : json_text(mesh_report(run, result));
+  const std::string report = options.report.empty() ? "" : json_text(report_of(run, volume, world, result));
   const bool is_file = !is_special(options.report);
   if (!is_file) write_text(report, options.report);
-  write_mesh(result.mesh, options.output, options.ascii);
+  const std::vector<std::string> comments =
+      mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used, world);
+  write_mesh(transformed(result.mesh, world.from_grid), options.output, options.ascii, comments);
   if (!options.stage1_output.empty() && result.stage1_mesh) {
-    write_mesh(*result.stage1_mesh, options.stage1_output, options.ascii);
+    write_mesh(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, options.ascii, comments);
   }
   if (is_file && !options.report.empty()) write_text(report, options.report);
 }
@@ -112,7 +128,8 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
 }
 
 // What a reader of stderr must know beyond the table.
-void print_remarks(const MeshRun& run, const MeshingResult& result) {
+void print_remarks(const MeshRun& run, const World& world, const MeshingResult& result) {
+  if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
   remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
   remark_shape(result.shape, run.options.parameters);
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
@@ -137,16 +154,20 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   // Every option is checked before the volume is read, and the volume before the work starts.
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   MeshingOptions meshing;
-  meshing.parameters = resolved_parameters(options);
+  meshing.parameters = resolved_parameters(options, nullptr);
+  check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
   meshing.keep_stage1_mesh = !options.stage1_output.empty();
   check_outputs(options);
   meshing.stop = &catch_stop_signals();
-  const ScalarGrid grid = load_volume(options.volume);
+  const Volume volume = load_volume(options.volume);
+  const ScalarGrid& grid = volume.grid;
+  const World world = world_of(volume, options.world);
+  meshing.parameters = resolved_parameters(options, &volume);
 
   // Mesh, with a progress bar on a terminal.
-  const MeshRun run{options.volume.path, grid, isovalue, meshing};
+  const MeshRun run{options.volume.path, grid, isovalue, meshing, sample_sha256(grid)};
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
@@ -155,12 +176,12 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   }();
   if (meshing.parameters.certify) {
     const Vec3& s = grid.spacing();
-    judge_rounding(result.mesh, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, result.certificate);
   }
 
-  write_outputs(options, run, result);
+  write_outputs(options, run, volume, world, result);
   print_summary(result, meshing);
-  if (!options.quiet) print_remarks(run, result);
+  if (!options.quiet) print_remarks(run, world, result);
   return exit_code_of(meshing, result);
 }
 
@@ -188,6 +209,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("MESH")
       .check(refuse_empty_name);
   command.add_option("--threads", options->threads, "Threads to use").type_name("N").show_default();
+  add_world_options(command, options->world);
   command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
   command.add_flag("--ascii", options->ascii, "Write PLY as text");
   command.footer(parameters_help());

@@ -21,6 +21,7 @@
 #include "experiments/system/text_table.h"
 #include "surface/intersection/exact_tests.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/mesh_frame.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
 namespace deliso {
@@ -131,7 +132,7 @@ Panel mesh_panel(const std::string& name, TriangleMesh mesh) {
 
 // First the ray-cast surface (when it is asked for, or nothing else is), then marching cubes, then the meshes.
 std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_ptr<IsosurfaceShape> surface,
-                               const ScalarGrid& grid, double isovalue) {
+                               const ScalarGrid& grid, double isovalue, const Placement& placement) {
   std::vector<Panel> panels;
   if (options.surface || (options.meshes.empty() && !options.marching_cubes)) {
     panels.push_back({"isosurface", std::move(surface), nullptr});
@@ -140,7 +141,11 @@ std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_
     MarchingCubesMesh cubes = marching_cubes(grid, isovalue, &kExactTests);
     panels.push_back(mesh_panel("marching cubes", {std::move(cubes.points), std::move(cubes.triangles)}));
   }
-  for (const std::string& path : options.meshes) panels.push_back(mesh_panel(path, read_mesh(path)));
+  // Pictures are in the grid's own coordinates.
+  const Affine to_grid = placement.is_identity() ? Affine() : placement.to_world.inverse();
+  for (const std::string& path : options.meshes) {
+    panels.push_back(mesh_panel(path, transformed(read_mesh(path), to_grid)));
+  }
   return panels;
 }
 
@@ -170,14 +175,15 @@ ExitCode run_render(const RenderCommandOptions& options) {
   Image image = empty_image(options, panel_count, picture.samples);
   check_png_output(options.output, "-o");
 
-  const ScalarGrid read = load_volume(options.volume);
+  const Volume volume = load_volume(options.volume);
+  const ScalarGrid& read = volume.grid;
   check_isovalue(read, isovalue);
   const double used = regular_isovalue(read, isovalue);
   const ScalarGrid grid = options.closed ? padded(read, read.range().first) : read;
   const Stopwatch stopwatch;
   auto surface = std::make_unique<IsosurfaceShape>(grid, used);
   const std::vector<Vec3> framed = surface->outermost_points();
-  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used);
+  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used, volume.placement);
 
   // All panels have the same camera and the same clip planes.
   const std::int32_t width = image.width / panel_count;

@@ -53,7 +53,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
-  const ScalarGrid grid = load_volume(options.volume);
+  const ScalarGrid grid = load_volume(options.volume).grid;
   check_isovalue(grid, isovalue);
   const Stopwatch stopwatch;
   const RegularTopology regular = regular_topology(options.closed ? padded(grid, grid.range().first) : grid, isovalue);

@@ -4,17 +4,20 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/mesh_frame.h"
 #include "surface/verification/verification.h"
 
 namespace deliso {
@@ -23,6 +26,7 @@ namespace {
 struct VerifyCommandOptions {
   std::string mesh;
   VolumeOptions volume;
+  WorldOptions world;
   std::string isovalue;
   std::string report;
   std::string max_distance = "1";
@@ -104,18 +108,22 @@ Json checks_json(const Verification& v) {
                 {"without_hit", v.delaunay_balls.without_hit}}}};
 }
 
-Json verify_report(const VerifyCommandOptions& options, const ScalarGrid& grid, const Verification& v) {
+Json verify_report(const VerifyCommandOptions& options, const Volume& volume, const World& world,
+                   const Promise& promise, const Verification& v) {
+  Json volume_part = volume_json(options.volume.path, volume.grid);
+  volume_part.update(source_json(volume));
   return Json{{"schema", "deliso-verification-1"},
               {"program", program_json()},
               {"mesh", options.mesh},
-              {"volume", volume_json(options.volume.path, grid)},
+              {"volume", volume_part},
+              {"world", world_json(world)},
               {"closed", options.closed},
               {"spacing", options.ignore_spacing ? "ignore" : "use"},
               {"isovalue", v.isovalue},
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
               {"triangles", v.triangles},
-              {"promise", {{"max_distance", parse_number(options.max_distance, "--max-distance")}}},
+              {"promise", {{"max_distance", promise.max_distance}}},
               {"proven", v.proven},
               {"failures", v.failures},
               {"checks", checks_json(v)},
@@ -153,6 +161,15 @@ void print_checks(const Json& report) {
   table.print(std::cout, true);
 }
 
+// Places of the grid's own coordinates as points of the mesh's file.
+void to_world(Verification& v, const Affine& map) {
+  for (Vec3& p : v.orientation.reversed_at) p = map(p);
+  for (TrianglePair& pair : v.self_intersection.found.crossing) pair.position = map(pair.position);
+  for (TrianglePair& pair : v.self_intersection.found.touching) pair.position = map(pair.position);
+  for (DistanceFigure* figure : {&v.residual.distance, &v.distance.mesh_to_isosurface, &v.distance.isosurface_to_mesh})
+    figure->worst = map(figure->worst);
+}
+
 // Converts the mesh and its volume to units of samples: sample (i, j, k) lies at (i, j, k).
 void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
   const Vec3& s = grid.spacing();
@@ -162,24 +179,31 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
 
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
-  const double max_distance = parse_number(options.max_distance, "--max-distance");
-  if (max_distance <= 0) {
+  if (parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
     throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
   }
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
+  check_space(options.world.space);
   TriangleMesh mesh = read_mesh(options.mesh);
-  const ScalarGrid grid = load_volume(options.volume);
+  const Volume volume = load_volume(options.volume);
+  const ScalarGrid& grid = volume.grid;
+  const World world = world_of(volume, options.world);
+  const double max_distance = parse_length(options.max_distance, "--max-distance", &volume);
   check_isovalue(grid, isovalue);
+  // Everything is measured in the grid's own coordinates: the map to the world is undone, but for rounding.
+  if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
   ScalarGrid judged = grid;
   if (options.ignore_spacing) forget_spacing(mesh, judged);
   if (options.closed) judged = padded(judged, judged.range().first);
   const Promise promise{.max_distance = max_distance};
-  const Verification verification = verify_mesh(mesh, judged, isovalue, promise);
+  Verification verification = verify_mesh(mesh, judged, isovalue, promise);
+  if (!options.ignore_spacing) to_world(verification, world.from_grid);
 
-  const Json report = verify_report(options, grid, verification);
+  const Json report = verify_report(options, volume, world, promise, verification);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   print_checks(report);
+  if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
   remark_isovalue(judged, isovalue, verification.isovalue_used);
   std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
   for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
@@ -207,9 +231,10 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   command
       .add_option("--max-distance", options->max_distance,
-                  "Voxels that mesh and isosurface may be off each other (promise.max_distance)")
+                  "How far mesh and isosurface may be off each other: voxels, or like 0.5mm (promise.max_distance)")
       .type_name("D")
       .show_default();
+  add_world_options(command, options->world);
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command.add_flag("--ignore-spacing", options->ignore_spacing,
                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");

@@ -122,7 +122,7 @@ Json program_json() {
               {"cpu", info.cpu}};
 }
 
-Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid) {
+Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid, const std::string& sha256) {
   return Json{{"path", path.string()},
               {"dims", grid.dims()},
               {"samples", std::int64_t{grid.dims()[0]} * grid.dims()[1] * grid.dims()[2]},
@@ -130,7 +130,7 @@ Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid) {
               {"origin", vector_json(grid.origin())},
               {"type", grid.type_name()},
               {"range", Json::array({grid.range().first, grid.range().second})},
-              {"sha256", sample_sha256(grid)}};
+              {"sha256", sha256.empty() ? sample_sha256(grid) : sha256}};
 }
 
 Json topology_json(const std::vector<TopologyCount>& counts) {
@@ -218,7 +218,7 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
   const TopologySum topology = sum_of(mesh_topology(result));
   return Json{{"schema", kReportSchema},
               {"program", program_json()},
-              {"volume", volume_json(run.volume_path, run.grid)},
+              {"volume", volume_json(run.volume_path, run.grid, run.volume_sha256)},
               {"isovalue", run.isovalue},
               {"isovalue_used", result.isovalue_used},
               {"parameters", parameters_to_json(run.options.parameters)},

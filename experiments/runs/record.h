@@ -25,8 +25,9 @@ inline constexpr const char* kReportSchema = "deliso-report-1";
 // version, commit, compiler, flags, cpu.
 Json program_json();
 
-// path, dims, samples (their number), spacing, origin, type, range, sha256 (of the raw samples, little endian).
-Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid);
+// path, dims, samples (their number), spacing, origin, type, range, sha256 (of the raw samples, little endian; found
+// here unless it is given).
+Json volume_json(const std::filesystem::path& path, const ScalarGrid& grid, const std::string& sha256 = "");
 
 // [{euler_characteristic, boundary_loops, count}].
 Json topology_json(const std::vector<TopologyCount>& counts);
@@ -57,6 +58,7 @@ struct MeshRun {
   const ScalarGrid& grid;
   double isovalue = 0;
   const MeshingOptions& options;
+  std::string volume_sha256{};  // empty: not known yet
 };
 
 // What a run that stopped early left undone, one sentence each; empty when it was not stopped.

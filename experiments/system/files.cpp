@@ -10,8 +10,8 @@
 
 #include "delaunay/base/check.h"
 #include "experiments/system/stop_signal.h"
-#include "volume/io/atomic_file.h"
-#include "volume/io/input_file.h"
+#include "volume/io/base/atomic_file.h"
+#include "volume/io/base/input_file.h"
 
 namespace deliso {
 namespace {

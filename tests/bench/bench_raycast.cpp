@@ -15,7 +15,7 @@
 #include "raycast/isosurface.h"
 #include "raycast/min_max_kdtree.h"
 #include "tests/support/raycast_fields.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

@@ -7,7 +7,7 @@
 
 #include "delaunay/base/check.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso::fuzz {

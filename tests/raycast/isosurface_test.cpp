@@ -16,7 +16,7 @@
 #include "tests/support/raycast_cases.h"
 #include "tests/support/raycast_fields.h"
 #include "tests/support/raycast_oracle.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 
 namespace deliso {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/support/volume_files.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 #include "volume/scalar_grid.h"
 

@@ -28,7 +28,7 @@ Sample converted(double value) {
 }  // namespace
 
 FieldSlices::FieldSlices(const AnalyticField& field, std::int32_t size, std::uint64_t seed)
-    : size_(size), type_(parse_sample_type(field.type_name).value()) {
+    : size_(size), type_(kept_as(parse_stored_type(field.type_name).value()).value()) {
   if (size < 2 || size > kLargestFieldSize)
     throw InputError("the size of a built-in field is " + std::to_string(size) + ", expected 2 to " +
                      std::to_string(kLargestFieldSize));

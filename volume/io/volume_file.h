@@ -1,4 +1,4 @@
-// Reading and writing volumes: the format is chosen by the file's extension.
+// Reading and writing volumes: the format is chosen by the file's extension, or by its content where that is unknown.
 #pragma once
 
 #include <cstdint>
@@ -6,45 +6,35 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "volume/sample_type.h"
+#include "volume/io/base/volume.h"
+#include "volume/io/base/volume_header.h"
+#include "volume/io/raw/raw.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
 
-// What a headerless .raw file does not say. The collection at klacansky.com/open-scivis-datasets puts dims and type
-// into the file name (`engine_256x256x256_uint8.raw`); what is given here goes before the name.
-struct RawOptions {
-  std::optional<Dims> dims;         // default: from the file name
-  std::string type;                 // any spelling of parse_sample_type; default (empty): from the file name
-  Endian endian = Endian::kLittle;  // byte order of the samples
-  Vec3 spacing{1, 1, 1};            // positive and finite
-  Vec3 origin{0, 0, 0};             // finite
-  std::uint64_t header_bytes = 0;   // bytes before the first sample
+// The formats that are read, for messages.
+inline constexpr std::string_view kVolumeExtensions =
+    ".nrrd, .nhdr, .nii, .hdr, .mhd, .mha, .vtk, .vti, .npy, .mrc, .map, .ccp4, .inr, .pvm or .raw";
+
+struct ReadOptions {
+  ReadOptions() = default;
+  ReadOptions(RawOptions options) : raw(std::move(options)) {}  // NOLINT(google-explicit-constructor): as it reads
+
+  RawOptions raw;                        // of .raw files alone
+  std::optional<std::uint64_t> channel;  // of files with several values a voxel or several volumes
+  std::string array;                     // of files with named arrays (.vtk, .vti)
 };
 
-// Reads .nrrd, .nhdr or .raw (the options are for .raw alone). Throws InputError with one sentence that names the file,
-// the place, the value found and what was expected.
-ScalarGrid read_volume(const std::filesystem::path& path, const RawOptions& options = {});
+// Reads a volume with its place in the world. Files that begin as gzip does are unpacked, whatever their names. Throws
+// InputError with one sentence that names the file, the place, the value found and what was expected; for formats that
+// are read by others, a program that converts them.
+Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
-// How the samples of an .nrrd file are stored. Raw ones can be mapped into memory when they are read.
-enum class NrrdEncoding { kRaw, kGzip };
-
-// What a file says about a volume besides its samples.
-struct VolumeHeader {
-  Dims dims{};
-  SampleType type = SampleType::kU8;
-  Vec3 spacing{1, 1, 1};
-  Vec3 origin{0, 0, 0};
-};
-VolumeHeader header_of(const ScalarGrid& grid);
-
-// Gives the next samples of a volume in their order, some more at every call, until all are there.
-using SampleSource = std::function<Samples()>;
-
-// Calls `f` with every piece. Throws InternalError when the pieces are of another type or do not add up to the header's
-// dimensions.
-void for_each_piece(const VolumeHeader& header, const SampleSource& next, const std::function<void(const Samples&)>& f);
+// The grid alone, in coordinates of its own (placement.h).
+ScalarGrid read_volume(const std::filesystem::path& path, const ReadOptions& options = {});
 
 // Writes .nrrd or .raw (little endian, dims and type must be in the name, spacing 1 and origin 0), whole or not
 // at all. Throws InputError when the file cannot be written or could not be read back.

@@ -4,16 +4,22 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "surface/mesh/triangle_mesh.h"
 
 namespace deliso {
 
-std::string ply_bytes(const TriangleMesh& mesh, bool ascii);
-std::string off_bytes(const TriangleMesh& mesh);
-std::string obj_bytes(const TriangleMesh& mesh);
+// Lines that say where a mesh comes from.
+using MeshComments = std::vector<std::string>;
+
+std::string ply_bytes(const TriangleMesh& mesh, bool ascii, const MeshComments& comments = {});
+std::string off_bytes(const TriangleMesh& mesh, const MeshComments& comments = {});
+std::string obj_bytes(const TriangleMesh& mesh, const MeshComments& comments = {});
 // Coordinates rounded to floats. Throws InputError, with the name of the file, when one is beyond the range of floats.
-std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name = "STL file");
+// Comments go into the name of the solid, or as far as there is room into the 80 bytes of the binary header.
+std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name = "STL file",
+                      const MeshComments& comments = {});
 
 TriangleMesh parse_ply(std::string_view bytes, const std::string& file);
 TriangleMesh parse_off(std::string_view bytes, const std::string& file);

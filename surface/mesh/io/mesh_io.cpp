@@ -7,8 +7,8 @@
 
 #include "delaunay/base/check.h"
 #include "surface/mesh/io/formats.h"
-#include "volume/io/atomic_file.h"
-#include "volume/io/input_file.h"
+#include "volume/io/base/atomic_file.h"
+#include "volume/io/base/input_file.h"
 
 namespace deliso {
 
@@ -53,16 +53,17 @@ bool is_mesh_path(const std::filesystem::path& path) { return known_format(path)
 
 bool keeps_floats(const std::filesystem::path& path) { return known_format(path) == Format::kStl; }
 
-void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii) {
+void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii,
+                const std::vector<std::string>& comments) {
   switch (format_of(path)) {
     case Format::kPly:
-      return write_whole(ply_bytes(mesh, ascii), path);
+      return write_whole(ply_bytes(mesh, ascii, comments), path);
     case Format::kOff:
-      return write_whole(off_bytes(mesh), path);
+      return write_whole(off_bytes(mesh, comments), path);
     case Format::kObj:
-      return write_whole(obj_bytes(mesh), path);
+      return write_whole(obj_bytes(mesh, comments), path);
     case Format::kStl:
-      return write_whole(stl_bytes(mesh, ascii, path.string()), path);
+      return write_whole(stl_bytes(mesh, ascii, path.string(), comments), path);
   }
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "surface/mesh/triangle_mesh.h"
 
@@ -18,8 +20,10 @@ bool is_mesh_path(const std::filesystem::path& path);
 bool keeps_floats(const std::filesystem::path& path);
 
 // Writes whole or not at all (a temporary file beside it, then a rename). Coordinates are doubles (STL: floats).
-// Throws InputError when the extension is unknown or the file cannot be written.
-void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii = false);
+// Comments are lines that say where the mesh comes from: of PLY, # lines of OFF and OBJ, the name of STL. Throws
+// InputError when the extension is unknown or the file cannot be written.
+void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, bool ascii = false,
+                const std::vector<std::string>& comments = {});
 
 // Throws InputError naming file, line or byte, and what was expected. STL corners with equal coordinates become one
 // vertex.

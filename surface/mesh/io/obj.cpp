@@ -103,8 +103,9 @@ class ObjParser {
 
 }  // namespace
 
-std::string obj_bytes(const TriangleMesh& mesh) {
+std::string obj_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   std::string text;
+  for (const std::string& comment : comments) text += "# " + comment + "\n";
   text.reserve(64 * mesh.points.size() + 24 * mesh.triangles.size());
   for (const Vec3& p : mesh.points) {
     text += "v ";

@@ -9,8 +9,9 @@
 
 namespace deliso {
 
-std::string off_bytes(const TriangleMesh& mesh) {
+std::string off_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   std::string text = "OFF\n";
+  for (const std::string& comment : comments) text += "# " + comment + "\n";
   text.reserve(64 * mesh.points.size() + 24 * mesh.triangles.size());
   append_number(text, mesh.points.size());
   text += ' ';

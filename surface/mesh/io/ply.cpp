@@ -164,15 +164,16 @@ class BodyParser {
 
 }  // namespace
 
-std::string ply_bytes(const TriangleMesh& mesh, bool ascii) {
+std::string ply_bytes(const TriangleMesh& mesh, bool ascii, const MeshComments& comments) {
   // Signed indices are what most readers expect; they do as long as they suffice.
   const bool is_small = mesh.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   std::string bytes = std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") +
-                      " 1.0\ncomment triangles are counterclockwise seen from the side of lower values" +
-                      "\nelement vertex " + std::to_string(mesh.points.size()) +
-                      "\nproperty double x\nproperty double y\nproperty double z" + "\nelement face " +
-                      std::to_string(mesh.triangles.size()) + "\nproperty list uchar " + (is_small ? "int" : "uint") +
-                      " vertex_indices\nend_header\n";
+                      " 1.0\ncomment triangles are counterclockwise seen from the side of lower values";
+  for (const std::string& comment : comments) bytes += "\ncomment " + comment;
+  bytes += "\nelement vertex " + std::to_string(mesh.points.size()) +
+           "\nproperty double x\nproperty double y\nproperty double z" + "\nelement face " +
+           std::to_string(mesh.triangles.size()) + "\nproperty list uchar " + (is_small ? "int" : "uint") +
+           " vertex_indices\nend_header\n";
   if (ascii) {
     for (const Vec3& p : mesh.points) append_point(bytes, p);
     for (const auto& [a, b, c] : mesh.triangles) {

@@ -60,8 +60,15 @@ Vec3 normal_of(const std::array<Vec3, 3>& corners) {
   return length > 0 && std::isfinite(length) ? n / length : Vec3{0, 0, 0};
 }
 
-std::string ascii_bytes(const TriangleMesh& mesh) {
-  std::string text = "solid deliso\n";
+// The comments as one line.
+std::string joined(const MeshComments& comments) {
+  std::string line;
+  for (const std::string& comment : comments) line += (line.empty() ? "" : "; ") + comment;
+  return line;
+}
+
+std::string ascii_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
+  std::string text = "solid deliso" + std::string(comments.empty() ? "" : " ") + joined(comments) + "\n";
   const auto append = [&](const char* keyword, const Vec3& p) {
     text += keyword;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -137,7 +144,7 @@ TriangleMesh parse_ascii(std::string_view bytes, const std::string& file) {
 
 }  // namespace
 
-std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name) {
+std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name, const MeshComments& comments) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::abs(mesh.points[v][axis]) <= static_cast<double>(std::numeric_limits<float>::max())) continue;
@@ -148,9 +155,11 @@ std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& n
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError(name + ": STL holds fewer than 2^32 triangles, found " + std::to_string(mesh.triangles.size()));
   }
-  if (ascii) return ascii_bytes(mesh);
+  if (ascii) return ascii_bytes(mesh, comments);
 
-  std::string bytes = "DelIso";  // must not begin with "solid"
+  std::string bytes = comments.empty() ? "DelIso" : joined(comments);
+  if (bytes.starts_with("solid")) bytes.insert(0, "DelIso ");  // it would pass for text
+  if (bytes.size() > kHeaderSize - 4) bytes.resize(kHeaderSize - 4);
   bytes.reserve(kHeaderSize + kRecordSize * mesh.triangles.size());
   bytes.resize(kHeaderSize - 4, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));

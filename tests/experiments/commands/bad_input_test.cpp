@@ -78,7 +78,7 @@ TEST_F(BadInput, EmptyNamesOfInputs) {
 }
 
 TEST_F(BadInput, NamesThatTellNoFormat) {
-  expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr or .raw"});
+  expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr, .nii"});
   expect_refusal({"info", "@/volume.png"}, {"/volume.png: has the extension \".png\", a volume is read from"});
 }
 
@@ -140,8 +140,8 @@ TEST_F(BadInput, MissingFileOrFolderInstead) {
 }
 
 TEST_F(BadInput, UnknownExtension) {
-  write_file(folder_ / "v.vtk", good_volume());
-  expect_refusal({"info", "@/v.vtk"}, {".vtk", ".nrrd"});
+  write_file(folder_ / "v.xyz", "no volume");
+  expect_refusal({"info", "@/v.xyz"}, {"v.xyz", ".vtk"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.vtk"}, {"m.vtk", ".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m"}, {".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--stage1-out", "@/s.xyz"}, {"s.xyz", ".ply"});

@@ -12,7 +12,7 @@
 #include "surface/mesh/io/mesh_io.h"
 #include "tests/support/program_runner.h"
 #include "volume/fields/field_slices.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 
 namespace deliso::testing {
 namespace {

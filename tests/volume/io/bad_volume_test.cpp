@@ -16,7 +16,7 @@
 #include "delaunay/base/check.h"
 #include "tests/support/bad_volumes.h"
 #include "tests/support/volume_files.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {
@@ -129,8 +129,8 @@ TEST_F(BadVolume, RawFilesWithoutDimensionsOrWithWrongOnes) {
   RawOptions options;
   options.dims = Dims{2, 3, 2};
   expect_input_error([&] { read_volume(directory_ / "v.raw", options); }, {"a type"});
-  options.type = "int64";
-  expect_input_error([&] { read_volume(directory_ / "v.raw", options); }, {"\"int64\"", "uint8"});
+  options.type = "int65";
+  expect_input_error([&] { read_volume(directory_ / "v.raw", options); }, {"\"int65\"", "uint8"});
   options.type = "uint8";
   options.header_bytes = 13;
   expect_input_error([&] { read_volume(directory_ / "v.raw", options); }, {"13 bytes", "12"});

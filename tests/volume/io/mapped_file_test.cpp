@@ -1,6 +1,6 @@
 // Volumes that are mapped into memory: the same samples and the same errors as when they are read, and nothing mapped
 // that cannot be used as it lies in the file.
-#include "volume/io/mapped_file.h"
+#include "volume/io/base/mapped_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,9 @@
 #include "tests/support/volume_files.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
-#include "volume/io/input_file.h"
-#include "volume/io/nrrd.h"
+#include "volume/io/base/input_file.h"
+#include "volume/io/base/sample_reader.h"
+#include "volume/io/nrrd/nrrd.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {
@@ -39,6 +40,13 @@ Samples read(const std::filesystem::path& path, const SampleLayout& layout, std:
   return read_samples(file, layout, mapped_from);
 }
 
+// Eight bytes.
+const SampleLayout kEight = [] {
+  SampleLayout layout;
+  layout.dims = {2, 2, 2};
+  return layout;
+}();
+
 template <class Sample>
 class MappedSamplesOfType : public testing::Test {};
 using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::int32_t, float, double>;
@@ -47,7 +55,9 @@ TYPED_TEST_SUITE(MappedSamplesOfType, SampleTypes);
 TYPED_TEST(MappedSamplesOfType, AreThoseThatAreRead) {
   const TemporaryDirectory directory;
   const std::vector<TypeParam> samples = random_samples<TypeParam>(60, 3);
-  SampleLayout layout{sample_type(Samples(samples)), {3, 4, 5}};
+  SampleLayout layout;
+  layout.type = static_cast<StoredType>(sample_type(Samples(samples)));
+  layout.dims = {3, 4, 5};
   for (std::uint64_t before = 0; before <= 16; ++before) {
     SCOPED_TRACE(before);
     write_text(directory / "v", std::string(before, 'x') + text_of(samples));
@@ -62,7 +72,8 @@ TYPED_TEST(MappedSamplesOfType, AreThoseThatAreRead) {
   }
   // Reversed samples have to be moved.
   write_text(directory / "v", text_of(samples));
-  layout = {layout.type, layout.dims, kHostEndian};
+  layout.endian = kHostEndian;
+  layout.skipped_bytes = 0;
   layout.flipped = {false, true, false};
   const Samples flipped = read(directory / "v", layout, kAlways);
   EXPECT_FALSE(is_mapped(flipped));
@@ -82,7 +93,7 @@ TYPED_TEST(MappedSamplesOfType, LieOnTheirSizeInFilesThatWeWrite) {
 TEST(MappedSamples, OutliveTheFileTheyCameFrom) {
   const TemporaryDirectory directory;
   write_text(directory / "v", "abcdefgh");
-  const Samples samples = read(directory / "v", {SampleType::kU8, {2, 2, 2}}, kAlways);
+  const Samples samples = read(directory / "v", kEight, kAlways);
   std::filesystem::remove(directory / "v");
   const Samples copy = samples;
   EXPECT_EQ(copy, Samples(std::vector<std::uint8_t>{'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'}));
@@ -95,7 +106,7 @@ TEST(MappedSamples, FilesTooShortOrTooLongAreRefusedAsWhenRead) {
     for (const std::string text : {"abcdefg", "abcdefghi"}) {
       write_text(directory / "v", text);
       const std::string sentence = text.size() < 8 ? "the data end after 7 bytes" : "the data go on after the 8 bytes";
-      expect_input_error([&] { read(directory / "v", {SampleType::kU8, {2, 2, 2}}, mapped_from); }, {sentence});
+      expect_input_error([&] { read(directory / "v", kEight, mapped_from); }, {sentence});
     }
   }
 }

@@ -1,5 +1,5 @@
 // NRRD files: round trips over every type, byte order and encoding, and the header's many spellings.
-#include "volume/io/nrrd.h"
+#include "volume/io/nrrd/nrrd.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <bit>
 
 #include "tests/support/volume_files.h"
-#include "volume/io/gzip_stream.h"
+#include "volume/io/base/gzip_stream.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
@@ -94,19 +94,23 @@ TEST(Nrrd, DataOfManyChunksReadBack) {
 }
 
 TEST(Nrrd, EverySpellingOfATypeIsKnown) {
-  const std::vector<std::pair<SampleType, std::vector<std::string>>> spellings{
-      {SampleType::kU8, {"uchar", "unsigned char", "uint8", "uint8_t", "Unsigned  Char"}},
-      {SampleType::kI8, {"signed char", "int8", "int8_t"}},
-      {SampleType::kU16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-      {SampleType::kI16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-      {SampleType::kI32, {"int", "signed int", "int32", "int32_t"}},
-      {SampleType::kF32, {"float"}},
-      {SampleType::kF64, {"double"}}};
+  const std::vector<std::pair<StoredType, std::vector<std::string>>> spellings{
+      {StoredType::kU8, {"uchar", "unsigned char", "uint8", "uint8_t", "Unsigned  Char"}},
+      {StoredType::kI8, {"signed char", "int8", "int8_t"}},
+      {StoredType::kU16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {StoredType::kI16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {StoredType::kI32, {"int", "signed int", "int32", "int32_t"}},
+      {StoredType::kU32, {"uint", "unsigned int", "uint32", "uint32_t", "u32"}},
+      {StoredType::kI64, {"longlong", "long long", "long long int", "signed long long", "int64", "int64_t"}},
+      {StoredType::kU64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {StoredType::kF16, {"half", "float16"}},
+      {StoredType::kBool, {"bool"}},
+      {StoredType::kF32, {"float"}},
+      {StoredType::kF64, {"double"}}};
   for (const auto& [type, names] : spellings)
-    for (const std::string& name : names) EXPECT_EQ(parse_sample_type(name), type) << name;
-  for (const char* name :
-       {"", "uint", "unsigned int", "uint32", "int64_t", "long long", "block", "char", "half", "u 8"})
-    EXPECT_FALSE(parse_sample_type(name).has_value()) << name;
+    for (const std::string& name : names) EXPECT_EQ(parse_stored_type(name), type) << name;
+  for (const char* name : {"", "block", "char", "u 8", "uint128", "complex"})
+    EXPECT_FALSE(parse_stored_type(name).has_value()) << name;
 }
 
 TEST(Nrrd, CommentsKeysAndDescriptiveFieldsAreTolerated) {

@@ -1,0 +1,135 @@
+#include "experiments/commands/world.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/shortest_text.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/program_info.h"
+
+namespace deliso {
+namespace {
+
+Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+
+Json name_json(const std::string& name) { return name.empty() ? Json() : Json(name); }
+
+std::string or_unknown(const std::string& name) { return name.empty() ? "unknown" : name; }
+
+// Units of the world in a millimetre; 1 where the volume does not say its units.
+double units_in_a_millimetre(const std::string& units) {
+  if (units == "m") return 1e-3;
+  if (units == "cm") return 0.1;
+  if (units == "um" || units == "microns" || units == "µm") return 1e3;
+  if (units == "nm") return 1e6;
+  return units == "angstrom" ? 1e7 : 1;
+}
+
+// The map from the index of a sample to the world.
+Affine index_map(const ScalarGrid& grid, const Affine& to_world) {
+  return composed(to_world, affine_of(grid.spacing(), grid.origin()));
+}
+
+// File names may have line ends in them.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
+  return text;
+}
+
+}  // namespace
+
+void add_world_options(Command& command, WorldOptions& options) {
+  command
+      .add_option("--space", options.space,
+                  "World coordinates of the mesh: native (as in the volume's file), LPS or RAS")
+      .type_name("SPACE")
+      .show_default();
+  command.add_flag("--local-origin", options.local_origin,
+                   "Coordinates of the mesh count from the first sample (for STL far from the origin)");
+}
+
+void check_space(const std::string& space) {
+  if (space == "native" || space == "LPS" || space == "RAS" || space == "lps" || space == "ras") return;
+  throw InputError("--space: expected native, LPS or RAS, found '" + space + "'");
+}
+
+World world_of(const Volume& volume, const WorldOptions& options) {
+  check_space(options.space);
+  // Between spaces of anatomy x and y change their signs, those of the grid's own coordinates included.
+  const Placement placement = in_space(volume.placement, options.space);
+  World world{placement.to_world, placement.space, placement.units, std::nullopt, placement.is_sheared()};
+  if (!options.local_origin) return world;
+  world.local_origin = placement.to_world(volume.grid.origin());
+  world.from_grid.offset = placement.to_world.offset - *world.local_origin;
+  return world;
+}
+
+double parse_length(const std::string& text, const std::string& option, const Volume* volume) {
+  const bool in_millimetres = text.ends_with("mm"), in_world = text.ends_with("w");
+  if (!in_millimetres && !in_world) return parse_number(text, option);
+  const double length = parse_number(text.substr(0, text.size() - (in_millimetres ? 2 : 1)), option);
+  if (volume == nullptr) return length;
+  const Vec3& s = volume->grid.spacing();
+  const double unit = in_millimetres ? units_in_a_millimetre(volume->placement.units) : 1;
+  return length * unit / std::min({s.x, s.y, s.z});
+}
+
+std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {
+  constexpr std::array<std::string_view, 3> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
+                                                     "promise.max_distance"};
+  const std::size_t equals = assignment.find('=');
+  const std::string key = assignment.substr(0, equals);
+  if (equals == std::string::npos || std::find(kLengths.begin(), kLengths.end(), key) == kLengths.end())
+    return assignment;
+  const std::string value = assignment.substr(equals + 1);
+  if (!value.ends_with("mm") && !value.ends_with("w")) return assignment;
+  return key + "=" + shortest_text(parse_length(value, "--set " + key, volume));
+}
+
+std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
+                                       const World& world) {
+  std::vector<std::string> lines;
+  lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
+  lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
+  if (world.local_origin) {
+    const Vec3& o = *world.local_origin;
+    lines.push_back("local origin " + shortest_text(o.x) + " " + shortest_text(o.y) + " " + shortest_text(o.z) +
+                    ", to be added to every vertex");
+  }
+  lines.push_back("volume " + on_one_line(std::filesystem::path(volume_path).filename().string()));
+  lines.push_back("samples sha256 " + sha256);
+  return lines;
+}
+
+Json source_json(const Volume& volume) {
+  const Affine map = index_map(volume.grid, volume.placement.to_world);
+  Json rows = Json::array();
+  for (std::size_t row = 0; row < 3; ++row)
+    rows.push_back(Json::array({map.columns[0][row], map.columns[1][row], map.columns[2][row], map.offset[row]}));
+  return Json{{"format", volume.format},
+              {"stored_type", volume.stored_type},
+              {"channels", volume.channels},
+              {"channel", volume.channel},
+              {"space", name_json(volume.placement.space)},
+              {"units", name_json(volume.placement.units)},
+              {"index_to_world", rows}};
+}
+
+Json world_json(const World& world) {
+  return Json{{"space", name_json(world.space)},
+              {"units", name_json(world.units)},
+              {"local_origin", world.local_origin ? point_json(*world.local_origin) : Json()},
+              {"lengths", world.is_sheared ? "before the shear" : "world"}};
+}
+
+std::string shear_remark(const World& world) {
+  if (!world.is_sheared) return "";
+  return "the volume's axes are not perpendicular: it is meshed as if they were, and sheared afterwards; distances and "
+         "angles are those before the shear";
+}
+
+}  // namespace deliso

@@ -1,0 +1,54 @@
+// Where a mesh is written: spaces, local origins, lengths of the world, and the lines that tell of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/commands/command.h"
+#include "experiments/config/json.h"
+#include "volume/io/base/volume.h"
+
+namespace deliso {
+
+// As typed.
+struct WorldOptions {
+  std::string space = "native";
+  bool local_origin = false;
+};
+
+void add_world_options(Command& command, WorldOptions& options);
+
+// The coordinates of a mesh's file.
+struct World {
+  Affine from_grid;                  // from the grid's own coordinates
+  std::string space, units;          // empty: unknown
+  std::optional<Vec3> local_origin;  // what was taken off: the point of the first sample
+  bool is_sheared = false;
+};
+
+// Throws InputError when the space is none or the volume does not say its own.
+World world_of(const Volume& volume, const WorldOptions& options);
+// Throws InputError when the option's value is no space; to be checked before the volume is read.
+void check_space(const std::string& space);
+
+// A length as typed, in voxels (smallest spacings): a plain number, or with the suffix `w` in units of the world, or
+// with `mm`. Throws InputError naming the option. Without a volume only the form is checked.
+double parse_length(const std::string& text, const std::string& option, const Volume* volume);
+// An assignment `key=value` of --set with its value in voxels, where the key is a length and the value is in units of
+// the world; any other as it is.
+std::string with_length_in_voxels(const std::string& assignment, const Volume* volume);
+
+// What a mesh file says of its origin: program, volume, hash, isovalue, space and units, one line each.
+std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
+                                       const World& world);
+
+// format, stored_type, channels, channel, space, units and the affine map from index to world, for reports.
+Json source_json(const Volume& volume);
+// space, units and local_origin of the mesh, and whether lengths are those before a shear.
+Json world_json(const World& world);
+
+// One line about a shear; empty without one.
+std::string shear_remark(const World& world);
+
+}  // namespace deliso

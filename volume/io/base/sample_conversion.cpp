@@ -1,0 +1,117 @@
+#include "volume/io/base/sample_conversion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace deliso {
+
+namespace {
+
+// Whether a whole number is a double, too: beyond 2^53 only some are.
+template <class Integer>
+bool is_double(Integer value) {
+  const auto rounded = static_cast<double>(value);
+  // The next power of two above the type's range would overflow on the way back.
+  if (rounded >= std::ldexp(1.0, std::numeric_limits<Integer>::digits)) return false;
+  return static_cast<Integer>(rounded) == value;
+}
+
+template <class Integer>
+Samples narrowed_integers(const LargeArray<Integer>& values, const Dims& dims, const ByteStream& file) {
+  const auto fits = [](Integer v) { return std::in_range<std::int32_t>(v); };
+  if (std::all_of(values.begin(), values.end(), fits)) {
+    LargeArray<std::int32_t> kept;
+    kept.reserve(values.size());
+    for (const Integer v : values) kept.push_back(static_cast<std::int32_t>(v));
+    return SampleArray<std::int32_t>(std::move(kept));
+  }
+  LargeArray<double> kept;
+  kept.reserve(values.size());
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (!is_double(values[n])) {
+      const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
+      file.fail("sample (" + std::to_string(n % nx) + ", " + std::to_string(n / nx % ny) + ", " +
+                std::to_string(n / nx / ny) + ") is " + std::to_string(values[n]) +
+                ", which no double holds exactly: scale the samples, or store them as doubles");
+    }
+    kept.push_back(static_cast<double>(values[n]));
+  }
+  return SampleArray<double>(std::move(kept));
+}
+
+// Reverses the order of the samples along an axis.
+template <class Sample>
+void reverse_axis(LargeArray<Sample>& samples, const Dims& dims, std::size_t axis) {
+  std::size_t stride = 1;  // between neighbours along the axis: so many samples move together
+  for (std::size_t n = 0; n < axis; ++n) stride *= static_cast<std::size_t>(dims[n]);
+  const auto length = static_cast<std::size_t>(dims[axis]);
+  for (std::size_t slab = 0; slab < samples.size(); slab += stride * length) {
+    for (std::size_t n = 0; n < length / 2; ++n) {
+      Sample* const from = samples.data() + slab + n * stride;
+      std::swap_ranges(from, from + stride, samples.data() + slab + (length - 1 - n) * stride);
+    }
+  }
+}
+
+}  // namespace
+
+float float_of_half(std::uint16_t bits) {
+  constexpr int kFractionBits = 10, kBias = 15;
+  const float sign = (bits & 0x8000u) != 0 ? -1.0f : 1.0f;
+  const int exponent = (bits >> kFractionBits) & 0x1F;
+  const auto fraction = static_cast<float>(bits & 0x3FFu);
+  if (exponent == 0) return sign * std::ldexp(fraction, 1 - kBias - kFractionBits);
+  if (exponent < 0x1F) return sign * std::ldexp(fraction + 1024.0f, exponent - kBias - kFractionBits);
+  if (fraction != 0) return std::numeric_limits<float>::quiet_NaN();
+  return sign * std::numeric_limits<float>::infinity();
+}
+
+Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file) {
+  return narrowed_integers(values, dims, file);
+}
+Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file) {
+  return narrowed_integers(values, dims, file);
+}
+Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file) {
+  return narrowed_integers(values, dims, file);
+}
+
+Samples rescaled(const Samples& samples, double factor, double offset) {
+  return visit_samples(samples, [&](const auto& stored) -> Samples {
+    LargeArray<double> out;
+    out.reserve(stored.size());
+    for (const auto s : stored) out.push_back(factor * static_cast<double>(s) + offset);
+    return SampleArray<double>(std::move(out));
+  });
+}
+
+Samples transposed(const Samples& samples, const Dims& dims) {
+  return visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& from) -> Samples {
+    const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
+    const auto nz = static_cast<std::size_t>(dims[2]);
+    LargeArray<Sample> out(from.size());
+    for (std::size_t j = 0; j < ny; ++j) {
+      for (std::size_t k = 0; k < nz; ++k) {
+        for (std::size_t i = 0; i < nx; ++i) out[i + nx * (j + ny * k)] = from[k + nz * (j + ny * i)];
+      }
+    }
+    return SampleArray<Sample>(std::move(out));
+  });
+}
+
+Samples flipped(const Samples& samples, const Dims& dims, const std::array<bool, 3>& axes) {
+  return visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& from) -> Samples {
+    LargeArray<Sample> out(from.begin(), from.end());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axes[axis]) reverse_axis(out, dims, axis);
+    }
+    return SampleArray<Sample>(std::move(out));
+  });
+}
+
+}  // namespace deliso

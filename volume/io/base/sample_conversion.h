@@ -1,0 +1,30 @@
+// Stored values that are none of the types of Samples become one of them, exactly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "delaunay/base/huge_pages.h"
+#include "volume/io/base/byte_stream.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// A half of IEEE 754 (binary16) as a float. Exact.
+float float_of_half(std::uint16_t bits);
+
+// i32 when all values fit, else doubles. Throws InputError naming the first voxel whose value no double holds.
+Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file);
+Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file);
+Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file);
+
+// factor * sample + offset, as doubles.
+Samples rescaled(const Samples& samples, double factor, double offset);
+
+// The samples with axes x and z exchanged: from z fastest to x fastest. `dims` are those of the result.
+Samples transposed(const Samples& samples, const Dims& dims);
+
+// The samples in reverse order along the axes that are marked.
+Samples flipped(const Samples& samples, const Dims& dims, const std::array<bool, 3>& axes);
+
+}  // namespace deliso

@@ -1,0 +1,85 @@
+#include "volume/io/base/volume.h"
+
+#include <utility>
+
+#include "delaunay/base/check.h"
+
+namespace deliso {
+
+namespace {
+
+std::string choices_text(const SampleLayout& layout) {
+  const std::uint64_t count = layout.components * layout.volumes;
+  std::string text = "channels 0 to " + std::to_string(count - 1);
+  if (layout.components > 1 && layout.volumes > 1) {
+    return std::to_string(layout.volumes) + " volumes of " + std::to_string(layout.components) + " values a voxel (" +
+           text + ", value + " + std::to_string(layout.components) + " * volume)";
+  }
+  if (layout.components > 1) return std::to_string(layout.components) + " values a voxel (" + text + ")";
+  return std::to_string(layout.volumes) + " volumes (" + text + ")";
+}
+
+}  // namespace
+
+void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleLayout& layout) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+  if (layout.components == 0 || layout.volumes == 0 || layout.components > kMost ||
+      layout.volumes > kMost / layout.components)
+    file.fail("the number of channels is 0 or beyond reason, expected a scalar, vector or time series volume");
+  const std::uint64_t count = layout.components * layout.volumes;
+  if (!choice.channel && count > 1) {
+    file.fail("the file holds " + choices_text(layout) + ": choose one with --channel N");
+  }
+  layout.channel = choice.channel.value_or(0);
+  if (layout.channel < count) return;
+  file.fail("there is no channel " + std::to_string(layout.channel) + ": the file holds " +
+            (count == 1 ? "one value a voxel (channel 0)" : choices_text(layout)));
+}
+
+void turn_forwards(VolumeDescription& description) {
+  Affine& map = description.index_to_world;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Vec3& column = map.columns[axis];
+    if (column[axis] == 0 || column[(axis + 1) % 3] != 0 || column[(axis + 2) % 3] != 0) return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double& along = map.columns[axis][axis];
+    if (along > 0) continue;
+    map.offset[axis] += along * (description.layout.dims[axis] - 1);
+    along = -along;
+    description.layout.flipped[axis] = !description.layout.flipped[axis];
+  }
+}
+
+Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples) {
+  try {
+    const SampleFrame frame = frame_of(description.index_to_world);
+    return {ScalarGrid(description.layout.dims, std::move(samples), frame.spacing, frame.origin),
+            {frame.to_world, description.space, description.units},
+            description.format,
+            short_type_name(description.layout.type),
+            description.layout.components * description.layout.volumes,
+            description.layout.channel};
+  } catch (const InputError& error) {
+    file.fail(error.what());
+  }
+}
+
+Volume read_described(ByteStream& stream, VolumeDescription description, const ChannelChoice& choice,
+                      const InputFile* mappable) {
+  choose_channel(stream, choice, description.layout);
+  turn_forwards(description);
+  try {
+    static_cast<void>(frame_of(description.index_to_world));
+  } catch (const InputError& error) {
+    stream.fail(error.what());
+  }
+  Samples samples = read_samples(stream, description.layout, mappable);
+  return make_volume(stream, description, std::move(samples));
+}
+
+Affine affine_of(const Vec3& spacing, const Vec3& origin) {
+  return {{Vec3{spacing.x, 0, 0}, Vec3{0, spacing.y, 0}, Vec3{0, 0, spacing.z}}, origin};
+}
+
+}  // namespace deliso

@@ -1,0 +1,58 @@
+// A volume as a reader gives it, whatever the format: samples, dimensions, the affine map to the world, space and
+// units.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "volume/affine.h"
+#include "volume/io/base/byte_stream.h"
+#include "volume/io/base/sample_reader.h"
+#include "volume/placement.h"
+#include "volume/scalar_grid.h"
+
+namespace deliso {
+
+// What a header says, in our terms.
+struct VolumeDescription {
+  SampleLayout layout;
+  Affine index_to_world;  // of the samples as they lie in the file, but for the order of axes (is_z_fastest)
+  std::string space;      // a name of placement.h; empty when the format does not say
+  std::string units;      // "mm", "um", "angstrom", ...; empty when the format does not say
+  std::string format;     // "NRRD", "NIfTI-1", ...
+};
+
+struct Volume {
+  ScalarGrid grid;
+  Placement placement;
+  std::string format;
+  std::string stored_type;     // short_type_name of the samples in the file; scaled ones are doubles in memory
+  std::uint64_t channels = 1;  // values of each place in the file, and volumes after each other
+  std::uint64_t channel = 0;   // the one that was read
+};
+
+// Which of several values to read where a file has more than one.
+struct ChannelChoice {
+  std::optional<std::uint64_t> channel;
+};
+
+// Sets layout.channel. Throws InputError with a sentence that names the choices when there are several and none was
+// made, or the one made is not there.
+void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleLayout& layout);
+
+// Where directions run along x, y, z in this order, but some backwards, the layout reverses these axes, so that the
+// volume is axis-parallel. To be called before the samples are read.
+void turn_forwards(VolumeDescription& description);
+
+// The volume. Throws InputError naming the file when the samples or the geometry are none that can be computed with.
+Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples);
+
+// choose_channel, turn_forwards, read_samples and make_volume. `mappable`: see UnpackedFile.
+Volume read_described(ByteStream& stream, VolumeDescription description, const ChannelChoice& choice,
+                      const InputFile* mappable = nullptr);
+
+// From a map whose columns are unit directions, spacings and the point of sample (0, 0, 0).
+Affine affine_of(const Vec3& spacing, const Vec3& origin);
+
+}  // namespace deliso
