@@ -196,9 +196,8 @@ constexpr std::array kTable = {
     row<&P::spacing>("spacing", kAny, "", "ignore: treat the volume as if its spacing were 1, as the paper does"),
     row<&P::certify>("certify", kAny, "", "compare the mesh with the exact topology of the isosurface"),
     row<&P::shape, &ShapeParameters::min_angle>("shape.min_angle", kAngle, "degrees",
-                                                "improve triangles with a smaller angle after stage 2; null: the angle "
-                                                "that stage2.rho bounds, 14.5 for 2 and 30 "
-                                                "for 1"),
+                                                "improve triangles with a smaller angle after stage 2; null: 10, or "
+                                                "the angle that a stage2.rho below 2 bounds, 30 for 1"),
     row<&P::shape, &ShapeParameters::rounds>("shape.rounds", kNotNegative, "rounds",
                                              "improve badly shaped triangles at most this often, each time in wider "
                                              "surroundings; 0: never, nor if repair.max_rounds is 0"),

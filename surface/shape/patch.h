@@ -25,9 +25,10 @@ struct PatchStep {
   std::vector<std::array<std::uint32_t, 3>> added;  // corners, counterclockwise like those of the removed ones
   std::uint32_t vertex = kNoVertex;                 // that gets the point below: a vertex of the patch, or a new one
   Vec3 point;
-  double quality = 0;           // the least of the added triangles (triangle_shape.h)
-  Vec3 start;                   // from which the point was searched
-  bool is_on_boundary = false;  // the vertex lies in a face of the box
+  double quality = 0;                // the least of the added triangles (triangle_shape.h)
+  Vec3 start;                        // from which the point was searched
+  std::uint32_t opened = kNoVertex;  // an inner vertex that comes to be on the boundary
+  bool is_on_boundary = false;       // the vertex lies in a face of the box
 };
 
 // The neighbours of a vertex, in order.

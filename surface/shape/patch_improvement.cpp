@@ -12,6 +12,12 @@ namespace {
 constexpr double kLeastGain = 1.02;
 // Searches go on until the quality is beyond the goal by this factor.
 constexpr double kEnough = 1.15;
+// In one round, for so many triangles, the worst ones, several steps are tried together, and for one more of each so
+// many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes have
+// thousands of bad triangles that stay.
+constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100;
+// The same for single steps.
+constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
 
 void sort_best_first(std::vector<PatchStep>& steps) {
   std::stable_sort(steps.begin(), steps.end(),
@@ -33,12 +39,13 @@ PatchImprovement::PatchImprovement(Patch& patch, const PatchPlan& plan, const Is
 void PatchImprovement::run(std::span<const std::uint32_t> bad, double freedom, int depth) {
   guard_.set_freedom(freedom);
   depth_ = depth;
+  several_left_ = kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral;
   steps_.set_thorough(depth > 1);
   for (const std::uint32_t t : bad) {
     if (patch_.has(t)) queue_.push({patch_.quality(t), t});
   }
-  const std::size_t most_steps = patch_.steps() + 100 + 20 * bad.size();
-  while (!queue_.empty() && patch_.steps() < most_steps && !controls_.poll()) {
+  std::size_t left = kMostTries + patch_.triangle_count() / kTrianglesPerTry;
+  for (; !queue_.empty() && left > 0 && !controls_.poll(); --left) {
     const std::uint32_t t = queue_.top().triangle;
     queue_.pop();
     if (patch_.has(t)) improve(t);
@@ -112,7 +119,9 @@ bool PatchImprovement::improve(std::uint32_t triangle) {
   for (const PatchStep& step : candidates_) {
     if (step.quality < goal_ && improves(step) && try_step(step)) return true;
   }
-  return depth_ > 1 && (improve_on_the_way() || improve_by_several(triangle, depth_));
+  if (depth_ == 1 || several_left_ == 0) return false;
+  --several_left_;
+  return improve_on_the_way() || improve_by_several(triangle, depth_);
 }
 
 bool PatchImprovement::improves(const PatchStep& step) const {
@@ -166,7 +175,8 @@ bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, 
     if ((depth == 1 && step.quality <= wanted) || !has_room(step) || !guard_.apply(step)) continue;
     ++tried;
     const std::uint32_t worst = worst_added(first_added);
-    const bool is_better = patch_.quality(worst) > wanted && bad_added(first_added) <= all.bad + 1;
+    const bool is_better =
+        worst == kNoVertex || (patch_.quality(worst) > wanted && bad_added(first_added) <= all.bad + 1);
     if (is_better || (depth > 1 && try_several(worst, all, first_added, depth - 1))) {
       ++stats_.steps[static_cast<std::size_t>(step.kind)];
       return true;
@@ -177,9 +187,9 @@ bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, 
 }
 
 std::uint32_t PatchImprovement::worst_added(std::size_t first_added) const {
-  std::uint32_t worst = static_cast<std::uint32_t>(patch_.triangle_count() - 1);
+  std::uint32_t worst = kNoVertex;
   for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
-    if (patch_.has(t) && patch_.quality(t) < patch_.quality(worst)) worst = t;
+    if (patch_.has(t) && (worst == kNoVertex || patch_.quality(t) < patch_.quality(worst))) worst = t;
   }
   return worst;
 }

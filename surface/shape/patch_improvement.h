@@ -23,8 +23,8 @@ class PatchImprovement {
                    Controls controls, ShapeStats& stats);
 
   // Improves the given triangles as long as steps are found. Each improves the worst of what it replaces and adds no
-  // bad triangle more than it removes. `freedom`: by this factor steps may leave the isosurface farther than usual.
-  // `depth`: up to so many steps are tried together; from 2 on also shorter ways to better places.
+  // more than one bad triangle beyond those that it removes. `freedom`: by this factor steps may leave the isosurface
+  // farther than usual. `depth`: up to so many steps are tried together; from 2 on also shorter ways to better places.
   void run(std::span<const std::uint32_t> bad, double freedom, int depth);
 
  private:
@@ -57,6 +57,7 @@ class PatchImprovement {
   Patch& patch_;
   const BoxSet& room_;
   int depth_ = 1;
+  std::size_t several_left_ = 0;
   double goal_;  // the sine of min_angle
   StepGuard guard_;
   Controls controls_;  // of this patch

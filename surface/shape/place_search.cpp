@@ -75,7 +75,7 @@ Place PlaceSearch::best_on_curve(std::span<const RimSegment> rim, std::span<cons
 
 Place PlaceSearch::best(std::span<const RimSegment> rim, std::span<const Vec3> starts, const Vec3& normal,
                         double enough) {
-  constexpr double kFirstStep = 0.3, kLastStep = 0.01;  // mean distances from the rim
+  constexpr double kFirstStep = 0.3, kLastStep = 0.03;  // mean distances from the rim
   constexpr double kLeastGain = 1.005;
   constexpr int kMostSteps = 40;
   constexpr double kOffSurface = 0.8;  // what is worse by this factor before it is brought to the isosurface is left

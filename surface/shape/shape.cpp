@@ -55,7 +55,7 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
     PatchImprovement improvement(patches[k].patch, plans[k], surface.isosurface, options,
                                  controls.for_part(1, mesh.points.size()), counted[k]);
     for (int round = 0; round < options.rounds && !patches[k].bad.empty(); ++round) {
-      improvement.run(patches[k].bad, std::ldexp(1.0, round), std::clamp(round, 1, kMostDepth));
+      improvement.run(patches[k].bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
       patches[k].bad = patches[k].patch.triangles_below(goal);
     }
     count_left(patches[k], counted[k]);

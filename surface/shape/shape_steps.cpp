@@ -67,8 +67,11 @@ Vec3 ShapeSteps::normal_of(const std::vector<std::uint32_t>& triangles) const {
 }
 
 void ShapeSteps::flip(const Side& side, std::vector<PatchStep>& steps) {
-  if (side.beyond == kNoVertex) return;
   const auto [triangle, a, b, c, beyond, d] = side;
+  if (beyond == kNoVertex) {
+    drop(side, steps);
+    return;
+  }
   PatchStep step{ShapeStep::kFlip, {triangle, beyond}, {{c, a, d}, {c, d, b}}, kNoVertex, {}, 1, {}};
   if (!are_whole(step.removed)) return;
   for (const auto& t : step.added) {
@@ -78,9 +81,29 @@ void ShapeSteps::flip(const Side& side, std::vector<PatchStep>& steps) {
   steps.push_back(std::move(step));
 }
 
+// A triangle in a face of the box, with an edge of the boundary: without it, its other two edges are the boundary.
+void ShapeSteps::drop(const Side& side, std::vector<PatchStep>& steps) {
+  if (!curve(side.a, side.b, {side.c}) || !patch_.find_link(side.c, link_) || !link_.is_closed) return;
+  PatchStep step{ShapeStep::kFlip, {side.triangle}, {}, kNoVertex, {}, 1, {}};
+  step.opened = side.c;
+  if (are_whole(step.removed)) steps.push_back(std::move(step));
+}
+
+// The only triangle at a vertex of the boundary goes with it, unless it is all of its component.
+void ShapeSteps::remove_ear(std::uint32_t v, std::vector<PatchStep>& steps) {
+  const std::uint32_t a = link_.vertices[0], b = link_.vertices[1];
+  if (!curve(a, b, {v}) || patch_.across(link_.triangles[0], a, b) == kNoVertex) return;
+  PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 1, {}};
+  if (are_whole(step.removed)) steps.push_back(std::move(step));
+}
+
 void ShapeSteps::remove(std::uint32_t v, std::vector<PatchStep>& steps) {
   constexpr std::size_t kLongestLink = 12;
   if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return;
+  if (!link_.is_closed && link_.triangles.size() == 1) {
+    remove_ear(v, steps);
+    return;
+  }
   if (!link_.is_closed || link_.vertices.size() < 4 || link_.vertices.size() > kLongestLink) return;
   PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 0, {}};
   if (!are_whole(step.removed)) return;

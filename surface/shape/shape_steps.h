@@ -36,6 +36,8 @@ class ShapeSteps {
   };
   [[nodiscard]] Side side_of(std::uint32_t triangle, std::size_t corner) const;
   void flip(const Side& side, std::vector<PatchStep>& steps);
+  void drop(const Side& side, std::vector<PatchStep>& steps);
+  void remove_ear(std::uint32_t v, std::vector<PatchStep>& steps);
   void remove(std::uint32_t v, std::vector<PatchStep>& steps);
   void move(std::uint32_t v, double enough, std::vector<PatchStep>& steps);
   void merge(const Side& side, double enough, std::vector<PatchStep>& steps);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "delaunay/triangle_contact.h"
 #include "raycast/gradients_at.h"
@@ -17,12 +18,35 @@ namespace {
 // 0.1 of the circumradius).
 constexpr double kFreeHeight = 0.1;
 constexpr double kFreeDistance = 0.05;
-// With this freedom a triangle need only face lower values in one of the cells at two of its corners.
-constexpr double kSideways = 4;
+// With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
+constexpr double kSideways = 4, kOneCorner = 8;
 
 double longest_edge(const std::array<Vec3, 3>& p) {
   return std::sqrt(
       std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])}));
+}
+
+// Whether a point is within a distance of a triangle.
+bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) {
+  const auto& [a, b, c] = corners;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p[axis] < std::min({a[axis], b[axis], c[axis]}) - reach) return false;
+    if (p[axis] > std::max({a[axis], b[axis], c[axis]}) + reach) return false;
+  }
+  return squared_distance_to_triangle(p, a, b, c) <= reach * reach;
+}
+
+// The first point in each of small cubes: where vertices crowd, a few stand for all.
+std::vector<Vec3> thinned(std::span<const Vec3> points) {
+  constexpr double kCube = 0.1;  // mesh-space units
+  std::set<std::array<double, 3>> seen;
+  std::vector<Vec3> kept;
+  for (const Vec3& p : points) {
+    if (seen.insert({std::floor(p.x / kCube), std::floor(p.y / kCube), std::floor(p.z / kCube)}).second) {
+      kept.push_back(p);
+    }
+  }
+  return kept;
 }
 
 }  // namespace
@@ -33,7 +57,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
       isosurface_(isosurface),
       max_height_(options.max_height),
       counters_(counters),
-      vertices_(patch.points(), options.max_height),
+      vertices_(thinned(patch.points()), options.max_height),
       crossings_(crossings, options.max_distance) {}
 
 bool StepGuard::apply(const PatchStep& step) {
@@ -47,8 +71,8 @@ bool StepGuard::apply(const PatchStep& step) {
     limits_.push_back(
         std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
   }
-  if (keeps_disks(step) && covers(vertices_, first_added) && covers(crossings_, first_added) &&
-      lies_near(first_added) && keeps_volume(old_volume, first_added) && crosses_nothing(first_added)) {
+  if (keeps_disks(step) && lies_near(first_added) && keeps_volume(old_volume, first_added) &&
+      crosses_nothing(first_added) && covers_witnesses(first_added)) {
     return true;
   }
   patch_.undo();
@@ -70,8 +94,9 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
     was_closed_.push_back(link_.is_closed ? 1 : 0);
   }
   old_normal_ = {};
+  old_triangles_.clear();
   for (const std::uint32_t t : removed) {
-    const auto [a, b, c] = patch_.corner_points(t);
+    const auto [a, b, c] = old_triangles_.emplace_back(patch_.corner_points(t));
     old_normal_ += cross(b - a, c - a);
   }
   old_height_ = 0;
@@ -80,33 +105,7 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
     const double height = height_of(t, longest_edge({a, b, c}));
     if (std::isfinite(height)) old_height_ = std::max(old_height_, height);
   }
-  find_witnesses(removed);
   return true;
-}
-
-void StepGuard::find_witnesses(std::span<const std::uint32_t> removed) {
-  Box3 box;
-  double longest = 0;
-  for (const std::uint32_t t : removed) {
-    const std::array<Vec3, 3> corners = patch_.corner_points(t);
-    for (const Vec3& p : corners) box.extend(p);
-    longest = std::max(longest, longest_edge(corners));
-  }
-  vertices_.reach = std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest));
-  for (Witnesses* witnesses : {&vertices_, &crossings_}) {
-    witnesses->near.clear();
-    const Vec3 margin{witnesses->reach, witnesses->reach, witnesses->reach};
-    witnesses->grid.for_each_near({box.low - margin, box.high + margin}, [&](std::uint32_t i) {
-      const Vec3& p = witnesses->points[i];
-      const auto is_near = [&](std::uint32_t t) { return is_within(p, t, witnesses->reach); };
-      if (std::any_of(removed.begin(), removed.end(), is_near)) witnesses->near.push_back(p);
-    });
-  }
-}
-
-bool StepGuard::is_within(const Vec3& p, std::uint32_t triangle, double reach) const {
-  const auto [a, b, c] = patch_.corner_points(triangle);
-  return squared_distance_to_triangle(p, a, b, c) <= reach * reach;
 }
 
 // The links of all vertices around are what they were, cycles or paths; one vertex may be gone. Edges of the boundary
@@ -122,27 +121,27 @@ bool StepGuard::keeps_disks(const PatchStep& step) {
   };
   for (std::size_t i = 0; i < changed_.size(); ++i) {
     const std::uint32_t v = changed_[i];
-    if (!patch_.star(v).empty() && !is_right(v, was_closed_[i] != 0)) return false;
+    if (!patch_.star(v).empty() && !is_right(v, was_closed_[i] != 0 && v != step.opened)) return false;
   }
   const bool is_new = step.vertex != kNoVertex && !std::binary_search(changed_.begin(), changed_.end(), step.vertex);
   return !is_new || is_right(step.vertex, !step.is_on_boundary);
 }
 
-// Whether a triangle faces lower values as the field in some cell around each of two corners tells: the test of stage
-// 2, but at creases, where cells meet, one of them is enough. (With one corner small components were turned inside
-// out.)
+// Whether a triangle faces lower values as the field in some cell around its corners tells: the test of stage 2, but at
+// creases, where cells meet, one of them is enough; at two corners or, in the end, at one.
 bool StepGuard::faces_down(std::uint32_t triangle, const Vec3& normal) const {
   const std::array<Vec3, 3> corners = patch_.corner_points(triangle);
-  return std::count_if(corners.begin(), corners.end(), [&](const Vec3& p) {
-           bool is_so = false;
-           for_each_gradient_at(isosurface_, p,
-                                [&](const Vec3& gradient) { is_so = is_so || dot(gradient, normal) < 0; });
-           return is_so;
-         }) >= 2;
+  const auto count = std::count_if(corners.begin(), corners.end(), [&](const Vec3& p) {
+    bool is_so = false;
+    for_each_gradient_at(isosurface_, p, [&](const Vec3& gradient) { is_so = is_so || dot(gradient, normal) < 0; });
+    return is_so;
+  });
+  return count >= (freedom_ < kOneCorner ? 2 : 1);
 }
 
 // From the centroid to the isosurface where it faces as the triangle does: along the triangle's own normal, the normal
-// of the triangles that were there, or down the gradient, whichever is shortest; infinity where none reaches it.
+// of the triangles that were there, or down the gradient; infinity where none reaches it. No other sheet lies between,
+// so thin parts are not turned inside out: the centroid is above the isovalue just where the isosurface lies ahead.
 double StepGuard::height_of(std::uint32_t triangle, double reach) {
   constexpr double kFaces = 0.1;  // least cosine between a triangle's normal and the line along which it is near
   const auto [a, b, c] = patch_.corner_points(triangle);
@@ -151,35 +150,70 @@ double StepGuard::height_of(std::uint32_t triangle, double reach) {
   double height = std::numeric_limits<double>::infinity();
   if (!(length > 0)) return height;
   const Vec3 centroid = (a + b + c) / 3;
+  const bool is_above = isosurface_.is_above(centroid);
   for (const Vec3& direction : {normal, old_normal_, -isosurface_.gradient(centroid)}) {
     const double size = norm(direction);
     if (!(size > 0) || !(dot(direction, normal) > kFaces * size * length)) continue;
     const auto hit = isosurface_.nearest_falling_hit({centroid, direction / size}, reach, counters_);
-    if (hit) height = std::min(height, std::abs(*hit));
+    if (hit && (*hit > 0) == is_above) height = std::min(height, std::abs(*hit));
     if (height <= kFreeDistance) break;
   }
   if (freedom_ < kSideways || height <= kFreeDistance || !faces_down(triangle, normal)) return height;
+  return std::min(height, sideways_height(centroid, normal, reach));
+}
+
+// The same along lines in any direction, to the nearest hit if the isosurface does not face against the triangle there.
+double StepGuard::sideways_height(const Vec3& centroid, const Vec3& normal, double reach) {
+  double height = std::numeric_limits<double>::infinity();
   for (const Vec3& direction : {normal, old_normal_, isosurface_.gradient(centroid)}) {
     const double size = norm(direction);
     if (!(size > 0)) continue;
     isosurface_.all_hits({centroid, direction / size}, -reach, reach, hits_, counters_);
-    for (const Hit& hit : hits_) height = std::min(height, std::abs(hit.t));
+    const auto nearest = std::min_element(hits_.begin(), hits_.end(),
+                                          [](const Hit& s, const Hit& t) { return std::abs(s.t) < std::abs(t.t); });
+    if (nearest == hits_.end()) continue;
+    const double facing = nearest->falling ? dot(direction, normal) : -dot(direction, normal);
+    if (facing >= 0 || freedom_ >= kOneCorner) height = std::min(height, std::abs(nearest->t));
   }
   return height;
 }
 
 // Whether the mesh is still near all witnesses: else steps could cut off the tip of a thin part, one after the other.
-bool StepGuard::covers(const Witnesses& witnesses, std::size_t first_added) {
-  const double reach = witnesses.reach;
+bool StepGuard::covers_witnesses(std::size_t first_added) {
+  Box3 box;
+  double longest = 0;
+  for (const std::array<Vec3, 3>& corners : old_triangles_) {
+    for (const Vec3& p : corners) box.extend(p);
+    longest = std::max(longest, longest_edge(corners));
+  }
+  vertices_.reach = std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest));
+  for (const Witnesses* const witnesses : {&vertices_, &crossings_}) {
+    const double reach = witnesses->reach;
+    const Vec3 margin{reach, reach, reach};
+    bool are_covered = true;
+    witnesses->grid.for_each_near({box.low - margin, box.high + margin}, [&](std::uint32_t i) {
+      const Vec3& p = witnesses->points[i];
+      are_covered = are_covered && (!was_covered(p, reach) || is_covered(p, reach, first_added));
+    });
+    if (!are_covered) return false;
+  }
+  return true;
+}
+
+bool StepGuard::was_covered(const Vec3& p, double reach) const {
+  return std::any_of(old_triangles_.begin(), old_triangles_.end(),
+                     [&](const std::array<Vec3, 3>& corners) { return is_within(p, corners, reach); });
+}
+
+bool StepGuard::is_covered(const Vec3& p, double reach, std::size_t first_added) {
+  for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
+    if (is_within(p, patch_.corner_points(static_cast<std::uint32_t>(t)), reach)) return true;
+  }
   const Vec3 margin{reach, reach, reach};
-  return std::all_of(witnesses.near.begin(), witnesses.near.end(), [&](const Vec3& p) {
-    for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
-      if (is_within(p, static_cast<std::uint32_t>(t), reach)) return true;
-    }
-    near_.clear();
-    patch_.append_near({p - margin, p + margin}, near_);
-    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t t) { return is_within(p, t, reach); });
-  });
+  near_.clear();
+  patch_.append_near({p - margin, p + margin}, near_);
+  return std::any_of(near_.begin(), near_.end(),
+                     [&](std::uint32_t t) { return is_within(p, patch_.corner_points(t), reach); });
 }
 
 bool StepGuard::lies_near(std::size_t first_added) {
@@ -189,9 +223,10 @@ bool StepGuard::lies_near(std::size_t first_added) {
   return true;
 }
 
-// The volume that a small closed component encloses; none of a larger or an open one.
+// The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a
+// step.
 std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
-  constexpr std::size_t kSmall = 64;  // triangles
+  const std::size_t most = 8 + 4 * old_triangles_.size();
   near_.assign(1, triangle);
   const Vec3 apex = patch_.corner_points(triangle)[0];
   double volume = 0;
@@ -204,7 +239,7 @@ std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
       if (beyond == kNoVertex) return std::nullopt;
       if (std::find(near_.begin(), near_.end(), beyond) == near_.end()) near_.push_back(beyond);
     }
-    if (near_.size() > kSmall) return std::nullopt;
+    if (near_.size() > most) return std::nullopt;
   }
   return volume;
 }
@@ -212,7 +247,7 @@ std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
 // A small component must not be turned inside out or flattened, which no rim and no crossing tells.
 bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_t first_added) {
   constexpr double kLeastShare = 0.5;
-  if (!old_volume) return true;
+  if (!old_volume || first_added == patch_.triangle_count()) return true;
   const std::optional<double> volume = volume_around(static_cast<std::uint32_t>(first_added));
   return volume && *volume / *old_volume >= kLeastShare;
 }

@@ -2,6 +2,7 @@
 // triangle meets another beyond what they share, and each new one faces lower values and lies near the isosurface.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -20,7 +21,7 @@ class StepGuard {
             SearchCounters& counters);
 
   // By this factor triangles may be farther from the isosurface than usual; from 4 on they need only face
-  // lower values in one of the cells at two of their corners.
+  // lower values in one of the cells at two of their corners, from 8 on at one.
   void set_freedom(double freedom) { freedom_ = freedom; }
 
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
@@ -35,19 +36,19 @@ class StepGuard {
     std::vector<Vec3> points;
     PointGrid grid;
     double reach;
-    std::vector<Vec3> near;  // those that the triangles to be removed are near
 
     Witnesses(std::span<const Vec3> all, double distance)
         : points(all.begin(), all.end()), grid(points, distance), reach(distance) {}
   };
-  void find_witnesses(std::span<const std::uint32_t> removed);
-  [[nodiscard]] bool is_within(const Vec3& p, std::uint32_t triangle, double reach) const;
-  [[nodiscard]] bool covers(const Witnesses& witnesses, std::size_t first_added);
+  [[nodiscard]] bool covers_witnesses(std::size_t first_added);
+  [[nodiscard]] bool was_covered(const Vec3& p, double reach) const;
+  [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
   [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
   [[nodiscard]] bool faces_down(std::uint32_t triangle, const Vec3& normal) const;
+  [[nodiscard]] double sideways_height(const Vec3& centroid, const Vec3& normal, double reach);
   [[nodiscard]] double height_of(std::uint32_t triangle, double reach);
 
   Patch& patch_;
@@ -57,11 +58,12 @@ class StepGuard {
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface
   // Before the step:
-  std::vector<std::uint32_t> changed_;    // the vertices of the removed triangles, ascending,
-  std::vector<std::uint8_t> was_closed_;  // and whether their links were
-  Vec3 old_normal_;                       // the sum of their normals
-  double old_height_ = 0;                 // the largest of them
-  std::vector<double> limits_;            // of each added triangle: how far it may be from the isosurface
+  std::vector<std::uint32_t> changed_;              // the vertices of the removed triangles, ascending,
+  std::vector<std::uint8_t> was_closed_;            // and whether their links were
+  std::vector<std::array<Vec3, 3>> old_triangles_;  // corners of the removed triangles
+  Vec3 old_normal_;                                 // the sum of their normals
+  double old_height_ = 0;                           // the largest of them
+  std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_;
   std::vector<Hit> hits_;
   VertexLink link_;

@@ -52,7 +52,7 @@ TEST(Shape, ImprovesNoiseAndMasksAndKeepsThePromise) {
     EXPECT_TRUE(verify_mesh(after.mesh, grid, after.isovalue_used).proven) << seed;
     const MeshQuality old_quality = measure_quality(before.mesh), quality = measure_quality(after.mesh);
     EXPECT_GE(quality.min_angle_degrees, old_quality.min_angle_degrees) << seed;
-    EXPECT_GT(quality.min_angle_degrees, 0.1) << seed;
+    EXPECT_GT(quality.min_angle_degrees, 0.5) << seed;
     EXPECT_GT(after.shape.bad_before, 0) << seed;
     EXPECT_LT(after.shape.bad_after, after.shape.bad_before / 4) << seed;
   }
@@ -104,7 +104,7 @@ TEST(Shape, IsLeftOutWithoutRepair) {
 // The limit of rho is the angle across from an edge that is the circumradius over rho.
 TEST(Shape, AimsAtTheAngleThatRhoBounds) {
   Parameters parameters;
-  EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 14.4775, 1e-4);
+  EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 10, 1e-12);
   parameters.stage2.rho = 1;
   EXPECT_NEAR(shape_options(parameters).min_angle * 180 / std::numbers::pi, 30, 1e-12);
   parameters.shape.min_angle = 20;
