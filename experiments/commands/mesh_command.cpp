@@ -87,8 +87,8 @@ void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const 
   const std::string report = options.report.empty() ? "" : json_text(report_of(run, volume, world, result));
   const bool is_file = !is_special(options.report);
   if (!is_file) write_text(report, options.report);
-  const std::vector<std::string> comments =
-      mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used, world);
+  const std::vector<std::string> comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
+                                                          run.options.parameters.promise.max_distance, world);
   write_mesh(transformed(result.mesh, world.from_grid), options.output, options.ascii, comments);
   if (!options.stage1_output.empty() && result.stage1_mesh) {
     write_mesh(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, options.ascii, comments);

@@ -29,7 +29,7 @@ struct VerifyCommandOptions {
   WorldOptions world;
   std::string isovalue;
   std::string report;
-  std::string max_distance = "1";
+  std::string max_distance;  // empty: what the mesh file promises, or else the default
   bool closed = false;
   bool ignore_spacing = false;
 };
@@ -179,7 +179,8 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
 
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
-  if (parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
+  const bool is_given = !options.max_distance.empty();
+  if (is_given && parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
     throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
   }
   if (!options.report.empty()) check_writable(options.report, "--report");
@@ -189,7 +190,8 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   const Volume volume = load_volume(options.volume);
   const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
-  const double max_distance = parse_length(options.max_distance, "--max-distance", &volume);
+  const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
+                                       : promised_distance(options.mesh).value_or(PromiseParameters().max_distance);
   check_isovalue(grid, isovalue);
   // Everything is measured in the grid's own coordinates: the map to the world is undone, but for rounding.
   if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
@@ -230,10 +232,12 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("FILE")
       .check(refuse_empty_name);
   command
-      .add_option("--max-distance", options->max_distance,
-                  "How far mesh and isosurface may be off each other: voxels, or like 0.5mm (promise.max_distance)")
+      .add_option(
+          "--max-distance", options->max_distance,
+          "How far mesh and isosurface may be off each other: voxels, or like 0.5mm (default: what the mesh file "
+          "promises, or 1)")
       .type_name("D")
-      .show_default();
+      .check(refuse_empty_value);
   add_world_options(command, options->world);
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command.add_flag("--ignore-spacing", options->ignore_spacing,

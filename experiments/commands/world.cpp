@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
+#include <system_error>
+#include <system_error>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
@@ -90,10 +95,15 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
   return key + "=" + shortest_text(parse_length(value, "--set " + key, volume));
 }
 
+namespace {
+constexpr std::string_view kPromise = "promise.max_distance ";
+}
+
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
-                                       const World& world) {
+                                       double promised, const World& world) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
+  lines.push_back(std::string(kPromise) + shortest_text(promised));
   lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
@@ -103,6 +113,22 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
   lines.push_back("volume " + on_one_line(std::filesystem::path(volume_path).filename().string()));
   lines.push_back("samples sha256 " + sha256);
   return lines;
+}
+
+// Comments stand before the vertices.
+std::optional<double> promised_distance(const std::string& mesh_path) {
+  constexpr std::size_t kMostLines = 20, kLongest = 200;
+  std::ifstream file(mesh_path, std::ios::binary);
+  std::string line;
+  for (std::size_t i = 0; i < kMostLines && std::getline(file, line); ++i) {
+    const std::size_t at = line.find(kPromise);
+    if (at == std::string::npos || line.size() > kLongest) continue;
+    const std::string number = line.substr(at + kPromise.size());
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
+  }
+  return std::nullopt;
 }
 
 Json source_json(const Volume& volume) {

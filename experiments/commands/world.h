@@ -39,9 +39,12 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 // the world; any other as it is.
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume);
 
-// What a mesh file says of its origin: program, volume, hash, isovalue, space and units, one line each.
+// What a mesh file says of its origin: program, isovalue, promise, space and units, volume and hash, one line each.
+// `promised`: promise.max_distance, in voxels.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
-                                       const World& world);
+                                       double promised, const World& world);
+// The promise.max_distance that such a line of a mesh file names, if there is one.
+std::optional<double> promised_distance(const std::string& mesh_path);
 
 // format, stored_type, channels, channel, space, units and the affine map from index to world, for reports.
 Json source_json(const Volume& volume);

@@ -52,7 +52,7 @@ struct RepairParameters {
 struct ShapeParameters {
   std::optional<double>
       min_angle;            // improve triangles with a smaller angle, in degrees; > 0, <= 35; else by stage2.rho
-  std::int32_t rounds = 3;  // 0 turns the stage off
+  std::int32_t rounds = 4;  // 0 turns the stage off
 };
 
 struct PromiseParameters {

@@ -22,70 +22,84 @@ struct PatchCrossing {
   Vec3 position;
 };
 
+// The boxes around bad triangles, and which patch each belongs to.
+struct Surroundings {
+  BoxSet boxes;
+  std::vector<std::uint32_t> patch_of;  // of each box
+
+  Surroundings(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) : patch_of(bad.size()) {
+    for (const std::uint32_t t : bad) {
+      const double beyond = std::max(kLeastReach, reach * std::sqrt(squared_longest_edge(mesh, t)));
+      const Vec3 margin{beyond, beyond, beyond};
+      const Box3 box = box_of(mesh, t);
+      boxes.add({box.low - margin, box.high + margin});
+    }
+    DisjointSets groups(bad.size());
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < bad.size(); ++i) {
+      boxes.for_each_meeting(boxes.boxes()[i], near, [&](std::uint32_t j) { groups.unite(i, j); });
+    }
+    std::uint32_t patches = 0;
+    for (std::uint32_t i = 0; i < bad.size(); ++i) {
+      const std::uint32_t first = groups.find(i);  // not above i
+      patch_of[i] = first == i ? patches++ : patch_of[first];
+    }
+  }
+};
+
+std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const Surroundings& around, const BoxMap& map,
+                                                int threads) {
+  const auto append = [&](std::size_t t, std::vector<PatchTriangle>& found) {
+    const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
+    const Vec3 size = box.size();
+    const std::size_t first = found.size();
+    const auto add = [&](std::uint32_t i) {
+      const auto is_same = [&](const PatchTriangle& other) { return other.patch == around.patch_of[i]; };
+      if (around.boxes.boxes()[i].meets(box) &&
+          std::none_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_same)) {
+        found.push_back({around.patch_of[i], static_cast<std::uint32_t>(t)});
+      }
+    };
+    if (std::max({size.x, size.y, size.z}) <= map.reach()) {
+      for (const std::uint32_t i : map.near(box.low)) add(i);
+    } else {
+      thread_local std::vector<std::uint32_t> near;
+      around.boxes.for_each_meeting(box, near, add);
+    }
+  };
+  return collect_in_blocks<PatchTriangle>(mesh.triangles.size(), threads, append);
+}
+
+std::vector<PatchCrossing> crossings_of_patches(const ExactSurface& surface, const Surroundings& around,
+                                                const BoxMap& map) {
+  const auto append = [&](std::size_t c, std::vector<PatchCrossing>& found) {
+    const Vec3 p = surface.position(surface.topology.crossings[c]);
+    for (const std::uint32_t i : map.near(p)) {
+      if (!around.boxes.boxes()[i].contains(p)) continue;
+      found.push_back({around.patch_of[i], p});
+      return;
+    }
+  };
+  return collect_in_blocks<PatchCrossing>(surface.topology.crossings.size(), surface.threads, append);
+}
+
 }  // namespace
 
 std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
                                     const ExactSurface& surface) {
-  BoxSet around;
-  for (const std::uint32_t t : bad) {
-    const double beyond = std::max(kLeastReach, reach * std::sqrt(squared_longest_edge(mesh, t)));
-    const Vec3 margin{beyond, beyond, beyond};
-    const Box3 box = box_of(mesh, t);
-    around.add({box.low - margin, box.high + margin});
-  }
-  DisjointSets groups(bad.size());
-  std::vector<std::uint32_t> scratch;
-  for (std::uint32_t i = 0; i < bad.size(); ++i) {
-    around.for_each_meeting(around.boxes()[i], scratch, [&](std::uint32_t j) { groups.unite(i, j); });
-  }
-  std::vector<std::uint32_t> patch_of(bad.size());
+  const Surroundings around(mesh, bad, reach);
+  const BoxMap map(around.boxes.boxes());
   std::vector<PatchPlan> plans;
   for (std::uint32_t i = 0; i < bad.size(); ++i) {
-    const std::uint32_t root = groups.find(i);
-    if (root == i) {
-      patch_of[i] = static_cast<std::uint32_t>(plans.size());
-      plans.emplace_back();
-    } else {
-      patch_of[i] = patch_of[root];
-    }
-    plans[patch_of[i]].room.add(around.boxes()[i]);
-    plans[patch_of[i]].bad.push_back(bad[i]);
+    const std::uint32_t patch = around.patch_of[i];
+    if (patch == plans.size()) plans.emplace_back();
+    plans[patch].room.add(around.boxes.boxes()[i]);
+    plans[patch].bad.push_back(bad[i]);
   }
-  const BoxMap map(around.boxes());
-  const auto append = [&](std::size_t t, std::vector<PatchTriangle>& found) {
-    const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
-    const Vec3 size = box.size();
-    const bool is_small = std::max({size.x, size.y, size.z}) <= map.reach();
-    const std::size_t first = found.size();
-    const auto add = [&](std::uint32_t i) {
-      const auto is_same = [&](const PatchTriangle& other) { return other.patch == patch_of[i]; };
-      if (around.boxes()[i].meets(box) &&
-          std::none_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_same)) {
-        found.push_back({patch_of[i], static_cast<std::uint32_t>(t)});
-      }
-    };
-    if (is_small) {
-      for (const std::uint32_t i : map.near(box.low)) add(i);
-    } else {
-      thread_local std::vector<std::uint32_t> near;
-      around.for_each_meeting(box, near, add);
-    }
-  };
-  for (const auto& [patch, t] : collect_in_blocks<PatchTriangle>(mesh.triangles.size(), surface.threads, append)) {
+  for (const auto& [patch, t] : triangles_of_patches(mesh, around, map, surface.threads)) {
     plans[patch].triangles.push_back(t);
   }
-  const auto append_crossing = [&](std::size_t c, std::vector<PatchCrossing>& found) {
-    const Vec3 p = surface.position(surface.topology.crossings[c]);
-    for (const std::uint32_t i : map.near(p)) {
-      if (!around.boxes()[i].contains(p)) continue;
-      found.push_back({patch_of[i], p});
-      return;
-    }
-  };
-  for (const auto& [patch, p] :
-       collect_in_blocks<PatchCrossing>(surface.topology.crossings.size(), surface.threads, append_crossing)) {
-    plans[patch].crossings.push_back(p);
-  }
+  for (const auto& [patch, p] : crossings_of_patches(surface, around, map)) plans[patch].crossings.push_back(p);
   return plans;
 }
 

@@ -245,6 +245,25 @@ TEST_F(WorldTest, LengthsMayBeOfTheWorld) {
             2);
 }
 
+// What a mesh file promises is what it is judged by, unless another bound is given.
+TEST_F(WorldTest, TheVerificationTakesItsBoundFromTheMesh) {
+  write_file(folder_ / "a.nrrd", nrrd_file(kAskew));
+  const auto bound = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"verify",  folder_ / name, folder_ / "a.nrrd", "--isovalue",
+                                          kIsovalue, "--report",     folder_ / "v.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_deliso(arguments).exit_code, 0) << name;
+    return Json::parse(read_file(folder_ / "v.json"))["promise"]["max_distance"].get<double>();
+  };
+  for (const std::string name : {"m.ply", "m.off", "m.obj"}) {
+    mesh("a.nrrd", name, {"--set", "promise.max_distance=1.75"}, false);
+    EXPECT_EQ(bound(name, {}), 1.75) << name;
+    EXPECT_EQ(bound(name, {"--max-distance", "1.5"}), 1.5) << name;
+  }
+  write_file(folder_ / "n.off", "OFF # promise.max_distance -3\n" + read_file(folder_ / "m.off").substr(4));
+  EXPECT_EQ(bound("n.off", {}), 1.75);
+}
+
 TEST_F(WorldTest, VolumesAsScannersWriteThemAreProvenInTheirPlace) {
   // Axes permuted and flipped, rotated by 0.1, one axis reversed, directions with noise of 1e-17 and of 1e-9.
   for (const std::string name : {"mrhead", "oblique", "one_neg", "noise17", "tinytilt"}) {

@@ -51,7 +51,7 @@ constexpr const char* kDocumentedDefaults = R"({
              "traversal": "cell_walk"},
   "spacing": "use",
   "certify": true,
-  "shape": {"min_angle": null, "rounds": 3},
+  "shape": {"min_angle": null, "rounds": 4},
   "promise": {"max_distance": 1.0},
   "repair": {"max_rounds": 8},
   "budget": {"seconds": null, "max_vertices": null}
