@@ -76,7 +76,7 @@ Place PlaceSearch::best_on_curve(std::span<const RimSegment> rim, std::span<cons
 Place PlaceSearch::best(std::span<const RimSegment> rim, std::span<const Vec3> starts, const Vec3& normal,
                         double enough) {
   constexpr double kFirstStep = 0.3, kLastStep = 0.03;  // mean distances from the rim
-  constexpr double kLeastGain = 1.005;
+  constexpr double kLeastStepGain = 1.005;
   constexpr int kMostSteps = 40;
   constexpr double kOffSurface = 0.8;  // what is worse by this factor before it is brought to the isosurface is left
   Place best;
@@ -106,7 +106,7 @@ Place PlaceSearch::best(std::span<const RimSegment> rim, std::span<const Vec3> s
       const Vec3 off = from + step * directions[k];
       if (star_quality(off, rim, kOffSurface * best.quality) == 0) continue;
       const auto p = on_isosurface(off, normal, radius);
-      const double quality = p ? star_quality(*p, rim, kLeastGain * best.quality) : 0;
+      const double quality = p ? star_quality(*p, rim, kLeastStepGain * best.quality) : 0;
       if (quality == 0) continue;
       best = {*p, quality};
       if (is_thorough_) continue;
