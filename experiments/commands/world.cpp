@@ -8,7 +8,6 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
-#include <system_error>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
@@ -103,7 +102,6 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
                                        double promised, const World& world) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
-  lines.push_back(std::string(kPromise) + shortest_text(promised));
   lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
@@ -112,20 +110,27 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
   }
   lines.push_back("volume " + on_one_line(std::filesystem::path(volume_path).filename().string()));
   lines.push_back("samples sha256 " + sha256);
+  lines.push_back(std::string(kPromise) + shortest_text(promised));
   return lines;
 }
 
-// Comments stand before the vertices.
+// Comments stand before the vertices or, in OFF files, behind the triangles.
 std::optional<double> promised_distance(const std::string& mesh_path) {
-  constexpr std::size_t kMostLines = 20, kLongest = 200;
+  constexpr std::size_t kMost = 4096;  // bytes at either end
   std::ifstream file(mesh_path, std::ios::binary);
-  std::string line;
-  for (std::size_t i = 0; i < kMostLines && std::getline(file, line); ++i) {
-    const std::size_t at = line.find(kPromise);
-    if (at == std::string::npos || line.size() > kLongest) continue;
-    const std::string number = line.substr(at + kPromise.size());
+  std::string ends(kMost, ' ');
+  file.read(ends.data(), kMost);
+  file.clear();
+  file.seekg(0, std::ios::end);
+  const auto size = static_cast<std::streamoff>(file.tellg());
+  file.seekg(std::max(std::streamoff{0}, size - static_cast<std::streamoff>(kMost)));
+  std::string last(kMost, ' ');
+  file.read(last.data(), kMost);
+  ends += '\n' + last;
+  for (std::size_t at = ends.find(kPromise); at != std::string::npos; at = ends.find(kPromise, at + 1)) {
+    const std::size_t number = at + kPromise.size();
     double value = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    const auto [end, error] = std::from_chars(ends.data() + number, ends.data() + ends.size(), value);
     if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
   }
   return std::nullopt;

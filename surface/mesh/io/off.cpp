@@ -11,7 +11,6 @@ namespace deliso {
 
 std::string off_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   std::string text = "OFF\n";
-  for (const std::string& comment : comments) text += "# " + comment + "\n";
   text.reserve(64 * mesh.points.size() + 24 * mesh.triangles.size());
   append_number(text, mesh.points.size());
   text += ' ';
@@ -26,6 +25,8 @@ std::string off_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
     }
     text += '\n';
   }
+  // Last, because readers such as TetGen's expect the counts in the second line.
+  for (const std::string& comment : comments) text += "# " + comment + "\n";
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -220,6 +221,9 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
          {"DelIso 0.1.0, isovalue 40", "space left-posterior-superior, units mm", "volume a.nrrd", "samples sha256 "})
       EXPECT_NE(text.find(part), std::string::npos) << name << part;
   }
+  // TetGen takes the second line of an OFF file for its counts.
+  const std::string off = read_file(folder_ / "m.off");
+  EXPECT_TRUE(std::isdigit(static_cast<unsigned char>(off[off.find('\n') + 1])));
   mesh("a.nrrd", "m.stl", {"--ascii"}, false);
   const std::string text = read_file(folder_ / "m.stl");
   EXPECT_NE(text.substr(0, text.find('\n')).find("space left-posterior-superior"), std::string::npos);
