@@ -86,7 +86,7 @@ class InputFiles {
     const std::string path = folder_ + "/" + name;
     std::FILE* file = std::fopen(path.c_str(), "wb");
     require(file != nullptr, "a file can be made", path);
-    std::fwrite(bytes.data(), 1, bytes.size(), file);
+    if (!bytes.empty()) std::fwrite(bytes.data(), 1, bytes.size(), file);  // an empty view has no data
     std::fclose(file);
     paths_.push_back(path);
   }
