@@ -10,12 +10,14 @@ targets=("${@:2}")
 if [[ ${#targets[@]} -eq 0 ]]; then targets=(volume mesh_file config meshing); fi
 
 # fuzz TARGET: its log, and 0 when no input failed.
+# DELISO_FUZZ_SEED: of the random changes, each time another by default.
 fuzz() {
   local found=build/fuzz/found/$1 corpus=tests/fuzz/corpus/$1 dictionary=()
   if [[ -f tests/fuzz/$1.dict ]]; then dictionary=("-dict=tests/fuzz/$1.dict"); fi
   mkdir -p "$found/inputs"
   ASAN_OPTIONS=malloc_context_size=8:quarantine_size_mb=16 \
     "build/fuzz/tests/fuzz/fuzz_$1" "$found/inputs" "$corpus" "${dictionary[@]}" "-max_total_time=$seconds" -timeout=60 \
+    "-seed=${DELISO_FUZZ_SEED:-0}" \
     -rss_limit_mb=2000 -malloc_limit_mb=1000 "-artifact_prefix=$found/" -print_final_stats=1 >"$found/log" 2>&1
 }
 
