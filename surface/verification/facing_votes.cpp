@@ -57,7 +57,9 @@ std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, c
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3& step = probe.step();
   const auto first = [&](std::size_t a) {
-    return static_cast<std::int64_t>(std::max(0.0, box.low[a] - kLineOffset) / step[a]);
+    // Beyond the box there is no line, and the number of one might be too large for an integer.
+    return static_cast<std::int64_t>(
+        std::min(std::max(0.0, box.low[a] - kLineOffset), probe.box().high[a] + 2 * step[a]) / step[a]);
   };
   const auto last = [&](std::size_t a) {
     return static_cast<std::int64_t>(
