@@ -66,6 +66,12 @@ Vec3 Isosurface::gradient(const Vec3& p) const {
   return scaled(trilinear_gradient(corners, uvw), inverse_step_);
 }
 
+std::pair<double, Vec3> Isosurface::value_and_gradient(const Vec3& p) const {
+  Vec3 uvw;
+  const CellCorners corners = relative_corners(p, uvw);
+  return {relative_value(corners, uvw), scaled(trilinear_gradient(corners, uvw), inverse_step_)};
+}
+
 // The first and the last cell of a segment but for what lies near an end that is far from the isosurface. The walk from
 // one to the other is a part of the whole one, and meets all of its active cells.
 std::pair<Cell, Cell> Isosurface::without_clear_ends(const LineSegment& segment) const {

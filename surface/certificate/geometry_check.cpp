@@ -23,19 +23,19 @@ namespace {
 constexpr double kBlock = 3;  // side of the blocks in which crossings are looked for, in distances promised
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `likely`, and
-// in the end all around.
-bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& likely, double reach) {
+// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `falling`, the
+// direction in which the field is likely to fall, and in the end all around.
+bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& falling, double reach) {
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
   const auto changes = [&](const Vec3& direction, double distance) {
     const double length = norm_of_any_size(direction);
     if (!(length > 0) || !std::isfinite(length)) return false;
-    const Vec3 offset = (distance / length) * direction;
+    const Vec3 offset = ((is_above ? distance : -distance) / length) * direction;  // the likelier side first
     return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
   };
-  if (changes(likely, reach)) return true;
-  if (changes(isosurface.gradient(p), reach)) return true;
+  if (changes(falling, reach)) return true;
+  if (changes(-isosurface.gradient(p), reach)) return true;
   // As far as the values around p say that the isosurface lies, in each of its cells: just beyond that.
   bool is_found = false;
   const double value = std::abs(isosurface.value(p));
@@ -59,6 +59,16 @@ struct Corners {
   [[nodiscard]] double squared_longest() const {
     return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
   }
+  // Whether every point of the triangle is within `reach` of a corner: so it is where the longest edge is at most the
+  // square root of 3 times that, and where the circumradius is no more.
+  [[nodiscard]] bool all_within(double reach) const {
+    constexpr double kRounding = 1 - 1e-9;
+    const double a = squared_distance(p[0], p[1]), b = squared_distance(p[1], p[2]), c = squared_distance(p[2], p[0]);
+    const double squared_reach = kRounding * reach * reach;
+    const double product = a * b * c;
+    return std::max({a, b, c}) <= 3 * squared_reach ||
+           (std::isfinite(product) && product <= 4 * squared_reach * dot(normal, normal));
+  }
 };
 
 // Calls visit(point) for points about a voxel apart on a triangle, the corners left out.
@@ -75,19 +85,16 @@ void for_each_sample(const Corners& corners, double longest, const Visit& visit)
   }
 }
 
-// Corners lie on the isosurface, so what is near them needs no look; and every point of a triangle is within its
-// longest edge over the square root of 3 of a corner.
+// Corners lie on the isosurface, so what is near them needs no look.
 void check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                      GeometryCheck& check) {
-  const double longest_near = promise.max_distance * std::sqrt(3.0);
   const double squared_near = promise.max_distance * promise.max_distance;
   std::atomic<std::int64_t> off = 0;
   const auto append_if_far = [&](std::size_t t, std::vector<std::uint32_t>& far) {
     const Corners corners(mesh, t);
-    const double squared_longest = corners.squared_longest();
-    if (squared_longest <= longest_near * longest_near) return;
+    if (corners.all_within(promise.max_distance)) return;
     std::int64_t count = 0;
-    for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
+    for_each_sample(corners, std::sqrt(corners.squared_longest()), [&](const Vec3& p) {
       const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= squared_near; };
       if (std::any_of(corners.p.begin(), corners.p.end(), is_beside)) return;
       if (!is_near(surface.isosurface, p, corners.normal, promise.max_distance)) ++count;
@@ -106,8 +113,9 @@ void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const 
   const Isosurface& isosurface = surface.isosurface;
   const auto append_if_off = [&](std::size_t v, std::vector<std::uint32_t>& off) {
     const Vec3& p = mesh.points[v];
-    if (isosurface.value(p) == 0) return;
-    if (!is_near(isosurface, p, isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
+    const auto [value, gradient] = isosurface.value_and_gradient(p);
+    if (value == 0) return;
+    if (!is_near(isosurface, p, -gradient, promise.max_residual)) off.push_back(std::uint32_t(v));
   };
   check.off_vertices = collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off);
   check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
@@ -128,11 +136,15 @@ std::vector<Vec3> crossings_to_ask_for(const SurfaceMesh& mesh, const ExactSurfa
   return collect_in_blocks<Vec3>(crossings.size(), surface.threads, [&](std::size_t i, std::vector<Vec3>& left) {
     const Vec3 p = surface.position(crossings[i]);
     const auto is_vertex_near = [&](std::uint32_t v) { return squared_distance(p, mesh.points[v]) <= reach * reach; };
+    const auto is_centroid_near = [&](std::uint32_t t) { return squared_distance(p, centroids[t]) <= reach * reach; };
     const auto is_triangle_near = [&](std::uint32_t t) {
       const auto& [a, b, c] = mesh.triangles[t];
       return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]) <= reach * reach;
     };
-    if (!vertices.any_beside(p, is_vertex_near) && !triangles.any_beside(p, is_triangle_near)) left.push_back(p);
+    // The centroids are points of triangles: most of the time one of them is near enough.
+    const bool is_covered = vertices.any_beside(p, is_vertex_near) || triangles.any_beside(p, is_centroid_near) ||
+                            triangles.any_beside(p, is_triangle_near);
+    if (!is_covered) left.push_back(p);
   });
 }
 
