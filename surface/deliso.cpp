@@ -103,6 +103,8 @@ void Pipeline::run(double isovalue) {
   DelS del_s0 = timed(result_.initial, [&] {
     return init_triangulation(*surface_, parameters_, options_.seed, controls_, result_.initial_search);
   });
+  del_s0->set_observer(options_.observer);
+  if (options_.observer != nullptr) options_.observer->triangulated(*del_s0);
   controls_.enter("recover");
   DelS del_s1 = recover_topology(std::move(del_s0));
   SurfaceMesh mesh = refine(std::move(del_s1));
@@ -166,7 +168,8 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   if (options_.keep_stage1_mesh) result_.stage1_mesh = to_world(mesh, *isosurface_);
 
   controls_.enter("refine");
-  const RefineOptions options = refine_options(parameters_, isosurface_->box(), coverage_targets_, options_.threads);
+  RefineOptions options = refine_options(parameters_, isosurface_->box(), coverage_targets_, options_.threads);
+  options.observer = options_.observer;
   result_.r_min_voxels = options.r_min;
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
@@ -186,6 +189,7 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
     ShapeOptions options = shape_options(parameters_);
     options.rounds = std::min(options.rounds, most_rounds);
     improve_shape(mesh, *surface_, options, controls_, result_.shape);
+    if (options_.observer != nullptr) options_.observer->reshaped(mesh);
   });
 }
 

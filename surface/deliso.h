@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "surface/base/controls.h"
+#include "surface/base/observer.h"
 #include "surface/base/parameters.h"
 #include "surface/base/stage_stats.h"
 #include "surface/certificate/certificate.h"
@@ -26,6 +27,7 @@ struct MeshingOptions {
   std::function<void(const Progress&)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;        // set to true from outside: finish early with a valid partial mesh
   bool keep_stage1_mesh = false;
+  Observer* observer = nullptr;  // told of every step, see there
 };
 
 struct BuildStats : StageStats {

@@ -42,7 +42,12 @@ std::int64_t RecoverLoop::insert_points(std::span<const Vec3> points, Controls& 
   for (const Vec3& p : points) {
     if (controls.must_stop("recover", delaunay_.vertex_count(), queue_.size())) break;
     const TetId start = delaunay_.incident_tet(restricted_.last_vertex());
-    if (restricted_.insert(p, start, options_.size_bound) != RestrictedDelaunay::Outcome::kInserted) continue;
+    Observer* const observer = restricted_.observer();
+    if (observer != nullptr) observer->violation(restricted_, {.limits = &options_.geometry});
+    if (restricted_.insert(p, start, options_.size_bound) != RestrictedDelaunay::Outcome::kInserted) {
+      if (observer != nullptr) observer->refused(restricted_, "size_bound");
+      continue;
+    }
     ++inserted;
     queue_touched();
   }
@@ -88,15 +93,22 @@ void RecoverLoop::queue_umbrella(VertexId q) {
 }
 
 bool RecoverLoop::insert(const Violation& violation, const RefinementPoint& candidate) {
+  Observer* const observer = restricted_.observer();
+  if (observer != nullptr) tell_observer(violation);
   const std::optional<Vec3> p = onto_surface(candidate.point);
-  if (!p) return false;
+  if (!p) {
+    if (observer != nullptr) observer->refused(restricted_, "off_surface");
+    return false;
+  }
   const RestrictedDelaunay::Outcome outcome = restricted_.insert(*p, candidate.start, options_.size_bound);
   if (outcome == RestrictedDelaunay::Outcome::kBlocked) {
     blocked_.push_back(violation);
+    if (observer != nullptr) observer->refused(restricted_, "blocked");
     return false;
   }
   if (outcome != RestrictedDelaunay::Outcome::kInserted) {
     ++stats_.refused_by_size_bound;
+    if (observer != nullptr) observer->refused(restricted_, "size_bound");
     return false;
   }
   ++stats_.insertions;
@@ -113,6 +125,27 @@ bool RecoverLoop::insert(const Violation& violation, const RefinementPoint& cand
       break;
   }
   return true;
+}
+
+// For an umbrella, umbrella_ holds D_q (is_disk).
+void RecoverLoop::tell_observer(const Violation& violation) const {
+  ObservedViolation seen{.limits = &options_.geometry};
+  switch (violation.kind) {
+    case ViolationKind::kMultiIntersect:
+      seen.step = RecoverStep::kMultiIntersect;
+      break;
+    case ViolationKind::kExtractManifold:
+      seen.step = RecoverStep::kExtractManifold;
+      seen.umbrella = VertexId(violation.element);
+      seen.disk = umbrella_.facets();
+      break;
+    case ViolationKind::kApproximateGeometry:
+      seen.step = RecoverStep::kApproximateGeometry;
+      break;
+  }
+  if (violation.kind != ViolationKind::kExtractManifold)
+    seen.sigma = &restricted_.dual_edge(DualEdgeId(violation.element));
+  restricted_.observer()->violation(restricted_, seen);
 }
 
 // A new vertex takes the mean pole height of its neighbours on the surface, or that of the nearest of them.

@@ -67,6 +67,7 @@ class RecoverLoop {
   void queue_umbrella(VertexId q);
   void queue_touched();
   bool insert(const Violation& violation, const RefinementPoint& candidate);
+  void tell_observer(const Violation& violation) const;
   void inherit_pole_height();
 
   // Figure 5: the point that each procedure inserts for a violation, if it still is one (refinement_points.cpp).

@@ -76,7 +76,8 @@ std::int64_t RecoverLoop::run_round(std::size_t axis, Controls& controls) {
   const std::vector<Violation> between = hand_out(waiting, slabs, work);
 
   // Step 2: refine the slabs independently.
-  run_tasks(parts.size(), options_.threads, [&](std::size_t k) { work[k].run(limits[k]); });
+  const int threads = restricted_.observer() != nullptr ? 1 : options_.threads;
+  run_tasks(parts.size(), threads, [&](std::size_t k) { work[k].run(limits[k]); });
   controls.poll();  // the limit that stopped parts also stops the rest
 
   // Step 3: take in the results of the parts, and what they left.

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/memory.h"
 #include "surface/refine/guard/clearances.h"
 #include "surface/refine/guard/refinement_crossings.h"
@@ -94,6 +96,7 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     }
     if (is_best && fewest <= before) return;
     RefinementChange change = loop.take_back();
+    if (task.options.observer != nullptr) task.options.observer->restarted();
     if (is_best) least = std::move(change);
     if (restarts == 0 && round == Round::kSlabs) before = count_of(meeting_pairs(part.mesh, threads.count()));
     if (fewest <= before || restarts == kMostRestarts || controls.poll()) break;
@@ -151,11 +154,18 @@ void refine_whole(RefinementMesh& mesh, Round round, const Task& task) {
   task.stats.add(counted);
 }
 
+[[noreturn]] void refuse_to_be_observed(std::size_t triangles) {
+  throw InputError("the mesh after stage 1 has " + std::to_string(triangles) +
+                   " triangles, which stage 2 refines in slabs, several steps at a time: steps can be followed up to " +
+                   "about 6000 triangles; take a smaller volume or a crop");
+}
+
 }  // namespace
 
 void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const RefineOptions& options, Controls& controls,
                      RefineStats& stats, std::vector<SurfaceDelaunayBall>* balls) {
   if (controls.stopped()) return;
+  if (options.observer != nullptr) options.observer->meshed(mesh, criteria_of(options));
   const Task task{isosurface, options, controls, stats};
   RefinementPart whole;
   RefinementMesh& refined = whole.mesh;
@@ -164,12 +174,14 @@ void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const Refi
   set_clearances(refined);
   std::vector<float> work = RefineLoop(whole, isosurface, options, stats).measure_all(options.threads);
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);
+  if (options.observer != nullptr && slabs.size() > 1) refuse_to_be_observed(refined.triangles.size());
   if (slabs.size() == 1) {
     refine_whole(refined, Round::kSlabs, task);
   } else {
     refine_slabs(refined, slabs, std::move(work), task);
     if (!controls.stopped()) refine_whole(refined, Round::kRest, task);
   }
+  if (options.observer != nullptr) options.observer->refined(refined);
   release_free_memory();
   stats.stopped_at_r_min = std::count_if(refined.triangles.begin(), refined.triangles.end(),
                                          [](const RefinementMesh::Triangle& t) { return t.is_too_small(); });

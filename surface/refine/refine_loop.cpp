@@ -129,6 +129,8 @@ bool RefineLoop::treat(std::uint32_t triangle) {
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kRefused, true);
     mesh_.triangles[triangle].set(RefinementMesh::Triangle::kCoarse, is_blocked_);
     if (!is_blocked_) ++stats_.refused[static_cast<std::size_t>(*refusal)];
+    if (options_.observer != nullptr)
+      options_.observer->disk_refused(mesh_, triangle, kRefusalNames[static_cast<std::size_t>(*refusal)]);
     guard_->mark_if_far_off(triangle);
     if (refusal == Refusal::kCrossingTriangle) crossed_.push_back(triangle);
     return false;
@@ -161,6 +163,7 @@ std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSi
   if (shape == RefinementDisk::Shape::kNotADisk) return Refusal::kNotADisk;
   if (shape == RefinementDisk::Shape::kRepeatedVertex) return Refusal::kRepeatedVertex;
   if (const auto failed = plan_star(candidate)) return failed;
+  if (options_.observer != nullptr) options_.observer->disk(mesh_, disk_, candidate);
   replace_disk(candidate);
   return std::nullopt;
 }

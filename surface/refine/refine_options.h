@@ -12,6 +12,7 @@
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
 #include "surface/base/criteria.h"
+#include "surface/base/observer.h"
 #include "surface/base/parameters.h"
 #include "surface/base/stage_stats.h"
 
@@ -33,6 +34,7 @@ struct RefineOptions {
   bool keep_neighbours = true;
   std::span<const Vec3> coverage_targets;  // points of the surface that the mesh is to come near (coverage_targets.h)
   int threads = 1;                         // the result is the same for any number
+  Observer* observer = nullptr;            // of a mesh that is one slab
   std::size_t slab_triangles = 6144;       // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
 };
 

@@ -70,6 +70,7 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
     delaunay_.abandon_cavity();
     return Outcome::kBlocked;
   }
+  if (observer_ != nullptr) observer_->cavity(*this, p);
   ++stamp_;
   touched_edges_.clear();
   touched_vertices_.clear();
@@ -78,6 +79,7 @@ RestrictedDelaunay::Outcome RestrictedDelaunay::insert(const Vec3& point, TetId 
   const Stopwatch watch;
   renew_star();
   restricted_seconds_ += watch.seconds();
+  if (observer_ != nullptr) observer_->inserted(*this);
   return Outcome::kInserted;
 }
 

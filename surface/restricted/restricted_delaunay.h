@@ -13,6 +13,7 @@
 
 #include "delaunay/base/counters.h"
 #include "delaunay/base/shared_array.h"
+#include "surface/base/observer.h"
 #include "surface/restricted/link_change.h"
 #include "surface/restricted/signed_delaunay.h"
 #include "surface/restricted/umbrella.h"
@@ -54,6 +55,16 @@ class RestrictedDelaunay : public SignedDelaunay {
 
   // Whether inserting the point would destroy t.
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& point) const { return delaunay_.in_conflict(t, snapped(point)); }
+
+  // Tells it of every insertion, also of those in parts made afterwards; null for none.
+  void set_observer(Observer* observer) { observer_ = observer; }
+  [[nodiscard]] Observer* observer() const { return observer_; }
+  // Whether this is one of parts(): its new vertices have ids with gaps, until it has joined.
+  [[nodiscard]] bool is_part() const { return is_part_; }
+  // Of the insertion under way: see BowyerWatson.
+  [[nodiscard]] std::span<const TetId> conflict_region() const { return delaunay_.conflict_region(); }
+  [[nodiscard]] std::span<const FacetId> rim() const { return delaunay_.rim(); }
+  [[nodiscard]] std::span<const TetId> created() const { return delaunay_.created(); }
 
   // What the last successful insertion changed: the dual edges that are new or changed, and the vertices whose umbrella
   // changed.
@@ -150,6 +161,7 @@ class RestrictedDelaunay : public SignedDelaunay {
   void release_edge(DualEdgeId e);
 
   FacetRule rule_;
+  Observer* observer_ = nullptr;
   struct TetRecord {
     std::array<DualEdgeId, 4> edges;  // of its facets
     std::uint32_t position = 0;       // in created(), if it is one of them

@@ -66,6 +66,7 @@ void RestrictedDelaunay::make_room(const PartRoom& last, std::size_t edges, int 
 RestrictedDelaunay::RestrictedDelaunay(RestrictedDelaunay& whole, const PartRoom& room, const EdgeRoom& edges)
     : SignedDelaunay(whole, room),
       rule_(whole.rule_),
+      observer_(whole.observer_),
       tets_(whole.tets_, room.tets),
       touches_(whole.touches_, room.vertices),
       stamp_(whole.stamp_),
@@ -91,6 +92,7 @@ std::vector<VertexId> RestrictedDelaunay::join(std::span<const std::unique_ptr<R
   }
   std::vector<VertexId> renamed = delaunay_.finish_join();
   rename(renamed);
+  if (observer_ != nullptr) observer_->renamed(renamed);
   return renamed;
 }
 

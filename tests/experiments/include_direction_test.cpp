@@ -59,7 +59,7 @@ const std::map<std::string, Floors> kFloors = {
      {{"experiments/system"},
       {"experiments/config", "experiments/pictures"},
       {"experiments/runs"},
-      {"experiments/results"},
+      {"experiments/results", "experiments/lesson/trace"},
       {"experiments/commands"},
       {"experiments"}}},
 };
