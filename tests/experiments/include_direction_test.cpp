@@ -58,7 +58,7 @@ const std::map<std::string, Floors> kFloors = {
     {"experiments",
      {{"experiments/system"},
       {"experiments/config", "experiments/pictures"},
-      {"experiments/runs"},
+      {"experiments/runs", "experiments/lesson"},
       {"experiments/results"},
       {"experiments/commands"},
       {"experiments"}}},
