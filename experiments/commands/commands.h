@@ -16,6 +16,7 @@ void add_generate_command(CommandLine& line, ExitCode& exit_code);
 void add_run_command(CommandLine& line, ExitCode& exit_code);
 void add_table_command(CommandLine& line, ExitCode& exit_code);
 void add_render_command(CommandLine& line, ExitCode& exit_code);
+void add_explain_command(CommandLine& line, ExitCode& exit_code);
 void add_schema_command(CommandLine& line, ExitCode& exit_code);
 
 }  // namespace deliso

@@ -73,6 +73,7 @@ ExitCode run(int argc, const char* const* argv) {
   add_run_command(line, exit_code);
   add_table_command(line, exit_code);
   add_render_command(line, exit_code);
+  add_explain_command(line, exit_code);
   add_schema_command(line, exit_code);
   line.parse(argc, argv);
   return exit_code;

@@ -58,8 +58,8 @@ const std::map<std::string, Floors> kFloors = {
     {"experiments",
      {{"experiments/system"},
       {"experiments/config", "experiments/pictures"},
-      {"experiments/runs"},
-      {"experiments/results", "experiments/lesson/trace"},
+      {"experiments/runs", "experiments/lesson/trace"},
+      {"experiments/results", "experiments/lesson"},
       {"experiments/commands"},
       {"experiments"}}},
 };

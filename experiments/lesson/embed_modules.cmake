@@ -1,0 +1,15 @@
+# Writes ${OUTPUT}, a source file that holds the modules of the page (${FOLDER}/modules.txt lists them) as strings, so that
+# the program needs no file beside it. Runs at build time, when a module has changed.
+set(text "// Written by the build.\n#include \"experiments/lesson/lesson_modules.h\"\n\nnamespace deliso {\n")
+string(APPEND text "\nstd::span<const LessonModule> lesson_modules() {\n  static constexpr LessonModule kModules[] = {\n")
+file(STRINGS ${FOLDER}/modules.txt names)
+foreach(name IN LISTS names)
+  file(READ ${FOLDER}/${name} module)
+  string(FIND "${module}" ")~module\"" end)
+  if(NOT end EQUAL -1)
+    message(FATAL_ERROR "${name} holds the sequence that ends it in ${OUTPUT}")
+  endif()
+  string(APPEND text "{\"${name}\", R\"~module(${module})~module\"},\n")
+endforeach()
+string(APPEND text "  };\n  return kModules;\n}\n\n}  // namespace deliso\n")
+file(WRITE ${OUTPUT} "${text}")

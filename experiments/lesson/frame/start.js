@@ -1,0 +1,11 @@
+// The last module: everything is defined, the page begins. An error is shown where a reader sees it.
+window.addEventListener("error", (event) => {
+  const root = document.getElementById("lesson");
+  root.prepend(Lesson.element("p", {class: "failure", role: "alert"}, `This page has a bug: ${event.message}`));
+});
+
+Lesson.data = JSON.parse(document.getElementById("lesson-data").textContent);
+Lesson.theme.apply();
+for (const prepare of Lesson.preparations ?? []) prepare();
+if (window.location.hash === "#selftest") Lesson.selftest.run(document.getElementById("lesson"));
+else Lesson.page = new Lesson.Page(document.getElementById("lesson"));

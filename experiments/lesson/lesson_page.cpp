@@ -1,0 +1,63 @@
+#include "experiments/lesson/lesson_page.h"
+
+#include <string_view>
+
+#include "delaunay/base/check.h"
+#include "experiments/config/json.h"
+#include "experiments/lesson/lesson_modules.h"
+
+namespace deliso {
+namespace {
+
+// All modules whose names end like this, one after the other.
+std::string modules_of_kind(std::string_view ending) {
+  std::string text;
+  for (const LessonModule& module : lesson_modules()) {
+    if (module.name.ends_with(ending)) text += module.text;
+  }
+  return text;
+}
+
+// Puts a text in the place of the mark, which occurs once.
+void put(std::string& page, std::string_view mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw InternalError("the page has no place for " + std::string(mark));
+  page.replace(at, mark.size(), text);
+}
+
+// JSON within HTML: "</" would end the element that holds it.
+std::string json_for_html(const Json& json) {
+  std::string text = json.dump();
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) text.insert(at + 1, "\\");
+  return text;
+}
+
+// Titles come from the program, but may name files.
+std::string escaped_for_html(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string lesson_page(const LessonOptions& options) {
+  std::string page = modules_of_kind(".html");
+  put(page, "@TITLE@", escaped_for_html(options.title));
+  put(page, "@STYLE@", modules_of_kind(".css"));
+  // As text, because the numbers of JavaScript end before those of 64 bits do.
+  const Json data = {{"title", options.title}, {"seed", std::to_string(options.seed)}};
+  put(page, "@DATA@", json_for_html(data));
+  put(page, "@SCRIPTS@", modules_of_kind(".js"));
+  return page;
+}
+
+}  // namespace deliso
