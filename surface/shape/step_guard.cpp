@@ -9,6 +9,7 @@
 #include "raycast/gradients_at.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/shape/place_search.h"
+#include "surface/shape/swept_samples.h"
 
 namespace deliso {
 
@@ -72,7 +73,7 @@ bool StepGuard::apply(const PatchStep& step) {
         std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
   }
   if (keeps_disks(step) && lies_near(first_added) && keeps_volume(old_volume, first_added) &&
-      crosses_nothing(first_added) && covers_witnesses(first_added)) {
+      keeps_sides(first_added) && crosses_nothing(first_added) && covers_witnesses(first_added)) {
     return true;
   }
   patch_.undo();
@@ -214,6 +215,14 @@ bool StepGuard::is_covered(const Vec3& p, double reach, std::size_t first_added)
   patch_.append_near({p - margin, p + margin}, near_);
   return std::any_of(near_.begin(), near_.end(),
                      [&](std::uint32_t t) { return is_within(p, patch_.corner_points(t), reach); });
+}
+
+bool StepGuard::keeps_sides(std::size_t first_added) {
+  new_triangles_.clear();
+  for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
+    new_triangles_.push_back(patch_.corner_points(static_cast<std::uint32_t>(t)));
+  }
+  return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
 }
 
 bool StepGuard::lies_near(std::size_t first_added) {

@@ -46,6 +46,7 @@ class StepGuard {
   [[nodiscard]] bool lies_near(std::size_t first_added);
   [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
+  [[nodiscard]] bool keeps_sides(std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
   [[nodiscard]] bool faces_down(std::uint32_t triangle, const Vec3& normal) const;
   [[nodiscard]] double sideways_height(const Vec3& centroid, const Vec3& normal, double reach);
@@ -61,6 +62,7 @@ class StepGuard {
   std::vector<std::uint32_t> changed_;              // the vertices of the removed triangles, ascending,
   std::vector<std::uint8_t> was_closed_;            // and whether their links were
   std::vector<std::array<Vec3, 3>> old_triangles_;  // corners of the removed triangles
+  std::vector<std::array<Vec3, 3>> new_triangles_;  // and of those added
   Vec3 old_normal_;                                 // the sum of their normals
   double old_height_ = 0;                           // the largest of them
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface

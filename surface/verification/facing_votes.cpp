@@ -11,7 +11,10 @@ namespace deliso {
 
 namespace {
 
-constexpr double kLineOffset = 0x1p-12;  // voxels from a grid edge to the lines beside it
+// A component that follows the isosurface has few passes against it, in folds. Where sheets are thinner than the mesh
+// may be off, whole triangles may lie on the other side of samples; one that is reversed has far more.
+constexpr std::int64_t kMostAgainst = 2;  // for each pass towards lower values
+constexpr double kLineOffset = 0x1p-12;   // voxels from a grid edge to the lines beside it
 
 // Where a line parallel to `axis` through `on_line` meets a triangle; nothing where it passes beside it.
 std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on_line, std::size_t axis) {
@@ -27,6 +30,11 @@ std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on
   const double sum = weight[0] + weight[1] + weight[2];
   return (weight[0] * corners[0][axis] + weight[1] * corners[1][axis] + weight[2] * corners[2][axis]) / sum;
 }
+
+// Passes of a component: towards lower values, and towards higher ones.
+struct Votes {
+  std::int64_t down = 0, up = 0;
+};
 
 // The vote of a triangle at its pass of a line beside a grid edge. The line's ends have to lie on the sides that the
 // edge's samples lie on: else the isosurface runs along the edge, and not across it.
@@ -49,9 +57,8 @@ int vote(const std::array<Vec3, 3>& corners, const Vec3& on_edge, const Vec3& on
   return (along > 0) == behind ? 1 : -1;
 }
 
-// The sum over the lines that may meet a triangle.
-std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, const IsosurfaceProbe& probe) {
-  std::int64_t sum = 0;
+// Adds those at the lines that may meet a triangle.
+void add_votes(const std::array<Vec3, 3>& corners, std::size_t axis, const IsosurfaceProbe& probe, Votes& votes) {
   Box3 box{corners[0], corners[0]};
   for (const Vec3& p : corners) box.extend(p);
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -75,24 +82,29 @@ std::int64_t votes_along(const std::array<Vec3, 3>& corners, std::size_t axis, c
           Vec3 on_line = on_edge;
           on_line[u] += side_u;
           on_line[v] += side_v;
-          if (probe.box().contains(on_line)) sum += vote(corners, on_edge, on_line, axis, probe);
+          if (!probe.box().contains(on_line)) continue;
+          const int its = vote(corners, on_edge, on_line, axis, probe);
+          votes.down += its > 0 ? 1 : 0;
+          votes.up += its < 0 ? 1 : 0;
         }
       }
     }
   }
-  return sum;
 }
 
 }  // namespace
 
 std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
                                        std::size_t components, const IsosurfaceProbe& probe) {
-  std::vector<std::int64_t> votes(components, 0);
+  std::vector<Votes> votes(components);
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
-    for (std::size_t axis = 0; axis < 3; ++axis) votes[component_of_vertex[a]] += votes_along(corners, axis, probe);
+    for (std::size_t axis = 0; axis < 3; ++axis) add_votes(corners, axis, probe, votes[component_of_vertex[a]]);
   }
-  return votes;
+  std::vector<std::int64_t> sums;
+  for (const auto& [down, up] : votes)
+    sums.push_back(up > kMostAgainst * down ? down - up : std::max<std::int64_t>(0, down - up));
+  return sums;
 }
 
 }  // namespace deliso
