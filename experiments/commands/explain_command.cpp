@@ -1,35 +1,118 @@
-// deliso explain: writes a lesson, a page that shows the algorithm step by step.
+// deliso explain: writes a lesson, a page that shows the algorithm step by step; or the trace of a run, or its
+// transcript.
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/config.h"
 #include "experiments/lesson/lesson_page.h"
+#include "experiments/lesson/lesson_run.h"
+#include "experiments/lesson/trace/transcript.h"
+#include "experiments/runs/record.h"
 #include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
+#include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
+#include "volume/fields/field_slices.h"
 
 namespace deliso {
 namespace {
 
 struct ExplainCommandOptions {
+  std::string volume;
+  std::string isovalue;
   std::string output;
+  std::string trace;
+  std::string config;
+  std::vector<std::string> assignments;
   std::string seed = "1";
+  bool text = false;
+  bool answers = false;
 };
 
+// The page shall be no larger.
+constexpr std::size_t kMostPageBytes = 1'950'000;
+
+MeshingOptions meshing_options(const ExplainCommandOptions& options) {
+  MeshingOptions meshing;
+  if (!options.config.empty()) meshing.parameters = read_parameters(options.config);
+  for (const std::string& assignment : options.assignments) set_parameter(assignment, meshing.parameters);
+  meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  meshing.stop = &catch_stop_signals();
+  return meshing;
+}
+
+// The runs of the page: that of the volume, or of the built-in torus; and noise, which shows every refusal.
+std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options) {
+  constexpr std::int32_t kTorusSize = 16, kNoiseSize = 8;
+  constexpr double kTorusIsovalue = 0.7, kNoiseIsovalue = 127.5;
+  const MeshingOptions meshing = meshing_options(options);
+  std::vector<LessonRun> runs;
+  if (options.volume.empty()) {
+    runs.push_back(run_observed("torus", generate_field("torus", kTorusSize), kTorusIsovalue, meshing));
+  } else {
+    const double isovalue = parse_number(options.isovalue, "--isovalue");
+    VolumeOptions volume;
+    volume.path = options.volume;
+    const ScalarGrid grid = load_volume(volume).grid;
+    check_isovalue(grid, isovalue);
+    runs.push_back(run_observed(std::filesystem::path(options.volume).filename().string(), grid, isovalue, meshing));
+  }
+  if (!options.output.empty())
+    runs.push_back(run_observed("noise", generate_field("noise", kNoiseSize), kNoiseIsovalue, meshing));
+  return runs;
+}
+
+std::string trace_text(const LessonRun& run) {
+  std::string text = Json{{"e", "begin"},
+                          {"schema", "deliso-trace-1"},
+                          {"program", program_json()},
+                          {"volume", run.name},
+                          {"isovalue", run.result.isovalue_used}}
+                         .dump() +
+                     "\n";
+  for (const Json& event : run.events) text += event.dump() + "\n";
+  return text;
+}
+
 ExitCode run_explain(const ExplainCommandOptions& options) {
-  if (options.output.empty()) throw InputError("explain: -o LESSON is required (a page such as lesson.html)");
+  if (options.output.empty() && options.trace.empty() && !options.text)
+    throw InputError("explain: -o LESSON (a page such as lesson.html), --trace or --text is required");
+  if (!options.volume.empty() && options.isovalue.empty())
+    throw InputError("explain: --isovalue is required with a volume");
+  if (options.volume.empty() && !options.isovalue.empty())
+    throw InputError("explain: --isovalue needs a volume; without one the built-in torus is shown");
   LessonOptions lesson;
   lesson.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
-  check_writable(options.output, "-o");
-  const std::string page = lesson_page(lesson);
+  lesson.shows_answers = options.answers;
+  if (!options.output.empty()) check_writable(options.output, "-o");
+  if (!options.trace.empty()) check_writable(options.trace, "--trace");
+  check_distinct({{"VOLUME", options.volume}, {"--config", options.config}},
+                 {{"-o", options.output}, {"--trace", options.trace}});
+
+  const std::vector<LessonRun> runs = observed_runs(options);
+  if (!options.trace.empty()) write_text(trace_text(runs.front()), options.trace);
+  if (options.text) {
+    for (const Json& event : runs.front().events) std::cout << sentence_of(event) << '\n';
+  }
+  if (options.output.empty()) return ExitCode::kDone;
+  lesson.runs = &runs;
+  const std::string page = lesson_page(lesson, kMostPageBytes);
   write_text(page, options.output);
+  if (options.text) return ExitCode::kDone;
   TextTable()
       .row({"lesson", options.output})
       .row({"bytes", std::to_string(page.size())})
+      .row({"events", std::to_string(runs.front().events.size())})
       .row({"seed", std::to_string(lesson.seed)})
       .print(std::cout);
   return ExitCode::kDone;
@@ -40,8 +123,23 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
 void add_explain_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<ExplainCommandOptions>();
   Command command = line.add_command("explain", "Write a lesson: a page that shows the algorithm step by step");
+  command.add_option("VOLUME", options->volume, "A small volume to mesh step by step (default: the built-in torus)")
+      .type_name("")
+      .check(refuse_empty_name);
+  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K");
   command.add_option("-o,--output", options->output, "The page: .html, to be opened from disk").type_name("LESSON");
-  command.add_option("--seed", options->seed, "Seed of the random fields and exercises in the page")
+  command.add_option("--trace", options->trace, "Write every step of the run as JSON lines")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_flag("--text", options->text, "Say every step of the run in a sentence, on stdout");
+  command.add_flag("--answers", options->answers, "The page shows the answers of its exercises at once");
+  command.add_option("--config", options->config, "Parameters in a JSON file")
+      .type_name("FILE")
+      .check(refuse_empty_name);
+  command.add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
+      .type_name("KEY=VALUE")
+      .repeatable();
+  command.add_option("--seed", options->seed, "Seed of the run, and of the random fields and exercises in the page")
       .type_name("N")
       .show_default();
   command.callback(exit_code, [options] { return run_explain(*options); });

@@ -1,5 +1,7 @@
 #include "experiments/lesson/lesson_page.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include "delaunay/base/check.h"
@@ -49,14 +51,26 @@ std::string escaped_for_html(const std::string& text) {
 
 }  // namespace
 
-std::string lesson_page(const LessonOptions& options) {
+std::string lesson_page(const LessonOptions& options, std::size_t most_bytes) {
   std::string page = modules_of_kind(".html");
   put(page, "@TITLE@", escaped_for_html(options.title));
   put(page, "@STYLE@", modules_of_kind(".css"));
   // As text, because the numbers of JavaScript end before those of 64 bits do.
-  const Json data = {{"title", options.title}, {"seed", std::to_string(options.seed)}};
+  Json data = {{"title", options.title},
+               {"seed", std::to_string(options.seed)},
+               {"answers", options.shows_answers},
+               {"runs", Json::array()}};
+  const std::string scripts = modules_of_kind(".js");
+  std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size());
+  const std::size_t count = options.runs == nullptr ? 0 : options.runs->size();
+  // The main run may take most of the page; the others get what it leaves.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t share = i + 1 < count ? room * 3 / 5 : room;
+    data["runs"].push_back(lesson_data((*options.runs)[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, share));
+    room -= std::min(room, data["runs"].back().dump().size());
+  }
   put(page, "@DATA@", json_for_html(data));
-  put(page, "@SCRIPTS@", modules_of_kind(".js"));
+  put(page, "@SCRIPTS@", scripts);
   return page;
 }
 

@@ -3,16 +3,21 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include "experiments/lesson/lesson_run.h"
 
 namespace deliso {
 
 struct LessonOptions {
   std::string title = "DelIso";
-  std::uint64_t seed = 1;  // of what is random in the page: fields, instances of exercises
+  std::uint64_t seed = 1;                        // of what is random in the page: fields, instances of exercises
+  bool shows_answers = false;                    // of exercises, before they are tried
+  const std::vector<LessonRun>* runs = nullptr;  // that the page plays: the main one, then others
 };
 
 // The page as a whole: the template with the style sheet, the scripts and the data put in. Equal options give equal
-// bytes.
-std::string lesson_page(const LessonOptions& options);
+// bytes. Runs are cut so that the page has about `most_bytes` at most.
+std::string lesson_page(const LessonOptions& options, std::size_t most_bytes);
 
 }  // namespace deliso

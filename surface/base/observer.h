@@ -61,6 +61,9 @@ class Observer {
   // E is about to be replaced by the star of the candidate's point, the next vertex.
   virtual void disk(const RefinementMesh& /*mesh*/, const RefinementDisk& /*e*/,
                     const RefinementCandidate& /*candidate*/) {}
+  // x_sigma of a coarse triangle is refused, with this disk E; another point may be tried before disk_refused().
+  virtual void attempt_refused(const RefinementMesh& /*mesh*/, const RefinementDisk& /*e*/,
+                               const RefinementCandidate& /*candidate*/) {}
   // A coarse triangle stays as it is for now, for a cause of kRefusalNames.
   virtual void disk_refused(const RefinementMesh& /*mesh*/, std::uint32_t /*triangle*/, std::string_view /*cause*/) {}
   // All insertions since meshed() are taken back.

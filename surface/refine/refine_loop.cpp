@@ -108,13 +108,20 @@ bool RefineLoop::treat(std::uint32_t triangle) {
   const std::uint32_t state = mesh_.triangles[triangle].state;
   TriangleSide encroached = kNoSide;
   is_blocked_ = false;
+  const auto tell_of_refused_attempt = [&] {
+    if (options_.observer != nullptr) options_.observer->attempt_refused(mesh_, disk_, candidate);
+  };
   std::optional<Refusal> refusal = insert(candidate, &encroached);
+  if (refusal) tell_of_refused_attempt();
   if (encroached != kNoSide) {
     const auto on_boundary = boundary_candidate(mesh_, isosurface_, encroached, options_.r_min, stats_.search);
     refusal = on_boundary ? insert(*on_boundary, nullptr) : Refusal::kNoHit;
     if (!refusal) ++stats_.boundary_splits;
     const bool is_inside = isosurface_.box().contains(candidate.point);
-    if (refusal && !is_blocked_ && is_inside) refusal = insert(candidate, nullptr);
+    if (refusal && !is_blocked_ && is_inside) {
+      refusal = insert(candidate, nullptr);
+      if (refusal) tell_of_refused_attempt();
+    }
   }
   if (refusal && !is_blocked_) {
     const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);

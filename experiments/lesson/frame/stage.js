@@ -27,9 +27,10 @@ Lesson.Stage = class {
     const {clientWidth: width, clientHeight: height} = this.canvas;
     if (!this.player || width === 0) return;
     const scene = this.scene();
-    if (!this.view || this.view.width !== width || this.view.height !== height) {
-      this.view = new Lesson.View(scene.bounds, width, height);
-    }
+    const isSame = this.view && this.view.width === width && this.view.height === height &&
+        this.bounds.every((bound, i) => bound === scene.bounds[i]);
+    if (!isSame) this.view = new Lesson.View(scene.bounds, width, height);
+    this.bounds = scene.bounds;
     const context = Lesson.sizedContext(this.canvas, width, height);
     Lesson.paint(scene, this.view, new Lesson.CanvasPainter(context),
                  {layers: this.player.layers, dark: Lesson.theme.isDark()});

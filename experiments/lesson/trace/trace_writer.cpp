@@ -188,6 +188,7 @@ void TraceWriter::meshed(const SurfaceMesh& mesh, const Criteria& limits) {
 }
 
 void TraceWriter::disk(const RefinementMesh& mesh, const RefinementDisk& e, const RefinementCandidate& candidate) {
+  pending_ = {};
   const RefinementMesh::Triangle& seed = mesh.triangles[candidate.seed];
   const std::array<Vec3, 3> p = mesh.corner_points(seed.corners);
   const Circumcircle circle = circumcircle(p[0], p[1], p[2]);
@@ -216,8 +217,19 @@ void TraceWriter::disk(const RefinementMesh& mesh, const RefinementDisk& e, cons
          {"closed", is_closed}});
 }
 
+void TraceWriter::attempt_refused(const RefinementMesh& mesh, const RefinementDisk& e,
+                                  const RefinementCandidate& candidate) {
+  TraceEvent gone = TraceEvent::array();
+  for (const std::uint32_t t : e.triangles()) gone.push_back(mesh.triangles[t].corners);
+  pending_ = {{"e", "keep"}, {"p", array_of(candidate.point)}, {"gone", std::move(gone)}};
+}
+
 void TraceWriter::disk_refused(const RefinementMesh& mesh, std::uint32_t triangle, std::string_view cause) {
-  sink_({{"e", "keep"}, {"t", mesh.triangles[triangle].corners}, {"cause", cause}});
+  TraceEvent event = std::exchange(pending_, {});
+  event["e"] = "keep";
+  event["t"] = mesh.triangles[triangle].corners;
+  event["cause"] = cause;
+  sink_(event);
 }
 
 void TraceWriter::restarted() {

@@ -6,7 +6,7 @@
 //   refuse    why, its measures, cause
 //   mesh      points, poles, triangles, limits: what stage 2 begins with
 //   refine    t, why, h, r, l, pole, v, p, gone (E), rim, closed
-//   keep      t, cause: a coarse triangle whose refinement is refused for now
+//   keep      t, cause: a coarse triangle whose refinement is refused for now; p and gone (E) where x_sigma was tried
 //   restart   all insertions since `mesh` are taken back
 //   refined   vertices, triangles (counts), and the mesh itself after a restart
 //   shape     the mesh after steps of another kind
@@ -43,6 +43,8 @@ class TraceWriter : public Observer {
   void renamed(std::span<const VertexId> renamed) override;
   void meshed(const SurfaceMesh& mesh, const Criteria& limits) override;
   void disk(const RefinementMesh& mesh, const RefinementDisk& e, const RefinementCandidate& candidate) override;
+  void attempt_refused(const RefinementMesh& mesh, const RefinementDisk& e,
+                       const RefinementCandidate& candidate) override;
   void disk_refused(const RefinementMesh& mesh, std::uint32_t triangle, std::string_view cause) override;
   void restarted() override;
   void refined(const RefinementMesh& mesh) override;

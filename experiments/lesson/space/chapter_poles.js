@@ -1,0 +1,98 @@
+// Chapter 6: the poles. The surface cuts the Voronoi cell of a vertex in two; on either side the farthest Voronoi vertex is
+// a pole, and the nearer one of the two counts. Then the tetrahedra go.
+Lesson.PolesChapter = class extends Lesson.SpaceChapter {
+  constructor(run) {
+    super(run, {name: "poles", title: "6 Poles", code: Lesson.PolesChapter.code, shownLayers: [1, 2, 5, 9]});
+    this.kinds = {
+      start: {title: "Del S1", mark: "bar", role: "plain"},
+      above: {title: "the pole above", key: "a", mark: "square", role: "poles"},
+      below: {title: "the pole below", key: "b", mark: "disc", role: "poles"},
+      mesh: {title: "BuildTriMesh", mark: "pentagon", role: "plain"},
+    };
+    this.last = Math.max(0, run.meshAt - 1);
+    this.list.push({kind: "start", event: this.last});
+    const replay = run.at(this.last);
+    for (let q = 0; q < replay.points.length && this.list.length < 60; ++q) {
+      const poles = this.poles(replay, q);
+      if (!poles.above && !poles.below) continue;
+      const counts = !poles.below || (poles.above && poles.above.distance <= poles.below.distance) ? "above" : "below";
+      this.list.push({kind: counts, event: this.last, q});
+    }
+    if (run.meshAt >= 0) this.list.push({kind: "mesh", event: run.meshAt});
+  }
+
+  // The Voronoi vertices of q: its tetrahedra's circumcenters. At the hull the cell is not bounded, and the box limits it.
+  poles(replay, q) {
+    const found = {above: null, below: null};
+    for (const {v, above} of replay.tets.values()) {
+      if (!v.includes(q) || v.some((corner) => replay.isVirtual(corner))) continue;
+      const point = Lesson.vectors.circumcenter(v.map((corner) => replay.points[corner]));
+      const distance = Lesson.vectors.distance(point, replay.points[q]);
+      const side = above ? "above" : "below";
+      if (!found[side] || distance > found[side].distance) found[side] = {point, distance};
+    }
+    return found;
+  }
+
+  draw(picture, step) {
+    const {q, event, kind} = this.list[step];
+    const replay = this.run.at(event);
+    if (kind === "mesh") return picture.mesh(replay.mesh);
+    for (const f of replay.restricted()) picture.face(f.map((v) => replay.points[v]), "meshFace", 5);
+    picture.flush();
+    if (q === undefined) return picture.vertices(replay.points, -1);
+    for (const key of replay.sides.keys()) {
+      const v = key.split(",").map(Number);
+      if (v.includes(q) && !v.some((corner) => replay.isVirtual(corner))) {
+        picture.line(picture.dualEdge(replay, key), "voronoi", 9);
+      }
+    }
+    const poles = this.poles(replay, q);
+    for (const side of ["above", "below"]) {
+      const pole = poles[side];
+      if (!pole) continue;
+      const end = picture.clampTo(this.around(replay, q), pole.point);
+      picture.line([replay.points[q], end], side === kind ? "target" : "poleLine", 9);
+      picture.mark(end, "diamond", "pole", 9, side === kind ? 8 : 5);
+    }
+    picture.mark(replay.points[q], "disc", "vertex", 0, 6);
+    return picture.label(replay.points[q], String(q), 9);
+  }
+
+  // Three vertices near q, for the clamp.
+  around(replay, q) {
+    return replay.restricted().find((f) => f.includes(q)).map((v) => replay.points[v]);
+  }
+
+  sentence(step) {
+    const {kind, q, event} = this.list[step];
+    if (kind === "start") return "Recover has ended. Every Voronoi cell is cut in two by the surface.";
+    if (kind === "mesh") return "BuildTriMesh: the triangles stay, the tetrahedra go. What needs empty balls through all vertices can never be asked again.";
+    const {above, below} = this.poles(this.run.at(event), q);
+    const text = (pole) => (pole ? Lesson.numberText(pole.distance) : "none (not bounded)");
+    return `Vertex ${q}: the pole above is ${text(above)} away, the one below ${text(below)}. The nearer one counts: ${kind}.`;
+  }
+
+  next(step) {
+    if (step + 1 >= this.list.length) return null;
+    const {kind, q} = this.list[step + 1];
+    return {kind, sentence: kind === "mesh" ? "BuildTriMesh." : `Vertex ${q}: which of its poles counts?`};
+  }
+
+  why() {
+    return null;
+  }
+
+  line(step) {
+    return this.code.lineOf(this.list[step + 1]?.kind ?? "mesh");
+  }
+};
+
+Lesson.PolesChapter.code = (() => {
+  const lines = [
+    {text: "ComputePoles: the farthest Voronoi vertices", file: "surface/restricted/poles.h", name: "compute_poles", kinds: ["above", "below"]},
+    {text: "h_q: the nearer one (stage2.pole_height)", file: "surface/base/parameters.h", name: "PoleHeight"},
+    {text: "BuildTriMesh", file: "surface/extract/build_triangle_mesh.h", name: "build_triangle_mesh", kinds: ["mesh"]},
+  ];
+  return {title: "Figure 9, lines 1 and 2", lines, lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))};
+})();

@@ -1,0 +1,76 @@
+// Chapter 5: Recover, from Del S0 until the restricted facets are what the surface is.
+Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
+  constructor(run) {
+    super(run, {name: "recover", title: "5 Recover", code: Lesson.spaceCode.stage1, shownLayers: [1, 5, 6, 7, 8]});
+    for (let i = 0; i <= Math.max(0, run.meshAt); ++i) {
+      this.list.push({kind: Lesson.spaceStory.kindOf(run.events[i]), event: i});
+    }
+    this.explode = 0;
+  }
+
+  draw(picture, step, preview) {
+    // The last step is the mesh; the triangulation it was built from is shown until then.
+    const replay = this.run.at(this.list[step].event);
+    if (this.event(step).e === "mesh") {
+      picture.mesh(replay.mesh);
+      return picture.vertices(replay.mesh.points, -1);
+    }
+    picture.triangulation(replay);
+    const next = this.nextEvent(step);
+    if (preview && next) this.drawAction(picture, replay, next);
+    return picture.vertices(replay.points, this.event(step).v);
+  }
+
+  // What is about to happen: the element in question, the conflict region, and the star over its rim.
+  drawAction(picture, replay, event) {
+    const {keyOf, rimOf} = Lesson.Replay;
+    const points = (v) => v.map((corner) => replay.points[corner]);
+    for (const f of event.disk ?? []) if (f.every((v) => v >= 0)) picture.line([...points(f), replay.points[f[0]]], "target", 0);
+    if (event.sigma) {
+      const facet = event.sigma.slice(0, 3);
+      picture.line([...points(facet), replay.points[facet[0]]], "target", 0);
+      picture.line(picture.dualEdge(replay, keyOf(facet)), "dualEdge", 0);
+      for (const p of picture.hitsOf(replay, keyOf(facet))) picture.mark(p, "cross", "hit", 0, 7);
+    }
+    if (!event.p) return;
+    picture.tets(event.gone, replay.points, event.p, this.explode, "conflictFace", 7);
+    for (const f of rimOf(event.gone)) {
+      const finite = f.filter((v) => v >= 0);
+      picture.line(points(finite), "rim", 8);
+      for (const v of finite) picture.line([replay.points[v], event.p], "star", 8);
+    }
+    picture.mark(event.p, "star", "point", 0, 8);
+    picture.label(event.p, "next", 9);
+  }
+
+  extra(step) {
+    if (this.event(step).e === "mesh") return "";
+    const {chi, components} = this.run.complex(this.list[step].event);
+    const exact = this.run.exact();
+    return ` The restricted facets: χ = ${chi} in ${Lesson.countText(components, "component")}; the surface: χ = ` +
+        `${exact.chi} in ${exact.components}.`;
+  }
+
+  exercises() {
+    const {run} = this;
+    const steps = run.homeomorphicAt();
+    const insertions = steps < 0 ? 0 : run.events.slice(0, steps + 1).filter((event) => event.e === "insert").length;
+    if (steps < 0) return [];
+    return [{
+      question: "After how many insertions do χ and the number of components become those of the surface?",
+      answer: () => insertions,
+      because: () => `address #recover/${steps}; everything that Recover does after it serves umbrellas and shape.`,
+    }];
+  }
+
+  viewPanel() {
+    const slider = Lesson.element("input", {type: "range", min: 0, max: 1.5, step: 0.05, value: this.explode,
+                                            "aria-label": "explode the conflict region", oninput: (event) => {
+      this.explode = Number(event.target.value);
+      this.context.redraw();
+    }});
+    const box = super.viewPanel();
+    box.append(Lesson.element("label", {class: "setting"}, Lesson.element("span", {}, "explode the conflict region"), slider));
+    return box;
+  }
+};

@@ -1,0 +1,63 @@
+// A run of the program with what its chapters share: the trace, its replay, and where the reader stands.
+Lesson.SpaceRun = class {
+  constructor({name, volume, events, limits, left_out: leftOut}) {
+    Object.assign(this, {name, volume, events, leftOut});
+    const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
+    this.box = [[0, 0, 0], last];
+    this.camera = new Lesson.Camera(this.box);
+    this.replay = new Lesson.Replay(events);
+    this.meshAt = events.findIndex((event) => event.e === "mesh");
+    this.limits = {...limits, ...(this.meshAt >= 0 ? events[this.meshAt].limits : {})};
+    this.end = events[events.length - 1];
+  }
+
+  // The replay after an event; the last event that is no state of its own shows the one before.
+  at(event) {
+    return this.replay.goTo(Math.max(0, event));
+  }
+
+  // What the restricted facets are after an event of stage 1, as BuildTriMesh would take them.
+  complex(event) {
+    this.complexes ??= new Map();
+    if (!this.complexes.has(event)) this.complexes.set(event, Lesson.restrictedComplex(this.at(event), this.volume));
+    return this.complexes.get(event);
+  }
+
+  // Of the exact surface, all components together.
+  exact() {
+    const sum = {chi: 0, components: 0};
+    for (const {chi, count} of this.end.isosurface ?? []) {
+      sum.chi += chi * count;
+      sum.components += count;
+    }
+    return sum;
+  }
+
+  // The first event of stage 1 after which the Euler characteristic and the number of components are right.
+  homeomorphicAt() {
+    const {chi, components} = this.exact();
+    for (let i = 0; i < this.meshAt; ++i) {
+      const found = this.complex(i);
+      if (found.chi === chi && found.components === components && !found.open) return i;
+    }
+    return -1;
+  }
+};
+
+// An exercise: a question with a number as its answer, which is computed from the state when it is asked for.
+Lesson.exercise = ({question, answer, because}) => {
+  const {element} = Lesson;
+  const reply = element("p", {class: "score", "aria-live": "polite"});
+  const field = element("input", {type: "number", step: 1, "aria-label": question});
+  const check = () => {
+    if (field.value === "") return;
+    const right = answer();
+    reply.textContent = Number(field.value) === right ? `Right: ${because(right)}` : "Not so. Look again, or ask for the answer.";
+  };
+  const show = () => (reply.textContent = `${answer()}: ${because(answer())}`);
+  field.addEventListener("keydown", (event) => event.key === "Enter" && check());
+  const box = element("div", {class: "exercise"}, element("h2", {}, "Exercise"), element("p", {}, question), field, " ",
+                      element("button", {onclick: check}, "Check"), " ", element("button", {onclick: show}, "Answer"), reply);
+  if (Lesson.data.answers) show();
+  return box;
+};
