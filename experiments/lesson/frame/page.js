@@ -54,8 +54,9 @@ Lesson.Page = class {
                    element("button", {onclick: () => this.help.close()}, "Close"));
   }
 
-  showAddress() {
-    const {chapter: name, step, rest} = Lesson.address.parse(window.location.hash);
+  showAddress(hash = window.location.hash) {
+    Lesson.address.forget();
+    const {chapter: name, step, rest} = Lesson.address.parse(hash);
     const chapter = Lesson.chapters.find((other) => other.name === name) ?? Lesson.chapters[0];
     if (chapter !== this.chapter) this.open(chapter);
     if (this.player) {
