@@ -15,7 +15,11 @@ Lesson.CodingLab = class {
     this.tabs = element("nav", {"aria-label": "tasks"});
     this.statement = element("p", {});
     this.input = element("textarea", {
-      class: "program", rows: 16, spellcheck: "false", autocapitalize: "off", "aria-label": "your function",
+      class: "program",
+      rows: 13,
+      spellcheck: "false",
+      autocapitalize: "off",
+      "aria-label": "your function",
       oninput: () => this.codes.set(this.task.name, this.input.value),
     });
     this.result = element("p", {class: "score", role: "status"});
@@ -25,7 +29,8 @@ Lesson.CodingLab = class {
     this.button = element("button", {class: "check", onclick: () => this.check()}, "Check");
     const page = element(
         "div", {class: "coding"},
-        element("div", {}, this.tabs, this.statement, this.input, element("div", {class: "controls"}, this.button, begin)),
+        element(
+            "div", {}, this.tabs, this.statement, this.input, element("div", {class: "controls"}, this.button, begin)),
         element("div", {}, this.result, this.details, this.canvas));
     this.showTask();
     return page;
@@ -38,19 +43,20 @@ Lesson.CodingLab = class {
 
   // Dark or light has changed, or the size.
   redraw() {
-    if (this.wrong && !this.canvas.hidden) this.draw();
+    if (this.shown) this.draw();
   }
 
   showTask() {
-    this.tabs.replaceChildren(...Lesson.codingTasks.map((task) => Lesson.element(
-        "a", {href: `#coding/${task.name}`, "aria-current": task === this.task ? "page" : null},
-        `${task.title}${this.solved.has(task.name) ? " ✓" : ""}`)));
+    this.tabs.replaceChildren(...Lesson.codingTasks.map(
+        (task) => Lesson.element(
+            "a", {href: `#coding/${task.name}`, "aria-current": task === this.task ? "page" : null},
+            `${task.title}${this.solved.has(task.name) ? " ✓" : ""}`)));
     this.statement.textContent = this.task.statement;
     this.input.value = this.codes.get(this.task.name);
-    this.result.textContent = `Instances of seed ${this.seed}.`;
-    this.details.textContent = "";
-    this.wrong = null;
-    this.canvas.hidden = true;
+    // The first instance and its answer say in one glance what the task is.
+    const [instance] = Lesson.judge.instancesOf(this.task, this.seed);
+    this.result.textContent = `The first of the instances (seed ${this.seed}):`;
+    this.showCase({instance, right: this.task.answer(instance)});
   }
 
   reset() {
@@ -68,44 +74,49 @@ Lesson.CodingLab = class {
   }
 
   showVerdict({passed, total, error, case: wrong}) {
-    const {task} = this;
-    this.wrong = null;
-    this.canvas.hidden = true;
-    this.details.textContent = "";
     if (error) {
       this.result.textContent = `It does not run: ${error}`;
     } else if (!wrong) {
-      this.solved.add(task.name);
+      this.solved.add(this.task.name);
       this.showTask();
       this.result.textContent = `All ${total} instances are right.`;
     } else {
-      this.wrong = wrong;
-      this.result.textContent = `${passed} of ${total} instances are right. The first that is not: number ${wrong.index + 1}.`;
-      this.details.textContent = this.explain(wrong);
-      this.canvas.hidden = false;
-      this.draw();
+      this.result.textContent =
+          `${passed} of ${total} instances are right. The first that is not is number ${wrong.index + 1}:`;
+      this.showCase(wrong);
     }
   }
 
-  explain({instance, given, right, error}) {
+  // An instance with the right answer and, after a check, the student's.
+  showCase(shown) {
+    this.shown = shown;
+    this.details.textContent = this.explain(shown);
+    this.draw();
+  }
+
+  explain({instance, given, right, error, index}) {
     const short = (value) => {
       const text = JSON.stringify(value, (_, x) => (typeof x === "number" ? Number(x.toFixed(6)) : x)) ?? String(value);
       return text.length > 300 ? `${text.slice(0, 300)} …` : text;
     };
     const values = instance.arguments.map(short).join(", ");
-    const yours = error ? `yours threw      ${error}` : `yours returned   ${short(given)}`;
-    return `${this.task.name}(${values})\n\nought to return  ${short(right)}\n${yours}`;
+    const rows = [`${this.task.name}(${values})`, "", `ought to return  ${short(right)}`];
+    if (error)
+      rows.push(`yours threw      ${error}`);
+    else if (index !== undefined)
+      rows.push(`yours returned   ${short(given)}`);
+    return rows.join("\n");
   }
 
   draw() {
     const {clientWidth: width, clientHeight: height} = this.canvas;
     if (width === 0) return;
-    const {instance, given, right} = this.wrong;
+    const {instance, given, right} = this.shown;
     const scene = this.task.picture(instance, given, right);
     const view = new Lesson.View(scene.bounds, width, height);
-    // A graph may be stretched; the plane may not.
-    Lesson.paint(scene, view, new Lesson.CanvasPainter(Lesson.sizedContext(this.canvas, width, height)),
-                 {layers: null, dark: Lesson.theme.isDark()});
+    Lesson.paint(
+        scene, view, new Lesson.CanvasPainter(Lesson.sizedContext(this.canvas, width, height)),
+        {layers: null, dark: Lesson.theme.isDark()});
   }
 };
 

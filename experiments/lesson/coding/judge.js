@@ -46,8 +46,8 @@ Lesson.judge = (() => {
     worker.postMessage([code, name, calls]);
   });
 
-  // {passed, total, error} or {passed, total, case}, where the case is the first that is wrong: {index, instance, given,
-  // right, error}.
+  // {passed, total, error} or {passed, total, case}, where the case is the first that is wrong: {index, instance,
+  // given, right, error}.
   const compare = (task, instances, answer) => {
     const total = instances.length;
     if (answer.error) return {passed: 0, total, error: answer.error};
@@ -55,8 +55,10 @@ Lesson.judge = (() => {
     instances.forEach((instance, index) => {
       const right = task.answer(instance);
       const {value, error} = answer.results[index];
-      if (!error && task.isRight(value, right)) passed += 1;
-      else first ??= {index, instance, given: value, right, error};
+      if (!error && task.isRight(value, right))
+        passed += 1;
+      else
+        first ??= {index, instance, given: value, right, error};
     });
     return {passed, total, case: first};
   };

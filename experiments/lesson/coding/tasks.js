@@ -1,5 +1,5 @@
-// The coding lab: three functions, empty, that a student writes in the page. Instances depend on the seed; what is right
-// is found in another way than a good solution would find it, so that no solution stands in the page.
+// The coding lab: three functions, empty, that a student writes in the page. Instances depend on the seed; what is
+// right is found in another way than a good solution would find it, so that no solution stands in the page.
 Lesson.codingTasks = (() => {
   const kCount = 60;
   const near = (a, b, tolerance = 1e-6) => Math.abs(a - b) <= tolerance;
@@ -15,8 +15,10 @@ Lesson.codingTasks = (() => {
       if (startsBelow === f(high) < 0) continue;
       for (let i = 0; i < 60; ++i) {
         const middle = (low + high) / 2;
-        if (f(middle) < 0 === startsBelow) low = middle;
-        else high = middle;
+        if (f(middle) < 0 === startsBelow)
+          low = middle;
+        else
+          high = middle;
       }
       roots.push((low + high) / 2);
     }
@@ -29,14 +31,14 @@ Lesson.codingTasks = (() => {
   const hits = {
     name: "hits",
     title: "1. hits",
-    statement: "Along a segment within one cell, g − κ is a quadratic in t. It is v0 at t = 0, vm at t = ½ and v1 at t = 1. " +
+    statement:
+        "Along a segment within one cell, g − κ is a quadratic in t. It is v0 at t = 0, vm at t = ½ and v1 at t = 1. " +
         "Return all t in [0, 1] where it is zero, in ascending order. (In space it is a cubic: Figure 12, FindIntersections.)",
-    skeleton: "// Returns an array of numbers, perhaps an empty one.\nfunction hits(v0, vm, v1) {\n  return [];\n}\n",
+    skeleton: "// Returns an array, perhaps an empty one.\nfunction hits(v0, vm, v1) {\n  return [];\n}\n",
     // Values without roots that almost meet, or lie almost at an end, on which rounding might decide.
     instances(random) {
-      const special = [[[-1, 0, 1], "a straight line"], [[1, 2, 3], "a straight line without a root"],
-                       [[1, -0.5, 1], "both ends above"], [[-1, 0.6, -1], "both ends below"]];
-      const list = special.map(([values]) => ({arguments: values}));
+      // Both ends above, both below, a straight line with a root and one without.
+      const list = [[1, -0.5, 1], [-1, 0.6, -1], [-1, 0, 1], [1, 2, 3]].map((values) => ({arguments: values}));
       while (list.length < kCount) {
         const values = [0, 0, 0].map(() => random.between(-1, 1));
         const f = quadratic(values);
@@ -53,16 +55,21 @@ Lesson.codingTasks = (() => {
     answer: ({arguments: values}) => rootsByWalking(quadratic(values)),
     isRight: (given, right) =>
         Array.isArray(given) && given.length === right.length && given.every((t, k) => near(t, right[k])),
+    // The graph over t, which is drawn three times as wide as it is.
     picture(instance, given, right) {
+      const kWide = 3;
       const f = quadratic(instance.arguments);
-      const scene = new Lesson.Scene([-0.1, -1.3, 1.1, 1.3]);
-      scene.line([[-0.05, 0], [1.05, 0]], "grid");
-      scene.line([[0, -1.2], [0, 1.2]], "grid");
-      scene.line([[1, -1.2], [1, 1.2]], "grid");
-      const points = Array.from({length: 61}, (_, k) => [k / 60, f(k / 60)]);
+      const reach = Math.max(1, ...instance.arguments.map(Math.abs)) * 1.15;
+      const scene = new Lesson.Scene([-0.2, -reach, kWide + 0.2, reach]);
+      scene.line([[-0.1, 0], [kWide + 0.1, 0]], "grid");
+      for (const x of [0, kWide]) scene.line([[x, -reach], [x, reach]], "grid");
+      scene.label([0, 0], "t = 0", "softLabel", 1);
+      scene.label([kWide, 0], "t = 1", "softLabel", 1);
+      const points = Array.from({length: 61}, (_, k) => [kWide * k / 60, f(k / 60)]);
       scene.line(points, "surface");
-      [0, 0.5, 1].forEach((t, k) => scene.mark([t, instance.arguments[k]], "disc", "vertex", 4));
-      drawRightAndGiven(scene, right.map((t) => [t, 0]), asArray(given).filter(Number.isFinite).map((t) => [t, 0]));
+      [0, 0.5, 1].forEach((t, k) => scene.mark([kWide * t, instance.arguments[k]], "disc", "vertex", 4));
+      const onAxis = (times) => times.filter(Number.isFinite).map((t) => [kWide * t, 0]);
+      drawRightAndGiven(scene, onAxis(right), onAxis(asArray(given)));
       return scene;
     },
   };
@@ -111,25 +118,30 @@ Lesson.codingTasks = (() => {
   const multiIntersect = {
     name: "multiIntersect",
     title: "2. multiIntersect",
-    statement: "Each edge of the Delaunay triangulation has ends a and b and the hits of its Voronoi edge, all of them points " +
+    statement:
+        "Each edge of the Delaunay triangulation has ends a and b and the hits of its Voronoi edge, all of them points " +
         "[x, y]. Where a Voronoi edge has several hits, the one farthest from the middle of the edge is a candidate. Return " +
         "the candidate that is farthest from the middle of its edge, or null if there is none (Figure 5, line 2).",
-    skeleton: "// edges: [{a: [x, y], b: [x, y], hits: [[x, y], ...]}, ...]. Returns a point [x, y] or null.\n" +
+    skeleton:
+        "// edges: [{a: [x, y], b: [x, y],\n//          hits: [[x, y], ...]}, ...]\n// Returns a point [x, y] or null.\n" +
         "function multiIntersect(edges) {\n  return null;\n}\n",
     // Half of them from runs, in which few edges ask; half drawn at random, in which many do.
     instances(random) {
       const ofRuns = statesOfRuns(random, "stage1", kCount / 2).map(({frame}) => {
         const {points} = frame.restricted.delaunay;
-        const edges = frame.restricted.dualEdges.map((edge) => ({
-          a: points[edge.u], b: points[edge.v], hits: edge.hits.map((hit) => hit.point)}));
+        const edges = frame.restricted.dualEdges.map(
+            (edge) => ({a: points[edge.u], b: points[edge.v], hits: edge.hits.map((hit) => hit.point)}));
         return {arguments: [edges]};
       });
       return [...ofRuns, ...Array.from({length: kCount - ofRuns.length}, () => ({arguments: [randomEdges(random)]}))];
     },
     // All candidates in one list, sorted.
     answer({arguments: [edges]}) {
-      const candidates = edges.filter((edge) => edge.hits.length > 1).flatMap(({a, b, hits: points}) => points.map((p) => ({
-        p, length: (2 * p[0] - a[0] - b[0]) ** 2 + (2 * p[1] - a[1] - b[1]) ** 2})));
+      const candidates =
+          edges.filter((edge) => edge.hits.length > 1)
+              .flatMap(
+                  ({a, b, hits: points}) =>
+                      points.map((p) => ({p, length: (2 * p[0] - a[0] - b[0]) ** 2 + (2 * p[1] - a[1] - b[1]) ** 2})));
       return candidates.sort((s, t) => t.length - s.length)[0]?.p ?? null;
     },
     isRight: (given, right) => (right === null ? given === null : nearPoints(given, right)),
@@ -147,9 +159,14 @@ Lesson.codingTasks = (() => {
 
   // A mesh of stage 2 and a point; balls are made larger at random, so that paths of several edges occur.
   const diskInstance = (random, polyline) => {
-    const edges = polyline.edges.filter((edge) => edge.x).map((edge) => ({
-      from: edge.a, to: edge.b, center: edge.x,
-      radius: Lesson.distance(edge.x, polyline.points[edge.a]) * random.between(0.8, 4)}));
+    const edges =
+        polyline.edges.filter((edge) => edge.x).map((edge) => ({
+                                                      from: edge.a,
+                                                      to: edge.b,
+                                                      center: edge.x,
+                                                      radius: Lesson.distance(edge.x, polyline.points[edge.a]) *
+                                                          random.between(0.8, 4)
+                                                    }));
     const first = random.below(edges.length);
     return {arguments: [edges, first, edges[first].center], points: polyline.points};
   };
@@ -157,15 +174,15 @@ Lesson.codingTasks = (() => {
   const disk = {
     name: "disk",
     title: "3. disk",
-    statement: "The mesh of stage 2 consists of edges, each from one vertex to another, with its ball (center, radius). The " +
-        "point p encroaches the edge number `first`. Find E by walking: the edges whose balls hold p (distance below the " +
-        "radius) and that hang together with `first` through such edges. Return their numbers in any order. An edge whose " +
+    statement:
+        "The mesh of stage 2 consists of edges, each from one vertex to another, with its ball (center, radius). The " +
+        "point p encroaches the edge number 'first'. Find E by walking: the edges whose balls hold p (distance below the " +
+        "radius) and that hang together with 'first' through such edges. Return their numbers in any order. An edge whose " +
         "ball holds p but that the walk does not reach is not in E (section 2.2.2, Figure 3).",
-    skeleton: "// edges: [{from: 0, to: 1, center: [x, y], radius: r}, ...]; p: [x, y]. Returns an array of numbers.\n" +
+    skeleton:
+        "// edges: [{from: 0, to: 1, center: [x, y], radius: r}, ...]\n// p: [x, y]\n// Returns an array of numbers.\n" +
         "function disk(edges, first, p) {\n  return [first];\n}\n",
-    instances(random) {
-      return statesOfRuns(random, "stage2").map(({frame}) => diskInstance(random, frame.polyline));
-    },
+    instances(random) { return statesOfRuns(random, "stage2").map(({frame}) => diskInstance(random, frame.polyline)); },
     // Grows the set until nothing changes.
     answer({arguments: [edges, first, p]}) {
       const E = new Set([first]);

@@ -47,12 +47,17 @@
     multiIntersect: [
       ["the nearest hit", right.multiIntersect.replace("d > most", "best === null || d < most")],
       ["single hits, too", right.multiIntersect.replace("hits.length < 2", "hits.length < 1")],
-      ["measured from an end", right.multiIntersect.replace("(a[0] + b[0]) / 2, p[1] - (a[1] + b[1]) / 2", "a[0], p[1] - a[1]")],
+      [
+        "measured from an end",
+        right.multiIntersect.replace("(a[0] + b[0]) / 2, p[1] - (a[1] + b[1]) / 2", "a[0], p[1] - a[1]")
+      ],
     ],
     disk: [
       ["the first edge only", "function disk(edges, first, p) { return [first]; }"],
-      ["no walk", `function disk(edges, first, p) { return edges.map((_, k) => k).filter((k) =>
-         Math.hypot(edges[k].center[0] - p[0], edges[k].center[1] - p[1]) < edges[k].radius); }`],
+      [
+        "no walk", `function disk(edges, first, p) { return edges.map((_, k) => k).filter((k) =>
+         Math.hypot(edges[k].center[0] - p[0], edges[k].center[1] - p[1]) < edges[k].radius); }`
+      ],
       ["one way only", right.disk.replace("|| f.to === e.from", "")],
     ],
   };
@@ -61,8 +66,9 @@
     for (const task of Lesson.codingTasks) {
       for (const seed of [String(Lesson.data.seed), "2", "3", "18446744073709551615"]) {
         const verdict = await Lesson.judge.judge(task, right[task.name], seed, Lesson.judge.runHere);
-        equal([verdict.passed, verdict.error ?? null, verdict.case ?? null], [verdict.total, null, null],
-              `${task.name}, seed ${seed}`);
+        equal(
+            [verdict.passed, verdict.error ?? null, verdict.case ?? null], [verdict.total, null, null],
+            `${task.name}, seed ${seed}`);
         check(verdict.total >= 40, `${task.name}, seed ${seed}: ${verdict.total} instances`);
         for (const [what, code] of wrong[task.name]) await checkCaught(task, code, seed, what);
       }
@@ -86,7 +92,8 @@
   });
 
   test("what a student returns never breaks the page", async () => {
-    const values = ["undefined", "null", "NaN", "[NaN, NaN]", "'text'", "{}", "[[1]]", "() => 1", "[1e308, -1]", "-1", "[99999]"];
+    const values =
+        ["undefined", "null", "NaN", "[NaN, NaN]", "'text'", "{}", "[[1]]", "() => 1", "[1e308, -1]", "-1", "[99999]"];
     for (const task of Lesson.codingTasks) {
       for (const value of values) {
         const code = `function ${task.name}() { return ${value}; }`;
@@ -99,8 +106,8 @@
         const {error} = await Lesson.judge.judge(task, code, "1", Lesson.judge.runHere);
         check(error?.includes(message), `${task.name}: "${code}" gives "${error}"`);
       }
-      const thrown = await Lesson.judge.judge(task, `function ${task.name}() { throw new Error("no"); }`, "1",
-                                              Lesson.judge.runHere);
+      const thrown = await Lesson.judge.judge(
+          task, `function ${task.name}() { throw new Error("no"); }`, "1", Lesson.judge.runHere);
       equal(thrown.case?.error, "Error: no", `${task.name} that throws`);
     }
   });

@@ -45,7 +45,8 @@
       for (const [kind, points] of Object.entries(pointSets(random, 4))) {
         const [a, b, c, d] = points;
         equal(Lesson.predicates.orient(a, b, c), orientOracle([a, b, c]), `orient, ${kind}, round ${round}`);
-        equal(Lesson.predicates.inCircle(a, b, c, d), inCircleOracle([a, b, c, d]), `inCircle, ${kind}, round ${round}`);
+        equal(
+            Lesson.predicates.inCircle(a, b, c, d), inCircleOracle([a, b, c, d]), `inCircle, ${kind}, round ${round}`);
       }
     }
   });
@@ -57,12 +58,15 @@
     for (const triangle of real) {
       const corners = triangle.map((v) => points[v]);
       if (orientOracle(corners) <= 0) turned += 1;
-      for (const p of points) if (inCircleOracle([...corners, p]) > 0) inside += 1;
+      for (const p of points)
+        if (inCircleOracle([...corners, p]) > 0) inside += 1;
     }
     check(inside === 0, `${what}: ${inside} points inside of circles`);
     check(turned === 0, `${what}: ${turned} triangles do not turn to the left`);
     // A sphere, with the infinite vertex.
-    check(triangles.length === 2 * points.length - 2, `${what}: ${triangles.length} triangles of ${points.length} points`);
+    check(
+        triangles.length === 2 * points.length - 2,
+        `${what}: ${triangles.length} triangles of ${points.length} points`);
     return real;
   };
 

@@ -1,5 +1,5 @@
-// The laboratory under the hand of a reader: whatever is dragged or typed, the run is the one that a fresh start with the
-// same points and samples gives.
+// The laboratory under the hand of a reader: whatever is dragged or typed, the run is the one that a fresh start with
+// the same points and samples gives.
 (() => {
   const {test, check, equal} = Lesson.selftest;
 
@@ -40,7 +40,13 @@
 
   // Values less the isovalue: the arcs in a cell change partners where f00 f11 = f01 f10.
   test("a saddle turns over where the products are equal", () => {
-    const field = (f) => Lesson.fields.fill(4, (x, y) => (x === 1 && y === 1 ? f : x === 2 && y === 2 ? 2 : x === y ? -1 : -3));
+    const field = (f) => Lesson.fields.fill(
+        4,
+        (x, y) =>
+            (x === 1 && y === 1     ? f :
+                 x === 2 && y === 2 ? 2 :
+                 x === y            ? -1 :
+                                      -3));
     const loops = (f) => new Lesson.LevelSet(field(f)).loopCount;
     equal([loops(4.4), loops(4.6)], [2, 1], "around 4.5 = 3 * 3 / 2");
   });
@@ -57,8 +63,14 @@
 
   test("thresholds of any size give runs that end", () => {
     const laboratory = new Lesson.Laboratory("1");
-    const extremes = {epsilon: [0.02, 5], epsilon1: [0.05, 5], epsilon2: [0.1, 9], sizeBound: [0.02, 5], rMin: [0.03, 5],
-                      start: [0, 40]};
+    const extremes = {
+      epsilon: [0.02, 5],
+      epsilon1: [0.05, 5],
+      epsilon2: [0.1, 9],
+      sizeBound: [0.02, 5],
+      rMin: [0.03, 5],
+      start: [0, 40]
+    };
     for (const field of ["ring", "touch", "noise"]) {
       laboratory.chooseField(field);
       for (const [name, values] of Object.entries(extremes)) {
@@ -73,8 +85,8 @@
 
   test("random start points may miss a loop, seeding by components does not", () => {
     const laboratory = new Lesson.Laboratory("1");
-    laboratory.field = Lesson.fields.fill(24, (x, y) => Math.max(Lesson.fields.disc(x, y, 8, 12, 6.3),
-                                                                 Lesson.fields.disc(x, y, 19.4, 12.3, 0.8)));
+    laboratory.field = Lesson.fields.fill(
+        24, (x, y) => Math.max(Lesson.fields.disc(x, y, 8, 12, 6.3), Lesson.fields.disc(x, y, 19.4, 12.3, 0.8)));
     laboratory.drawPoints();
     const text = () => laboratory.sentence(laboratory.steps().length - 1);
     check(text().includes("1 loop has no piece"), text());

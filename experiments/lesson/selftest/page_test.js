@@ -22,8 +22,10 @@
   const seen = () => {
     const {cards, live, player, stage} = page;
     const svg = Lesson.svgOf(stage.scene(), "", {layers: player.layers});
-    return [player.step, live.textContent, cards.now.textContent, cards.next.textContent, cards.why.textContent,
-            cards.code.querySelector(".lit")?.textContent ?? "", svg];
+    return [
+      player.step, live.textContent, cards.now.textContent, cards.next.textContent, cards.why.textContent,
+      cards.code.querySelector(".lit")?.textContent ?? "", svg
+    ];
   };
 
   const stepped = () => Lesson.chapters.filter((chapter) => !chapter.page);
@@ -54,7 +56,8 @@
       times.sort((s, t) => s - t);
       const [median, most] = [times[times.length >> 1], times[times.length - 1]];
       check(median < 50, `${chapter.name}: ${median} ms a step`);
-      Lesson.selftest.notes.push(`${chapter.name}: ${last} steps, ${median.toFixed(1)} ms a step (median), ` +
+      Lesson.selftest.notes.push(
+          `${chapter.name}: ${last} steps, ${median.toFixed(1)} ms a step (median), ` +
           `${most.toFixed(1)} ms the longest; ${chapter.milliseconds?.toFixed(0) ?? "–"} ms for the run`);
     }
   });
@@ -107,7 +110,9 @@
         press(chapter.kinds[guess].key);
         asked += 1;
         right += guess === kind ? 1 : 0;
-        check(shown().includes(sentence) && !page.cards.why.hidden, `step ${step}: what comes is hidden after the answer`);
+        check(
+            shown().includes(sentence) && !page.cards.why.hidden,
+            `step ${step}: what comes is hidden after the answer`);
         // A second answer does not count.
         press(chapter.kinds[kind].key);
         equal(player.predict.scoreText(), `${right} of ${asked} right`, `step ${step}`);
@@ -129,8 +134,9 @@
         for (const [width, height] of [[840, 552], [390, 320]]) {
           const view = new Lesson.View(scene.bounds, width, height);
           const boxes = Lesson.paint(scene, view, nowhere, {layers: null, dark: false}).map((label) => label.box);
-          const covered = boxes.some((a, i) => boxes.slice(i + 1).some(
-              (b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom));
+          const covered = boxes.some(
+              (a, i) => boxes.slice(i + 1).some(
+                  (b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom));
           const outside = boxes.some((b) => b.left < 0 || b.top < 0 || b.right > width || b.bottom > height);
           check(!covered && !outside, `${chapter.name}/${step} at ${width}x${height}`);
         }
@@ -152,7 +158,8 @@
 
   test("the page names no address outside of it", () => {
     const sources = [...document.querySelectorAll("script, style")].map((element) => element.textContent).join("\n");
-    const addresses = (sources.match(/https?:[^"'\s`]*/g) ?? []).filter((text) => !text.startsWith("http://www.w3.org/2000/svg"));
+    const addresses =
+        (sources.match(/https?:[^"'\s`]*/g) ?? []).filter((text) => !text.startsWith("http://www.w3.org/2000/svg"));
     check(addresses.every((text) => text.includes("[^")), `addresses: ${addresses}`);
     equal(document.querySelectorAll("script[src], link[href], img[src]").length, 0, "elements that load something");
   });
@@ -161,7 +168,8 @@
     open();
     for (const chapter of Lesson.chapters) {
       goTo(`#${chapter.name}`);
-      for (const control of page.stepped.parentNode.querySelectorAll("button, input, select, textarea, [role=slider]")) {
+      for (const control of page.stepped.parentNode.querySelectorAll(
+               "button, input, select, textarea, [role=slider]")) {
         const name = control.getAttribute("aria-label") ?? control.closest("label")?.textContent ?? control.textContent;
         check(name.trim() !== "", `${chapter.name}: ${control.outerHTML.slice(0, 80)}`);
       }

@@ -6,10 +6,15 @@
   const randomRun = (seed) => {
     const random = new Lesson.Random(seed);
     const size = 6 + (seed % 5);
-    const field = seed % 2 ? Lesson.fields.fill(size, () => random.between(-1, 1)) : Lesson.fields.bumps(random, size + 2);
+    const field =
+        seed % 2 ? Lesson.fields.fill(size, () => random.between(-1, 1)) : Lesson.fields.bumps(random, size + 2);
     const options = {
-      start: 3 + (seed % 4), seeding: seed % 3 ? "random" : "components", sizeBound: [0.3, 0.1, 0.03][seed % 3],
-      rMin: 0.06, epsilon2: 0.5, epsilon1: 0.2,
+      start: 3 + (seed % 4),
+      seeding: seed % 3 ? "random" : "components",
+      sizeBound: [0.3, 0.1, 0.03][seed % 3],
+      rMin: 0.06,
+      epsilon2: 0.5,
+      epsilon1: 0.2,
     };
     return {field, run: new Lesson.Run(field, Lesson.startPoints(field, random, options), options)};
   };
@@ -54,7 +59,8 @@
       check(end.kind === "end" && end.next === null, `seed ${seed} does not end`);
       if (verdict.isRight) {
         tally.right += 1;
-        check(cycles && cycles.length === loops, `seed ${seed}: called right, with ${cycles?.length} pieces of ${loops}`);
+        check(
+            cycles && cycles.length === loops, `seed ${seed}: called right, with ${cycles?.length} pieces of ${loops}`);
         check(said.includes("The mesh is right"), `seed ${seed}: ${said}`);
       } else {
         tally.wrong += 1;
@@ -99,7 +105,9 @@
   const checkEmptyCircle = (delaunay, {edge, point}, what) => {
     if (!edge) return;
     const radius = Lesson.distance(point, delaunay.points[edge.u]);
-    check(delaunay.points.every((p) => Lesson.distance(p, point) > radius - 1e-6), `${what}: a vertex lies in the circle`);
+    check(
+        delaunay.points.every((p) => Lesson.distance(p, point) > radius - 1e-6),
+        `${what}: a vertex lies in the circle`);
   };
 
   test("dual edges that are kept are those of a fresh search", () => {
