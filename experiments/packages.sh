@@ -23,6 +23,9 @@ fault_packages=(
   "faketime:/usr/bin/faketime"
 )
 
+# For the tests of the page of lessons in a browser, which are skipped without it.
+browser_packages=("chromium:/usr/bin/chromium")
+
 # The package with libFuzzer and the sanitizers for the clang++ that is there.
 fuzz_package() {
   local version

@@ -30,4 +30,6 @@ tail -n 1 "$out/verification.txt"
 say "a picture of the surface, the mesh after Recover and the mesh, cut open: $out/shells.png"
 "$deliso" render "$out/shells.nrrd" --isovalue "$isovalue" --surface --mesh "$out/shells-recover.ply" \
   --mesh "$out/shells.ply" --clip x=32 --size 1080x360 -o "$out/shells.png"
-say "done; the mesh is $root/$out/shells.ply, its picture $root/$out/shells.png"
+say "a lesson on how that is done, to be opened in a browser: $out/lesson.html"
+"$deliso" explain -o "$out/lesson.html" >/dev/null
+say "done; the mesh is $root/$out/shells.ply, its picture $root/$out/shells.png, the lesson $root/$out/lesson.html"

@@ -9,11 +9,24 @@ Lesson.address = (() => {
 
   const format = (chapter, step) => (step === null ? `#${chapter}` : `#${chapter}/${step}`);
 
-  // Steps replace each other in the history: Back leaves the chapter instead of taking back one step of many.
-  const show = (chapter, step) => {
-    const text = format(chapter, step);
-    if (text !== window.location.hash) window.history.replaceState(null, "", text);
+  // Steps replace each other in the history: Back leaves the chapter instead of taking back one step of many. Browsers
+  // allow a few changes a second only, so a reader who runs through the steps changes the address when he rests.
+  let wanted = null;
+  let timer = null;
+
+  const write = () => {
+    timer = null;
+    if (wanted !== null && wanted !== window.location.hash) window.history.replaceState(null, "", wanted);
+    wanted = null;
   };
 
-  return {parse, format, show};
+  const show = (chapter, step) => {
+    wanted = format(chapter, step);
+    timer ??= setTimeout(write, 250);
+  };
+
+  // The reader has gone to another address himself.
+  const forget = () => (wanted = null);
+
+  return {parse, format, show, forget};
 })();

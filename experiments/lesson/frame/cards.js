@@ -1,5 +1,5 @@
-// The cards beside the picture: what happened, what comes next and why, the paper's lines, the layers. Each draws itself
-// anew into its element; none keeps a state.
+// The cards beside the picture: what happened, what comes next and why, the paper's lines, the layers. Each draws
+// itself anew into its element; none keeps a state.
 Lesson.cards = (() => {
   const {element} = Lesson;
 
@@ -17,33 +17,47 @@ Lesson.cards = (() => {
     const steps = chapter.steps();
     card.replaceChildren(
         element("h2", {}, `Step ${step} of ${steps.length - 1}`),
-        element("p", {class: "sentence"}, markIcon(chapter.kinds[steps[step].kind]), chapter.sentence(step)));
+        element("p", {class: "sentence"}, markIcon(chapter.kinds[steps[step].kind]), chapter.sentence(step)),
+        ...(chapter.status ? [element("p", {class: "soft"}, chapter.status(step))] : []));
   };
 
   const next = (card, chapter, step) => {
     const coming = chapter.next(step);
     card.replaceChildren(element("h2", {}, "Next"));
-    if (!coming) card.append(element("p", {}, "The run has ended."));
-    else card.append(element("p", {}, markIcon(chapter.kinds[coming.kind]), coming.sentence));
+    if (!coming)
+      card.append(element("p", {}, "The run has ended."));
+    else
+      card.append(element("p", {}, markIcon(chapter.kinds[coming.kind]), coming.sentence));
   };
 
   // The question instead of the answer.
   const question = (card, chapter, predict, answer) => {
-    const buttons = Object.entries(chapter.kinds).filter(([, kind]) => kind.key).map(([name, kind]) =>
-        element("button", {onclick: () => answer(name), "data-kind": name}, markIcon(kind), kind.title,
-                element("kbd", {}, kind.key.toUpperCase())));
-    card.replaceChildren(element("h2", {}, "What kind of step is next?"), element("div", {class: "answers"}, ...buttons),
-                         element("p", {class: "score"}, predict.scoreText()));
+    const buttons = Object.entries(chapter.kinds)
+                        .filter(([, kind]) => kind.key)
+                        .map(
+                            ([name, kind]) => element(
+                                "button", {onclick: () => answer(name), "data-kind": name}, markIcon(kind), kind.title,
+                                element("kbd", {}, kind.key.toUpperCase())));
+    card.replaceChildren(
+        element("h2", {}, "What kind of step is next?"), element("div", {class: "answers"}, ...buttons),
+        element("p", {class: "score"}, predict.scoreText()));
+  };
+
+  // A fact has a value alone; a guard is no reason, but has to hold.
+  const whyRow = ({name, value, sign, limit, holds, isGuard, isFact}) => {
+    const cells = [element("td", {}, name), element("td", {}, Lesson.numberText(value))];
+    if (isFact) return element("tr", {}, ...cells);
+    const answer = element("span", {class: "unseen"}, holds ? " holds" : " does not hold");
+    return element(
+        "tr", {class: isGuard || !holds ? "" : "holds"}, ...cells, element("td", {}, sign),
+        element("td", {}, Lesson.numberText(limit)), element("td", {}, holds ? "✓" : "–", answer));
   };
 
   const why = (card, facts) => {
     card.replaceChildren(element("h2", {}, "Why"));
     if (!facts) return card.append(element("p", {class: "soft"}, "Nothing is left to do."));
     card.append(element("p", {}, facts.title));
-    const rows = facts.rows.map((row) => element(
-        "tr", {class: row.isGuard ? "guard" : row.holds ? "holds" : ""}, element("td", {}, row.name), element("td", {}, Lesson.numberText(row.value)),
-        element("td", {}, row.sign), element("td", {}, Lesson.numberText(row.limit)),
-        element("td", {}, row.holds ? "✓" : "–", element("span", {class: "unseen"}, row.holds ? " holds" : " does not hold"))));
+    const rows = facts.rows.map(whyRow);
     if (rows.length) card.append(element("table", {}, ...rows));
     if (facts.remark) card.append(element("p", {class: "soft"}, facts.remark));
     return undefined;
@@ -51,20 +65,39 @@ Lesson.cards = (() => {
 
   // The current line is lit, and marked for those who do not see colours.
   const code = (card, chapter, lit) => {
-    const lines = chapter.code.lines.map((line, i) => element(
-        "li", {class: i === lit ? "lit" : "", "aria-current": i === lit ? "step" : null},
-        element("code", {}, line.text),
-        line.file ? element("small", {}, `${line.file} · ${line.name}`) : null));
+    const lines = chapter.code.lines.map(
+        (line, i) => element(
+            "li", {class: i === lit ? "lit" : "", "aria-current": i === lit ? "step" : null},
+            element("code", {}, line.text), line.file ? element("small", {}, `${line.file} · ${line.name}`) : null));
     card.replaceChildren(element("h2", {}, chapter.code.title), element("ol", {class: "code", start: 1}, ...lines));
   };
 
+  // Boxes that are there already stay, so that the focus does.
   const layers = (card, names, shown, toggle) => {
-    const boxes = Object.entries(names).map(([number, name]) => element(
-        "label", {}, element("input", {type: "checkbox", checked: shown.has(Number(number)),
-                                       onchange: () => toggle(Number(number))}),
-        element("kbd", {}, number), ` ${name}`));
-    card.replaceChildren(element("h2", {}, "Layers"), element("div", {class: "layers"}, ...boxes));
+    if (card.names !== names) {
+      const boxes = Object.entries(names).map(
+          ([number, name]) => element(
+              "label", {},
+              element("input", {type: "checkbox", "data-layer": number, onchange: () => card.toggle(Number(number))}),
+              element("kbd", {}, number), ` ${name}`));
+      card.replaceChildren(element("h2", {}, "Layers"), element("div", {class: "layers"}, ...boxes));
+      card.names = names;
+    }
+    card.toggle = toggle;
+    for (const box of card.querySelectorAll("input")) box.checked = shown.has(Number(box.dataset.layer));
   };
 
-  return {now, next, question, why, code, layers, markIcon};
+  // The kinds of this run with their marks; how many there are is part of what predict mode asks for.
+  const legend = (line, chapter, hidesCounts) => {
+    const counts = new Map();
+    for (const {kind} of chapter.steps()) counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    const items = Object.entries(chapter.kinds)
+                      .filter(([name, kind]) => kind.key && name !== "end" && (hidesCounts || counts.get(name) > 0))
+                      .map(
+                          ([name, kind]) => element(
+                              "span", {}, markIcon(kind), kind.title, hidesCounts ? "" : ` ${counts.get(name)}`));
+    line.replaceChildren(...items);
+  };
+
+  return {now, next, question, why, code, layers, legend, markIcon};
 })();

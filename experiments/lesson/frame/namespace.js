@@ -8,9 +8,12 @@ const Lesson = {};
 Lesson.element = (name, attributes = {}, ...children) => {
   const element = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
-    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
-    else if (value === true) element.setAttribute(key, "");
-    else if (value !== false && value !== null && value !== undefined) element.setAttribute(key, value);
+    if (key.startsWith("on"))
+      element.addEventListener(key.slice(2), value);
+    else if (value === true)
+      element.setAttribute(key, "");
+    else if (value !== false && value !== null && value !== undefined)
+      element.setAttribute(key, value);
   }
   element.append(...children.filter((child) => child !== null && child !== undefined));
   return element;
@@ -34,17 +37,11 @@ Lesson.Random = class {
   }
 
   // At least 0, below 1.
-  uniform() {
-    return this.bits() / 4294967296;
-  }
+  uniform() { return this.bits() / 4294967296; }
 
-  between(low, high) {
-    return low + (high - low) * this.uniform();
-  }
+  between(low, high) { return low + (high - low) * this.uniform(); }
 
-  below(count) {
-    return Math.floor(this.uniform() * count);
-  }
+  below(count) { return Math.floor(this.uniform() * count); }
 };
 
 // Numbers as texts and cards show them: three significant digits, no exponent for what a reader compares.

@@ -24,43 +24,54 @@ Lesson.Page = class {
       this.cards[name] = element("section", {class: `card ${name}`});
     }
     this.panel = element("div", {class: "panel"});
-    const button = (text, label, command) =>
-        element("button", {"aria-label": label, title: label, "data-command": command,
-                           onclick: () => this.command(command)}, text);
+    const button = (text, label, command) => element(
+        "button", {"aria-label": label, title: label, "data-command": command, onclick: () => this.command(command)},
+        text);
     const zooms = [["+", "larger", 1.3], ["−", "smaller", 1 / 1.3], ["□", "the whole picture", null]].map(
-        ([text, label, factor]) => element("button", {"aria-label": label, title: label,
-                                                      onclick: () => this.stage.zoom(factor)}, text));
+        ([text, label, factor]) =>
+            element("button", {"aria-label": label, title: label, onclick: () => this.stage.zoom(factor)}, text));
     this.controls = element(
         "div", {class: "controls"}, button("|◀", "to the start", "first"), button("◀", "step back", "back"),
         button("▶", "next step", "next"), button("▶|", "to the end", "last"), button("Play", "play or pause", "play"),
-        button("Predict", "predict the kind of the next step", "predict"), element("span", {class: "gap"}), ...zooms);
+        button("Predict", "predict the kind of the next step", "predict"));
+    this.legend = element("p", {class: "legend"});
     this.stepped = element(
         "main", {class: "stepped"},
-        element("div", {class: "left"}, this.stage.canvas, this.timeline.canvas, this.controls),
+        element(
+            "div", {class: "left"}, element("div", {class: "zooms"}, ...zooms), this.stage.canvas, this.timeline.canvas,
+            this.legend, this.controls),
         element("div", {class: "right"}, ...Object.values(this.cards), this.panel));
     this.plain = element("main", {class: "plain"});
     this.help = this.buildHelp();
-    root.append(element("header", {}, element("strong", {}, Lesson.data.title), this.tabs, element("span", {class: "gap"}),
-                        button("SVG", "save the picture as SVG", "svg"), button("◐", "dark or light", "theme"),
-                        button("?", "keys", "help")), this.live, this.stepped, this.plain, this.help);
+    root.append(
+        element(
+            "header", {}, element("strong", {}, Lesson.data.title), this.tabs, element("span", {class: "gap"}),
+            button("SVG", "save the picture as SVG", "svg"), button("◐", "dark or light", "theme"),
+            button("?", "keys", "help")),
+        this.live, this.stepped, this.plain, this.help);
   }
 
   buildHelp() {
     const {element} = Lesson;
-    const rows = Lesson.keyboard.table.map((row) => element("tr", {}, element("td", {}, element("kbd", {}, row.help)),
-                                                            element("td", {}, row.does)));
-    rows.push(element("tr", {}, element("td", {}, element("kbd", {}, "1 … 9")), element("td", {}, "layers on and off")));
-    return element("dialog", {"aria-label": "keys"}, element("h2", {}, "Keys"), element("table", {}, ...rows),
-                   element("button", {onclick: () => this.help.close()}, "Close"));
+    const rows = Lesson.keyboard.table.map(
+        (row) => element("tr", {}, element("td", {}, element("kbd", {}, row.help)), element("td", {}, row.does)));
+    rows.push(
+        element("tr", {}, element("td", {}, element("kbd", {}, "1 … 9")), element("td", {}, "layers on and off")));
+    return element(
+        "dialog", {"aria-label": "keys"}, element("h2", {}, "Keys"), element("table", {}, ...rows),
+        element("button", {onclick: () => this.help.close()}, "Close"));
   }
 
-  showAddress() {
-    const {chapter: name, step, rest} = Lesson.address.parse(window.location.hash);
+  showAddress(hash = window.location.hash) {
+    Lesson.address.forget();
+    const {chapter: name, step, rest} = Lesson.address.parse(hash);
     const chapter = Lesson.chapters.find((other) => other.name === name) ?? Lesson.chapters[0];
     if (chapter !== this.chapter) this.open(chapter);
     if (this.player) {
-      if (step !== null && step !== this.player.step) this.player.goTo(step);
-      else this.draw();
+      if (step !== null && step !== this.player.step)
+        this.player.goTo(step);
+      else
+        this.draw();
     } else if (chapter.show) {
       chapter.show(rest);
     }
@@ -69,11 +80,13 @@ Lesson.Page = class {
   open(chapter) {
     this.player?.pause();
     this.chapter = chapter;
-    this.tabs.replaceChildren(...Lesson.chapters.map((other) => Lesson.element(
-        "a", {href: `#${other.name}`, "aria-current": other === chapter ? "page" : null}, other.title)));
+    this.tabs.replaceChildren(...Lesson.chapters.map(
+        (other) => Lesson.element(
+            "a", {href: `#${other.name}`, "aria-current": other === chapter ? "page" : null}, other.title)));
     this.player = null;
     this.stepped.hidden = Boolean(chapter.page);
     this.plain.hidden = !chapter.page;
+    document.querySelector("[data-command=svg]").hidden = Boolean(chapter.page);
     if (chapter.page) {
       this.plain.replaceChildren(chapter.page());
       return;
@@ -88,19 +101,22 @@ Lesson.Page = class {
   }
 
   draw() {
-    if (!this.player) return;
+    if (!this.player) return this.chapter.redraw?.();
     const {chapter, step, predict, layers} = this.player;
     const hides = this.player.hidesNext();
     Lesson.address.show(chapter.name, step);
     this.stage.show(this.player);
     Lesson.cards.now(this.cards.now, chapter, step);
-    if (hides) Lesson.cards.question(this.cards.next, chapter, predict, (kind) => this.player.answer(kind));
-    else Lesson.cards.next(this.cards.next, chapter, step);
+    if (hides)
+      Lesson.cards.question(this.cards.next, chapter, predict, (kind) => this.player.answer(kind));
+    else
+      Lesson.cards.next(this.cards.next, chapter, step);
     this.showResult(predict, chapter, step);
     this.cards.why.hidden = hides;
     Lesson.cards.why(this.cards.why, chapter.why(step));
     Lesson.cards.code(this.cards.code, chapter, hides ? -1 : chapter.line(step));
     Lesson.cards.layers(this.cards.layers, chapter.layers, layers, (layer) => this.player.toggleLayer(layer));
+    Lesson.cards.legend(this.legend, chapter, predict.isOn);
     this.timeline.draw(chapter.steps(), chapter.kinds, step, chapter.sentence(step), predict.isOn);
     const coming = hides ? null : chapter.next(step);
     this.live.textContent = chapter.sentence(step) + (coming ? ` Next: ${coming.sentence}` : "");
@@ -116,8 +132,10 @@ Lesson.Page = class {
   key(event) {
     const pressed = Lesson.keyboard.commandOf(event);
     if (!pressed || this.help.open) return;
-    if (pressed.digit && this.player) this.player.toggleLayer(pressed.digit);
-    else if (this.answerByKey(event.key.toLowerCase()) || this.command(pressed.command)) event.preventDefault();
+    if (pressed.digit && this.player)
+      this.player.toggleLayer(pressed.digit);
+    else if (this.answerByKey(event.key.toLowerCase()) || this.command(pressed.command))
+      event.preventDefault();
   }
 
   // While a question is asked, the letters of its answers come first.
@@ -129,24 +147,31 @@ Lesson.Page = class {
   }
 
   command(name) {
-    if (name === "help") this.help.showModal();
-    else if (name === "theme") this.redress(Lesson.theme.isDark() ? "light" : "dark");
-    else if (name === "svg" && this.player) this.save();
-    else return this.player?.command(name) ?? false;
+    if (name === "help")
+      this.help.showModal();
+    else if (name === "theme")
+      this.redress(Lesson.theme.isDark() ? "light" : "dark");
+    else if (name === "svg" && this.player)
+      this.save();
+    else
+      return this.player?.command(name) ?? false;
     return true;
   }
 
   redress(choice) {
-    if (choice) Lesson.theme.choose(choice);
-    else Lesson.theme.apply();
+    if (choice)
+      Lesson.theme.choose(choice);
+    else
+      Lesson.theme.apply();
     this.draw();
   }
 
   save() {
     const {chapter, step, layers} = this.player;
     const svg = Lesson.svgOf(this.stage.scene(), chapter.sentence(step), {layers});
-    const link = Lesson.element("a", {href: URL.createObjectURL(new Blob([svg], {type: "image/svg+xml"})),
-                                      download: `${chapter.name}-${step}.svg`});
+    const link = Lesson.element(
+        "a",
+        {href: URL.createObjectURL(new Blob([svg], {type: "image/svg+xml"})), download: `${chapter.name}-${step}.svg`});
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }

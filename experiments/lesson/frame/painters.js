@@ -1,9 +1,7 @@
 // The two back ends of Lesson.paint: a canvas for the screen, SVG text for slides and tests. Both get screen
 // coordinates and styles with colours.
 Lesson.CanvasPainter = class {
-  constructor(context) {
-    this.context = context;
-  }
+  constructor(context) { this.context = context; }
 
   path(points, closed, style) {
     const context = this.context;
@@ -69,27 +67,28 @@ Lesson.SvgPainter = class {
 
   text(x, y, text, {size, colour, halo}) {
     const escaped = text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
-    this.parts.push(`<text x="${this.number(x)}" y="${this.number(y)}" font-family="sans-serif" font-size="${size}" ` +
-      `fill="${colour}" stroke="${halo}" stroke-width="3" stroke-linejoin="round" paint-order="stroke">${escaped}</text>`);
+    this.parts.push(
+        `<text x="${this.number(x)}" y="${this.number(y)}" font-family="sans-serif" font-size="${size}" ` +
+        `fill="${colour}" stroke="${halo}" stroke-width="3" stroke-linejoin="round" paint-order="stroke">${
+            escaped}</text>`);
   }
 
   // The file as a whole.
   finish(title) {
     const escaped = title.replace(/&/g, "&amp;").replace(/</g, "&lt;");
     return `<svg xmlns="http://www.w3.org/2000/svg" width="${this.width}" height="${this.height}" ` +
-      `viewBox="0 0 ${this.width} ${this.height}" role="img">\n<title>${escaped}</title>\n${this.parts.join("\n")}\n</svg>\n`;
+        `viewBox="0 0 ${this.width} ${this.height}" role="img">\n<title>${escaped}</title>\n${
+               this.parts.join("\n")}\n</svg>\n`;
   }
 
-  number(value) {
-    return String(Math.round(value * 100) / 100);
-  }
+  number(value) { return String(Math.round(value * 100) / 100); }
 
   attributes(style, closed) {
     const fill = style.fill && closed ? `"${style.fill}" fill-opacity="${style.fillOpacity}"` : `"none"`;
     const dash = style.dash.length ? ` stroke-dasharray="${style.dash.join(" ")}"` : "";
-    const stroke = style.stroke
-      ? ` stroke="${style.stroke}" stroke-width="${style.width}" stroke-opacity="${style.opacity}" stroke-linejoin="round"${dash}`
-      : "";
+    const stroke = style.stroke ? ` stroke="${style.stroke}" stroke-width="${style.width}" stroke-opacity="${
+                                      style.opacity}" stroke-linejoin="round"${dash}` :
+                                  "";
     return ` fill=${fill}${stroke}`;
   }
 };

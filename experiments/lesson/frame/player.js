@@ -11,20 +11,15 @@ Lesson.Player = class {
     this.timer = null;
   }
 
-  last() {
-    return this.chapter.steps().length - 1;
-  }
+  last() { return this.chapter.steps().length - 1; }
 
-  hidesNext() {
-    return this.predict.hides(this.step) && this.step < this.last();
-  }
+  hidesNext() { return this.predict.hides(this.step) && this.step < this.last(); }
 
   goTo(step) {
     const to = Math.max(0, Math.min(step, this.last()));
     // Leaving a step forwards shows what was asked there.
     for (let i = this.step; this.predict.isOn && i < to; ++i) this.predict.skip(i);
     this.step = to;
-    this.predict.see(to);
     this.changed();
   }
 
@@ -57,9 +52,10 @@ Lesson.Player = class {
     }
     if (this.step === this.last()) this.step = 0;
     this.timer = setInterval(() => {
-      if (this.step >= this.last() || this.hidesNext()) this.pause();
-      else this.step += 1;
-      this.predict.see(this.step);
+      if (this.step >= this.last() || this.hidesNext())
+        this.pause();
+      else
+        this.step += 1;
       this.changed();
     }, 700);
     return this.changed();
@@ -75,18 +71,33 @@ Lesson.Player = class {
   command(name) {
     if (name !== "play") this.pause();
     switch (name) {
-      case "next": this.goTo(this.step + 1); return true;
-      case "back": this.goTo(this.step - 1); return true;
-      case "nextOfKind": this.toKind(1, true); return true;
-      case "backOfKind": this.toKind(-1, true); return true;
-      case "first": this.goTo(0); return true;
-      case "last": this.goTo(this.last()); return true;
-      case "play": this.play(); return true;
+      case "next":
+        this.goTo(this.step + 1);
+        return true;
+      case "back":
+        this.goTo(this.step - 1);
+        return true;
+      case "nextOfKind":
+        this.toKind(1, true);
+        return true;
+      case "backOfKind":
+        this.toKind(-1, true);
+        return true;
+      case "first":
+        this.goTo(0);
+        return true;
+      case "last":
+        this.goTo(this.last());
+        return true;
+      case "play":
+        this.play();
+        return true;
       case "predict":
         this.predict.toggle();
         this.changed();
         return true;
-      default: return false;
+      default:
+        return false;
     }
   }
 

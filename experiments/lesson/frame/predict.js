@@ -1,5 +1,5 @@
 // Predict mode: before the next step is shown, the reader names its kind. Nothing is typed in beforehand, the run
-// itself is the answer; the first answer to a step counts, and a step that was seen counts no more.
+// itself is the answer; the first answer to a step counts, and a step that was taken without one counts no more.
 Lesson.Predict = class {
   constructor() {
     this.isOn = false;
@@ -15,19 +15,10 @@ Lesson.Predict = class {
     this.answered.clear();
   }
 
-  toggle() {
-    this.isOn = !this.isOn;
-  }
+  toggle() { this.isOn = !this.isOn; }
 
   // Whether what follows this step is hidden.
-  hides(step) {
-    return this.isOn && !this.answered.has(step);
-  }
-
-  // Whoever has seen a step has nothing to predict there.
-  see(step) {
-    if (!this.isOn && !this.answered.has(step)) this.answered.set(step, null);
-  }
+  hides(step) { return this.isOn && !this.answered.has(step); }
 
   answer(step, guess, kind) {
     if (this.answered.has(step)) return null;
@@ -42,14 +33,13 @@ Lesson.Predict = class {
     if (!this.answered.has(step)) this.answered.set(step, null);
   }
 
-  scoreText() {
-    return this.asked === 0 ? "no answer yet" : `${this.right} of ${this.asked} right`;
-  }
+  scoreText() { return this.asked === 0 ? "no answer yet" : `${this.right} of ${this.asked} right`; }
 
   resultText(step, kinds) {
     const result = this.answered.get(step);
     if (!result) return null;
     const {guess, kind} = result;
-    return guess === kind ? `Right: ${kinds[kind].title}.` : `You said ${kinds[guess].title}; it is ${kinds[kind].title}.`;
+    return guess === kind ? `Right: ${kinds[kind].title}.` :
+                            `You said ${kinds[guess].title}; it is ${kinds[kind].title}.`;
   }
 };

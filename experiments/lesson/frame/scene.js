@@ -15,28 +15,18 @@ Lesson.Scene = class {
     return this;
   }
 
-  line(points, role) {
-    this.items.push({kind: "path", points, closed: false, role, layer: this.layer});
-  }
+  line(points, role) { this.items.push({kind: "path", points, closed: false, role, layer: this.layer}); }
 
-  polygon(points, role) {
-    this.items.push({kind: "path", points, closed: true, role, layer: this.layer});
-  }
+  polygon(points, role) { this.items.push({kind: "path", points, closed: true, role, layer: this.layer}); }
 
   // The radius is a length of the plane.
-  circle(center, radius, role) {
-    this.items.push({kind: "circle", center, radius, role, layer: this.layer});
-  }
+  circle(center, radius, role) { this.items.push({kind: "circle", center, radius, role, layer: this.layer}); }
 
   // A mark keeps its size, given in pixels, at every scale.
-  mark(point, shape, role, size = 5) {
-    this.items.push({kind: "mark", point, shape, role, size, layer: this.layer});
-  }
+  mark(point, shape, role, size = 5) { this.items.push({kind: "mark", point, shape, role, size, layer: this.layer}); }
 
   // Where labels would overlap, those of less weight move or are left out.
-  label(point, text, role = "label", weight = 1) {
-    this.labels.push({point, text, role, weight, layer: this.layer});
-  }
+  label(point, text, role = "label", weight = 1) { this.labels.push({point, text, role, weight, layer: this.layer}); }
 };
 
 // Where the plane lies on the screen.
@@ -57,13 +47,9 @@ Lesson.View = class {
     this.scale *= factor;
   }
 
-  toScreen([x, y]) {
-    return [this.x + this.scale * x, this.y - this.scale * y];
-  }
+  toScreen([x, y]) { return [this.x + this.scale * x, this.y - this.scale * y]; }
 
-  toPlane([x, y]) {
-    return [(x - this.x) / this.scale, (this.y - y) / this.scale];
-  }
+  toPlane([x, y]) { return [(x - this.x) / this.scale, (this.y - y) / this.scale]; }
 };
 
 // Marks as outlines: {points, closed} for each stroke. Kinds differ in shape as well as in colour.
@@ -79,17 +65,28 @@ Lesson.markStrokes = (shape, x, y, size) => {
   };
   const across = (dx, dy) => ({points: [[x - dx, y - dy], [x + dx, y + dy]], closed: false});
   switch (shape) {
-    case "disc": return corners(16, 0);
-    case "square": return corners(4, Math.PI / 4);
-    case "diamond": return corners(4, 0);
-    case "triangle": return corners(3, 0);
-    case "down": return corners(3, Math.PI);
-    case "pentagon": return corners(5, 0);
-    case "star": return corners(10, 0, [1.3, 0.55]);
-    case "cross": return [across(size * 0.75, size * 0.75), across(size * 0.75, -size * 0.75)];
-    case "plus": return [across(size, 0), across(0, size)];
-    case "bar": return [across(0, size)];
-    default: throw new Error(`no mark "${shape}"`);
+    case "disc":
+      return corners(16, 0);
+    case "square":
+      return corners(4, Math.PI / 4);
+    case "diamond":
+      return corners(4, 0);
+    case "triangle":
+      return corners(3, 0);
+    case "down":
+      return corners(3, Math.PI);
+    case "pentagon":
+      return corners(5, 0);
+    case "star":
+      return corners(10, 0, [1.3, 0.55]);
+    case "cross":
+      return [across(size * 0.75, size * 0.75), across(size * 0.75, -size * 0.75)];
+    case "plus":
+      return [across(size, 0), across(0, size)];
+    case "bar":
+      return [across(0, size)];
+    default:
+      throw new Error(`no mark "${shape}"`);
   }
 };
 

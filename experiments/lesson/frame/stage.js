@@ -32,15 +32,17 @@ Lesson.Stage = class {
     if (!isSame) this.view = new Lesson.View(scene.bounds, width, height);
     this.bounds = scene.bounds;
     const context = Lesson.sizedContext(this.canvas, width, height);
-    Lesson.paint(scene, this.view, new Lesson.CanvasPainter(context),
-                 {layers: this.player.layers, dark: Lesson.theme.isDark()});
+    Lesson.paint(
+        scene, this.view, new Lesson.CanvasPainter(context), {layers: this.player.layers, dark: Lesson.theme.isDark()});
     this.canvas.setAttribute("aria-label", this.player.chapter.sentence(this.player.step));
   }
 
   // Null: back to the whole.
   zoom(factor, x = this.view.width / 2, y = this.view.height / 2) {
-    if (factor === null) this.view = null;
-    else this.view.zoom(factor, x, y);
+    if (factor === null)
+      this.view = null;
+    else
+      this.view.zoom(factor, x, y);
     this.draw();
   }
 

@@ -7,5 +7,7 @@ window.addEventListener("error", (event) => {
 Lesson.data = JSON.parse(document.getElementById("lesson-data").textContent);
 Lesson.theme.apply();
 for (const prepare of Lesson.preparations ?? []) prepare();
-if (window.location.hash === "#selftest") Lesson.selftest.run(document.getElementById("lesson"));
-else Lesson.page = new Lesson.Page(document.getElementById("lesson"));
+if (window.location.hash === "#selftest")
+  Lesson.selftest.run(document.getElementById("lesson"));
+else
+  Lesson.page = new Lesson.Page(document.getElementById("lesson"));

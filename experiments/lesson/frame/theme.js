@@ -1,15 +1,35 @@
 // What things look like. A picture names roles, never colours, so that one drawing serves dark and light pages, the
-// screen and the slide. Colours are those of Okabe and Ito, which the colour-blind tell apart; what has to be told apart
-// differs in width, dash or mark as well.
+// screen and the slide. Colours are those of Okabe and Ito, which the colour-blind tell apart; what has to be told
+// apart differs in width, dash or mark as well.
 Lesson.theme = (() => {
   const colours = {
     light: {
-      paper: "#ffffff", ink: "#1a1a1a", soft: "#6b6b6b", faint: "#c9c9c9", blue: "#0072b2", sky: "#3a8fc0",
-      green: "#007a58", orange: "#c77c00", red: "#c04a00", purple: "#a8487e", above: "#0072b2", below: "#8a8a8a",
+      paper: "#ffffff",
+      ink: "#1a1a1a",
+      soft: "#6b6b6b",
+      faint: "#c9c9c9",
+      blue: "#0072b2",
+      sky: "#3a8fc0",
+      green: "#007a58",
+      orange: "#c77c00",
+      red: "#c04a00",
+      purple: "#a8487e",
+      above: "#0072b2",
+      below: "#8a8a8a",
     },
     dark: {
-      paper: "#14171a", ink: "#f2f2f2", soft: "#a6adb3", faint: "#4a5157", blue: "#56b4e9", sky: "#8fcdf2",
-      green: "#2fc79b", orange: "#e69f00", red: "#ff8a4c", purple: "#e08fbd", above: "#56b4e9", below: "#8f979d",
+      paper: "#14171a",
+      ink: "#f2f2f2",
+      soft: "#a6adb3",
+      faint: "#4a5157",
+      blue: "#56b4e9",
+      sky: "#8fcdf2",
+      green: "#2fc79b",
+      orange: "#e69f00",
+      red: "#ff8a4c",
+      purple: "#e08fbd",
+      above: "#56b4e9",
+      below: "#8f979d",
     },
   };
 
@@ -22,6 +42,7 @@ Lesson.theme = (() => {
     surface: {stroke: "soft", width: 5, opacity: 0.45},
     voronoi: {stroke: "green", width: 1, dash: [2, 3]},
     delaunay: {stroke: "soft", width: 1},
+    forgotten: {stroke: "faint", width: 1, dash: [3, 5]},
     restricted: {stroke: "blue", width: 3},
     mesh: {stroke: "blue", width: 3},
     vertex: {fill: "ink", stroke: "paper", width: 1},
@@ -54,7 +75,7 @@ Lesson.theme = (() => {
   let choice = "auto";
 
   const isDark = () =>
-    choice === "dark" || (choice === "auto" && window.matchMedia("(prefers-color-scheme: dark)").matches);
+      choice === "dark" || (choice === "auto" && window.matchMedia("(prefers-color-scheme: dark)").matches);
 
   const colour = (name, dark) => colours[dark ? "dark" : "light"][name];
 

@@ -5,7 +5,11 @@ Lesson.Timeline = class {
   constructor(goTo) {
     this.goTo = goTo;
     this.canvas = Lesson.element("canvas", {
-      class: "timeline", role: "slider", tabindex: 0, "aria-label": "step", "aria-valuemin": 0,
+      class: "timeline",
+      role: "slider",
+      tabindex: 0,
+      "aria-label": "step",
+      "aria-valuemin": 0,
     });
     this.isHeld = false;
     this.canvas.addEventListener("pointerdown", (event) => {
@@ -51,8 +55,9 @@ Lesson.Timeline = class {
     steps.forEach((event, i) => {
       const isHidden = hidesFuture && i > step;
       const kind = kinds[event.kind];
-      scene.mark([xOf(i), middle + (isHidden ? 0 : kind.rise ?? 0)], isHidden ? "bar" : kind.mark,
-                 isHidden ? "grid" : kind.role, isHidden ? 3 : size);
+      scene.mark(
+          [xOf(i), middle + (isHidden ? 0 : kind.rise ?? 0)], isHidden ? "bar" : kind.mark,
+          isHidden ? "grid" : kind.role, isHidden ? 3 : size);
     });
     scene.line([[xOf(step), 3], [xOf(step), height - 3]], "cursor");
     return scene;

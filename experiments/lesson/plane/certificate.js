@@ -1,5 +1,5 @@
-// The mesh compared with the exact topology: each loop of the level set ought to have one piece of the mesh, made of its
-// own points. The answer says what is wrong, if anything is.
+// The mesh compared with the exact topology: each loop of the level set ought to have one piece of the mesh, made of
+// its own points. The answer says what is wrong, if anything is.
 Lesson.certify = (levelSet, points, edges) => {
   const parent = points.map((_, k) => k);
   const find = (k) => (parent[k] === k ? k : (parent[k] = find(parent[k])));
@@ -22,18 +22,23 @@ Lesson.certify = (levelSet, points, edges) => {
   });
   const pieces = Array.from({length: levelSet.loopCount}, () => 0);
   let mixed = 0;
+  const isMixed = (loop) => [...loopsOf.values()].some((loops) => loops.size > 1 && loops.has(loop));
   for (const loops of loopsOf.values()) {
-    if (loops.size > 1) mixed += 1;
-    else if (!loops.has(-1)) pieces[[...loops][0]] += 1;
+    if (loops.size > 1)
+      mixed += 1;
+    else if (!loops.has(-1))
+      pieces[[...loops][0]] += 1;
   }
   if (mixed) complaints.push(`${Lesson.countText(mixed, "piece joins", "pieces join")} several loops`);
-  const missed = pieces.filter((count) => count === 0).length - (mixed ? 1 : 0);
+  const missedLoops =
+      pieces.map((count, loop) => (count === 0 ? loop : -1)).filter((loop) => loop >= 0 && !isMixed(loop));
+  const missed = missedLoops.length;
   if (missed > 0) complaints.push(`${Lesson.countText(missed, "loop has", "loops have")} no piece of the mesh`);
   const doubled = pieces.filter((count) => count > 1).length;
   if (doubled) complaints.push(`${Lesson.countText(doubled, "loop has", "loops have")} several pieces`);
   const crossings = Lesson.countCrossings(points, edges);
   if (crossings) complaints.push(`${Lesson.countText(crossings, "pair of edges crosses", "pairs of edges cross")}`);
-  return {isRight: complaints.length === 0, complaints, pieces: loopsOf.size, loops: levelSet.loopCount};
+  return {isRight: complaints.length === 0, complaints, missedLoops, pieces: loopsOf.size, loops: levelSet.loopCount};
 };
 
 Lesson.countCrossings = (points, edges) => {

@@ -18,17 +18,15 @@ Lesson.Delaunay = class Delaunay {
     if (third < 0) return null;
     const [a, b, c] = [points[0], points[second], points[third]];
     const first = orient(a, b, c) > 0 ? [a, b, c] : [a, c, b];
-    let delaunay = new Delaunay(first, [[0, 1, 2], [1, 0, Lesson.kInfinite], [2, 1, Lesson.kInfinite],
-                                        [0, 2, Lesson.kInfinite]]);
+    let delaunay =
+        new Delaunay(first, [[0, 1, 2], [1, 0, Lesson.kInfinite], [2, 1, Lesson.kInfinite], [0, 2, Lesson.kInfinite]]);
     for (const p of points) {
       if (!delaunay.points.some((q) => same(p, q))) delaunay = delaunay.insert(p);
     }
     return delaunay;
   }
 
-  isGhost(triangle) {
-    return triangle[2] === Lesson.kInfinite;
-  }
+  isGhost(triangle) { return triangle[2] === Lesson.kInfinite; }
 
   // Whether the circle of a triangle holds p. That of a ghost is the half plane outside of its edge, and the edge.
   conflicts(triangle, p) {
@@ -46,10 +44,12 @@ Lesson.Delaunay = class Delaunay {
     const gone = this.triangles.filter((triangle) => this.conflicts(triangle, p));
     const sides = new Set();
     const key = (u, v) => (u + 1) * 65536 + v + 1;
-    for (const [a, b, c] of gone) for (const [u, v] of [[a, b], [b, c], [c, a]]) sides.add(key(u, v));
+    for (const [a, b, c] of gone)
+      for (const [u, v] of [[a, b], [b, c], [c, a]]) sides.add(key(u, v));
     const rim = [];
     for (const [a, b, c] of gone) {
-      for (const [u, v] of [[a, b], [b, c], [c, a]]) if (!sides.has(key(v, u))) rim.push([u, v]);
+      for (const [u, v] of [[a, b], [b, c], [c, a]])
+        if (!sides.has(key(v, u))) rim.push([u, v]);
     }
     return {gone, rim};
   }
@@ -62,9 +62,12 @@ Lesson.Delaunay = class Delaunay {
     const triangles = this.triangles.filter((triangle) => !removed.has(triangle));
     for (const [u, v] of rim) {
       // The infinite vertex stands last.
-      if (u === Lesson.kInfinite) triangles.push([v, vertex, u]);
-      else if (v === Lesson.kInfinite) triangles.push([vertex, u, v]);
-      else triangles.push([u, v, vertex]);
+      if (u === Lesson.kInfinite)
+        triangles.push([v, vertex, u]);
+      else if (v === Lesson.kInfinite)
+        triangles.push([vertex, u, v]);
+      else
+        triangles.push([u, v, vertex]);
     }
     return new Delaunay([...this.points, p], triangles);
   }

@@ -1,6 +1,6 @@
-// The volume of the plane: samples on pixels, bilinear between them, all below the isovalue on the border of the box, so
-// that the level set consists of loops. Along a line g is a quadratic in every cell (in 3D: a cubic), whose signs and
-// roots tell the hits.
+// The volume of the plane: samples on pixels, bilinear between them, all below the isovalue on the border of the box,
+// so that the level set consists of loops. Along a line g is a quadratic in every cell (in 3D: a cubic), whose signs
+// and roots tell the hits.
 Lesson.Field = class {
   // values[j * width + i] belongs to the point (i, j).
   constructor(width, height, values, isovalue = 0) {
@@ -19,9 +19,7 @@ Lesson.Field = class {
     return new Lesson.Field(this.width, this.height, values, this.isovalue);
   }
 
-  isOnBorder(i, j) {
-    return i === 0 || j === 0 || i === this.width - 1 || j === this.height - 1;
-  }
+  isOnBorder(i, j) { return i === 0 || j === 0 || i === this.width - 1 || j === this.height - 1; }
 
   makeBorderBelow() {
     for (let j = 0; j < this.height; ++j) {
@@ -39,16 +37,14 @@ Lesson.Field = class {
   }
 
   // The samples around a cell: lower left, lower right, upper left, upper right.
-  corners(i, j) {
-    return [this.sample(i, j), this.sample(i + 1, j), this.sample(i, j + 1), this.sample(i + 1, j + 1)];
-  }
+  corners(i, j) { return [this.sample(i, j), this.sample(i + 1, j), this.sample(i, j + 1), this.sample(i + 1, j + 1)]; }
 
-  holds([x, y]) {
-    return x >= 0 && y >= 0 && x <= this.width - 1 && y <= this.height - 1;
-  }
+  holds([x, y]) { return x >= 0 && y >= 0 && x <= this.width - 1 && y <= this.height - 1; }
 
   cellOf([x, y]) {
-    return [Math.min(this.width - 2, Math.max(0, Math.floor(x))), Math.min(this.height - 2, Math.max(0, Math.floor(y)))];
+    return [
+      Math.min(this.width - 2, Math.max(0, Math.floor(x))), Math.min(this.height - 2, Math.max(0, Math.floor(y)))
+    ];
   }
 
   valueIn(i, j, [x, y]) {
@@ -58,9 +54,7 @@ Lesson.Field = class {
   }
 
   // g less the isovalue; outside the box everything lies below.
-  value(p) {
-    return this.holds(p) ? this.valueIn(...this.cellOf(p), p) : -1;
-  }
+  value(p) { return this.holds(p) ? this.valueIn(...this.cellOf(p), p) : -1; }
 
   gradient(p) {
     const [i, j] = this.cellOf(p);

@@ -2,7 +2,8 @@
 Lesson.fields = (() => {
   const fill = (size, f) => {
     const values = [];
-    for (let j = 0; j < size; ++j) for (let i = 0; i < size; ++i) values.push(f(i, j));
+    for (let j = 0; j < size; ++j)
+      for (let i = 0; i < size; ++i) values.push(f(i, j));
     return new Lesson.Field(size, size, values);
   };
 
@@ -16,10 +17,17 @@ Lesson.fields = (() => {
 
   // Bumps at random places: smooth, with as many loops as chance will have.
   const bumps = (random, size) => {
-    const places = Array.from({length: 7}, () => [
-      random.between(2, size - 3), random.between(2, size - 3), random.between(1.5, size / 5), random.between(-0.6, 1)]);
-    return fill(size, (x, y) => places.reduce(
-        (sum, [cx, cy, width, height]) => sum + height * Math.exp(-((x - cx) ** 2 + (y - cy) ** 2) / (width * width)), -0.25));
+    const places = Array.from(
+        {length: 7},
+        () =>
+            [random.between(2, size - 3), random.between(2, size - 3), random.between(1.5, size / 5),
+             random.between(-0.6, 1)]);
+    return fill(
+        size,
+        (x, y) => places.reduce(
+            (sum, [cx, cy, width, height]) =>
+                sum + height * Math.exp(-((x - cx) ** 2 + (y - cy) ** 2) / (width * width)),
+            -0.25));
   };
 
   const list = [

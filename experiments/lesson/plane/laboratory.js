@@ -2,7 +2,7 @@
 Lesson.Laboratory = class {
   constructor(seed) {
     this.name = "plane";
-    this.title = "Laboratory in the plane";
+    this.title = "2D laboratory";
     this.kinds = Lesson.planeStory.kinds;
     this.layers = Lesson.planePicture.layers;
     this.shownLayers = [1, 2, 4, 5, 6, 7, 8, 9];
@@ -15,9 +15,7 @@ Lesson.Laboratory = class {
     this.chooseField("ring");
   }
 
-  open(context) {
-    this.context = context;
-  }
+  open(context) { this.context = context; }
 
   chooseField(name) {
     this.fieldName = name;
@@ -43,8 +41,10 @@ Lesson.Laboratory = class {
 
   setOption(name, value) {
     this.options[name] = value;
-    if (name === "start" || name === "seeding") this.drawPoints();
-    else this.compute();
+    if (name === "start" || name === "seeding")
+      this.drawPoints();
+    else
+      this.compute();
   }
 
   setSeed(seed) {
@@ -56,7 +56,8 @@ Lesson.Laboratory = class {
     this.field = this.field.withSample(i, j, value);
     // Points stay on the curve, on the place nearest to where they were, or leave where it has gone.
     this.points = this.points.map((p) => Lesson.nearestOnCurve(this.field, p, 3)).filter(Boolean);
-    if (this.points.length < 3) this.points = Lesson.startPoints(this.field, new Lesson.Random(this.seed), this.options);
+    if (this.points.length < 3)
+      this.points = Lesson.startPoints(this.field, new Lesson.Random(this.seed), this.options);
     this.compute();
   }
 
@@ -65,13 +66,9 @@ Lesson.Laboratory = class {
     this.compute();
   }
 
-  frame(step) {
-    return this.run.frames[Math.min(step, this.run.frames.length - 1)];
-  }
+  frame(step) { return this.run.frames[Math.min(step, this.run.frames.length - 1)]; }
 
-  steps() {
-    return this.run.frames;
-  }
+  steps() { return this.run.frames; }
 
   scene(step, {preview}) {
     return Lesson.planePicture.scene(this.run, this.frame(step), {preview, showsValues: this.showsValues});
@@ -82,23 +79,25 @@ Lesson.Laboratory = class {
     return this.failure ? `No run: ${this.failure}.` : Lesson.planeStory.happened(this.run, frame);
   }
 
+  // The certificate of the mesh so far: when does it become right, and does it stay so?
+  status(step) {
+    const frame = this.frame(step);
+    const {isRight, complaints, pieces, loops} = this.run.certificate(frame);
+    if (!isRight) return `Mesh so far: ${complaints.join("; ")}.`;
+    return `Mesh so far ✓: ${Lesson.countText(pieces, "piece")} for ${Lesson.countText(loops, "loop")}.`;
+  }
+
   next(step) {
     const {next} = this.frame(step);
     return next && {kind: next.kind, sentence: Lesson.planeStory.coming(next)};
   }
 
-  why(step) {
-    return Lesson.planeStory.why(this.run, this.frame(step));
-  }
+  why(step) { return Lesson.planeStory.why(this.run, this.frame(step)); }
 
-  line(step) {
-    return this.code.lineOf(this.frame(step).next?.kind ?? "end");
-  }
+  line(step) { return this.code.lineOf(this.frame(step).next?.kind ?? "end"); }
 
-  panel() {
-    return Lesson.planePanel(this);
-  }
+  panel() { return Lesson.planePanel(this); }
 };
 
-Lesson.preparations = [...(Lesson.preparations ?? []),
-                       () => Lesson.chapters.push(new Lesson.Laboratory(Lesson.data.seed))];
+Lesson.preparations =
+    [...(Lesson.preparations ?? []), () => Lesson.chapters.push(new Lesson.Laboratory(Lesson.data.seed))];

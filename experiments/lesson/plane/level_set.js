@@ -4,10 +4,11 @@
 Lesson.LevelSet = class {
   constructor(field) {
     this.field = field;
-    this.arcs = [];        // {cell, ends: [crossing, crossing], loop}
+    this.arcs = [];           // {cell, ends: [crossing, crossing], loop}
     this.arcsOf = new Map();  // cell -> its arcs
     this.crossings = new Map();
-    for (let j = 0; j + 1 < field.height; ++j) for (let i = 0; i + 1 < field.width; ++i) this.addCell(i, j);
+    for (let j = 0; j + 1 < field.height; ++j)
+      for (let i = 0; i + 1 < field.width; ++i) this.addCell(i, j);
     this.joinLoops();
   }
 
@@ -102,9 +103,11 @@ Lesson.LevelSet = class {
       for (let k = 1; k < pieces; ++k) {
         const s = k / pieces;
         const m = [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])];
-        const near = this.field.hits(m, [m[0] + across[0], m[1] + across[1]], -1, 1)
-            .filter((hit) => hit.point.every((x, axis) => x >= arc.cell[axis] - 1e-9 && x <= arc.cell[axis] + 1 + 1e-9))
-            .sort((h, k2) => Math.abs(h.t) - Math.abs(k2.t));
+        const near =
+            this.field.hits(m, [m[0] + across[0], m[1] + across[1]], -1, 1)
+                .filter(
+                    (hit) => hit.point.every((x, axis) => x >= arc.cell[axis] - 1e-9 && x <= arc.cell[axis] + 1 + 1e-9))
+                .sort((h, k2) => Math.abs(h.t) - Math.abs(k2.t));
         if (near.length) points.push(near[0].point);
       }
       return [...points, b];
@@ -121,7 +124,8 @@ Lesson.countLoopsByRegions = (field) => {
     return k;
   };
   const join = (i, j, k, l) => {
-    if (field.sample(i, j) < 0 === field.sample(k, l) < 0) parent[find(j * field.width + i)] = find(l * field.width + k);
+    if (field.sample(i, j) < 0 === field.sample(k, l) < 0)
+      parent[find(j * field.width + i)] = find(l * field.width + k);
   };
   for (let j = 0; j < field.height; ++j) {
     for (let i = 0; i < field.width; ++i) {
@@ -132,8 +136,10 @@ Lesson.countLoopsByRegions = (field) => {
       const isAmbiguous = f00 < 0 === f11 < 0 && f10 < 0 === f01 < 0 && f00 < 0 !== f10 < 0;
       if (!isAmbiguous) continue;
       const isSaddleBelow = (f00 * f11 - f10 * f01) / (f00 + f11 - f10 - f01) < 0;
-      if (isSaddleBelow === f00 < 0) join(i, j, i + 1, j + 1);
-      else join(i + 1, j, i, j + 1);
+      if (isSaddleBelow === f00 < 0)
+        join(i, j, i + 1, j + 1);
+      else
+        join(i + 1, j, i, j + 1);
     }
   }
   const regions = new Set(parent.map((_, k) => find(k)));

@@ -1,8 +1,17 @@
-// The picture of a frame: the same layers, by number, as in the chapters about space. What comes next is drawn over what
-// is: the point, its empty circle, the conflict region and its rim.
+// The picture of a frame: the same layers, by number, as in the chapters about space. What comes next is drawn over
+// what is: the point, its empty circle, the conflict region and its rim.
 Lesson.planePicture = (() => {
-  const layers = {1: "samples", 2: "level set", 3: "Voronoi", 4: "Delaunay", 5: "restricted, mesh", 6: "hits",
-                  7: "conflict region", 8: "rim, star", 9: "poles"};
+  const layers = {
+    1: "samples",
+    2: "level set",
+    3: "Voronoi",
+    4: "Delaunay",
+    5: "restricted, mesh",
+    6: "hits",
+    7: "conflict region",
+    8: "rim, star",
+    9: "poles"
+  };
 
   const drawField = (scene, run, showsValues) => {
     const {field} = run;
@@ -39,7 +48,8 @@ Lesson.planePicture = (() => {
     scene.onLayer(5);
     for (const {u, v} of restricted.edges) scene.line([points[u], points[v]], "restricted");
     scene.onLayer(6);
-    for (const edge of restricted.edges) for (const hit of edge.hits) scene.mark(hit.point, "cross", "hit", 4);
+    for (const edge of restricted.edges)
+      for (const hit of edge.hits) scene.mark(hit.point, "cross", "hit", 4);
   };
 
   const drawPoles = (scene, restricted, poles) => {
@@ -76,7 +86,8 @@ Lesson.planePicture = (() => {
     for (const [u, v] of rim) {
       if (u !== Lesson.kInfinite && v !== Lesson.kInfinite) scene.line([points[u], points[v]], "rim");
     }
-    for (const v of new Set(rim.flat())) if (v !== Lesson.kInfinite) scene.line([points[v], point], "star");
+    for (const v of new Set(rim.flat()))
+      if (v !== Lesson.kInfinite) scene.line([points[v], point], "star");
     scene.onLayer(0);
     if (edge) {
       scene.line([points[edge.u], points[edge.v]], "target");
@@ -114,11 +125,30 @@ Lesson.planePicture = (() => {
     drawPoint(scene, point);
   };
 
+  // BuildTriMesh forgets the triangulation: it is seen a last time, faint.
+  const drawForgotten = (scene, {delaunay}) => {
+    scene.onLayer(4);
+    for (const {u, v} of delaunay.allEdges()) scene.line([delaunay.points[u], delaunay.points[v]], "forgotten");
+  };
+
+  // At the end, loops that the mesh does not have.
+  const drawMissed = (scene, run, frame) => {
+    if (frame.kind !== "end") return;
+    scene.onLayer(0);
+    for (const loop of run.certificate(frame).missedLoops) {
+      const curves = run.curves.filter((_, k) => run.levelSet.arcs[k].loop === loop);
+      for (const curve of curves) scene.line(curve, "wrong");
+      scene.label(curves[0][0], "missed", "label", 8);
+    }
+  };
+
   const drawAction = (scene, frame) => {
     const action = frame.next;
     if (!action?.point) return;
-    if (frame.polyline) drawPath(scene, frame.polyline, action);
-    else drawConflict(scene, frame.restricted, action);
+    if (frame.polyline)
+      drawPath(scene, frame.polyline, action);
+    else
+      drawConflict(scene, frame.restricted, action);
   };
 
   const scene = (run, frame, {preview, showsValues}) => {
@@ -128,12 +158,15 @@ Lesson.planePicture = (() => {
     if (frame.polyline) {
       const {points, edges} = frame.polyline;
       picture.onLayer(5);
+      if (frame.kind === "build") drawForgotten(picture, frame.restricted);
       for (const edge of edges) picture.line([points[edge.a], points[edge.b]], "mesh");
+      drawMissed(picture, run, frame);
       if (preview) drawAction(picture, frame);
       drawVertices(picture, points, frame.kind === "refine");
       return picture;
     }
     drawTriangulation(picture, field, frame.restricted);
+    drawMissed(picture, run, frame);
     if (frame.poles) drawPoles(picture, frame.restricted, frame.poles);
     if (preview) drawAction(picture, frame);
     drawVertices(picture, frame.restricted.delaunay.points, frame.action?.point);

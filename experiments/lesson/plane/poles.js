@@ -1,5 +1,6 @@
-// Poles (Dey and Levine, section 3.2) in the plane: the curve cuts the Voronoi cell of each vertex in two; on either side
-// the pole is the Voronoi vertex farthest from the vertex. The nearer one gives the height, the scale of the shape there.
+// Poles (Dey and Levine, section 3.2) in the plane: the curve cuts the Voronoi cell of each vertex in two; on either
+// side the pole is the Voronoi vertex farthest from the vertex. The nearer one gives the height, the scale of the shape
+// there.
 Lesson.computePoles = (restricted) => {
   const {field, delaunay} = restricted;
   const most = Math.hypot(field.width - 1, field.height - 1);

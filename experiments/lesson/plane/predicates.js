@@ -25,8 +25,8 @@ Lesson.predicates = (() => {
   const exactInCircle = (differences) => {
     const [ax, ay, bx, by, cx, cy] = differences.map(integer);
     const lift = (x, y) => x * x + y * y;
-    return signOf(lift(ax, ay) * (bx * cy - cx * by) + lift(bx, by) * (cx * ay - ax * cy) +
-                  lift(cx, cy) * (ax * by - bx * ay));
+    return signOf(
+        lift(ax, ay) * (bx * cy - cx * by) + lift(bx, by) * (cx * ay - ax * cy) + lift(cx, cy) * (ax * by - bx * ay));
   };
 
   // Above 0 when d lies inside the circle through a, b, c, which turn to the left.
@@ -36,7 +36,7 @@ Lesson.predicates = (() => {
     const al = ax * ax + ay * ay, bl = bx * bx + by * by, cl = cx * cx + cy * cy;
     const determinant = al * (bcl - bcr) + bl * (cal - car) + cl * (abl - abr);
     const permanent = (Math.abs(bcl) + Math.abs(bcr)) * al + (Math.abs(cal) + Math.abs(car)) * bl +
-                      (Math.abs(abl) + Math.abs(abr)) * cl;
+        (Math.abs(abl) + Math.abs(abr)) * cl;
     if (Math.abs(determinant) > kInCircleBound * permanent) return Math.sign(determinant);
     return exactInCircle([ax, ay, bx, by, cx, cy]);
   };

@@ -1,6 +1,6 @@
 // Stage 1 (Dey and Levine, Figure 5) in the plane: what MultiIntersect, ExtractManifold and ApproximateGeom ask for, by
-// priority, the worst first, as the program does it. No point may come nearer to a vertex than the size bound; without it
-// the loop need not end.
+// priority, the worst first, as the program does it. No point may come nearer to a vertex than the size bound; without
+// it the loop need not end.
 Lesson.recover = (() => {
   // {kind, point, measure, ...what the card shows}
   const multiIntersect = (restricted, edge) => {
@@ -14,8 +14,8 @@ Lesson.recover = (() => {
     if (restricted.isDisk(q)) return null;
     const umbrella = restricted.umbrellas[q];
     const from = restricted.delaunay.points[q];
-    const hits = umbrella.length ? umbrella.flatMap((edge) => edge.hits.map((hit) => hit.point))
-                                 : hitsInVoronoiCell(restricted, q);
+    const hits = umbrella.length ? umbrella.flatMap((edge) => edge.hits.map((hit) => hit.point)) :
+                                   hitsInVoronoiCell(restricted, q);
     let best = null;
     for (const point of hits) {
       const measure = Lesson.distance(point, from);
@@ -59,10 +59,10 @@ Lesson.recover = (() => {
   };
 
   // All violations of one kind.
-  const violationsOf = (restricted, options) => [
-    () => restricted.edges.map((edge) => multiIntersect(restricted, edge)),
-    () => restricted.delaunay.points.map((_, q) => extractManifold(restricted, q)),
-    () => restricted.edges.map((edge) => approximateGeometry(restricted, edge, options)),
+  const violationsOf = (restricted, options) =>
+      [() => restricted.edges.map((edge) => multiIntersect(restricted, edge)),
+       () => restricted.delaunay.points.map((_, q) => extractManifold(restricted, q)),
+       () => restricted.edges.map((edge) => approximateGeometry(restricted, edge, options)),
   ];
 
   // The next action of stage 1: {violation, left}, where `left` are those that the size bound forbids to mend.
@@ -74,8 +74,10 @@ Lesson.recover = (() => {
         if (!violation) continue;
         const point = Lesson.predicates.snap(violation.point);
         const room = distanceToVertices(restricted.delaunay.points, point);
-        if (room < options.sizeBound || room === 0) left.push(violation);
-        else if (!worst || violation.measure > worst.measure) worst = {...violation, point, room};
+        if (room < options.sizeBound || room === 0)
+          left.push(violation);
+        else if (!worst || violation.measure > worst.measure)
+          worst = {...violation, point, room};
       }
       if (worst) return {violation: {...worst, ...restricted.delaunay.conflictRegion(worst.point)}, left};
     }

@@ -1,6 +1,6 @@
 // Stage 2 (Dey and Levine, section 3.2 and Figure 9) in the plane: a mesh of edges without a triangulation. A new point
-// encroaches a path E, found by walking from edge to edge; D, two edges that join the point to the ends of E, replaces it.
-// In 3D E is a disk, and D has two triangles more.
+// encroaches a path E, found by walking from edge to edge; D, two edges that join the point to the ends of E, replaces
+// it. In 3D E is a disk, and D has two triangles more.
 Lesson.Polyline = class Polyline {
   // edges: {a, b, middle, r, x, h}, above on the left of a -> b. Every vertex has one edge in and one out.
   constructor(field, points, heights, edges) {
@@ -39,9 +39,7 @@ Lesson.Polyline = class Polyline {
     return {a, b, middle, r: Lesson.distance(p, q) / 2, x, h: x ? Lesson.distance(x, middle) : Infinity, refusal: null};
   }
 
-  meanHeight(edge) {
-    return (this.heights[edge.a] + this.heights[edge.b]) / 2;
-  }
+  meanHeight(edge) { return (this.heights[edge.a] + this.heights[edge.b]) / 2; }
 
   // How far an edge is beyond the thresholds: above 1 when x is to be inserted.
   badness(edge, {epsilon1, epsilon2, rMin}) {
@@ -91,8 +89,9 @@ Lesson.Polyline = class Polyline {
   // The mesh after the action. A new vertex inherits its height from its neighbours.
   after({edge, point, path, refusal}) {
     if (refusal) {
-      return new Polyline(this.field, this.points, this.heights,
-                          this.edges.map((other) => (other === edge ? {...edge, refusal} : other)));
+      return new Polyline(
+          this.field, this.points, this.heights,
+          this.edges.map((other) => (other === edge ? {...edge, refusal} : other)));
     }
     const from = path[0].a, to = path[path.length - 1].b, vertex = this.points.length;
     const points = [...this.points, point];

@@ -21,16 +21,17 @@ Lesson.Restricted = class Restricted {
     }
   }
 
+  // A run keeps every state, but only the last one has to know its dual edges by name.
   insert(p) {
-    return new Restricted(this.field, this.delaunay.insert(p), this.known);
+    const after = new Restricted(this.field, this.delaunay.insert(p), this.known);
+    this.known = new Map();
+    return after;
   }
 
-  apex(triangle, {u, v}) {
-    return triangle.find((w) => w !== u && w !== v);
-  }
+  apex(triangle, {u, v}) { return triangle.find((w) => w !== u && w !== v); }
 
-  // {u, v, middle, r, ends, hits, x, h}: the Voronoi edge of an edge, its hits, the hit nearest to the edge and how far it
-  // lies from the middle. r is half the length: the circumradius of an edge.
+  // {u, v, middle, r, ends, hits, x, h}: the Voronoi edge of an edge, its hits, the hit nearest to the edge and how far
+  // it lies from the middle. r is half the length: the circumradius of an edge.
   dualEdge({u, v, left, right}) {
     this.searches += 1;
     const {points} = this.delaunay;
@@ -38,14 +39,24 @@ Lesson.Restricted = class Restricted {
     const middle = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
     const ends = this.dualEnds(a, b, left, right);
     const hits = this.field.hits(ends[0], ends[1]).map((hit) => ({
-      ...hit, distance: Lesson.distance(hit.point, middle),
-    }));
+                                                         ...hit,
+                                                         distance: Lesson.distance(hit.point, middle),
+                                                       }));
     const nearest = hits.reduce((best, hit) => (!best || hit.distance < best.distance ? hit : best), null);
-    return {u, v, middle, r: Lesson.distance(a, b) / 2, ends, hits, x: nearest?.point ?? null,
-            h: nearest?.distance ?? Infinity};
+    return {
+      u,
+      v,
+      middle,
+      r: Lesson.distance(a, b) / 2,
+      ends,
+      hits,
+      x: nearest?.point ?? null,
+      h: nearest?.distance ?? Infinity
+    };
   }
 
-  // From the Voronoi vertex on the right of a -> b to that on the left. Where a ghost is, the edge goes on past the box.
+  // From the Voronoi vertex on the right of a -> b to that on the left. Where a ghost is, the edge goes on past the
+  // box.
   dualEnds(a, b, left, right) {
     const {delaunay} = this;
     const out = [a[1] - b[1], b[0] - a[0]];  // to the left
@@ -59,9 +70,7 @@ Lesson.Restricted = class Restricted {
   }
 
   // D_q of a curve is a disk when it consists of two edges.
-  isDisk(q) {
-    return this.umbrellas[q].length === 2;
-  }
+  isDisk(q) { return this.umbrellas[q].length === 2; }
 };
 
 Lesson.distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);

@@ -1,7 +1,8 @@
 // A run of the algorithm in the plane: one frame a step, each with the whole state after it and the next action, known
 // before it happens. The same field, points and options give the same frames.
 Lesson.Run = class Run {
-  static defaults = {epsilon: 0.2, epsilon1: 0.1, epsilon2: 0.2, sizeBound: 0.3, rMin: 0.024, start: 4, seeding: "random"};
+  static defaults =
+      {epsilon: 0.2, epsilon1: 0.1, epsilon2: 0.2, sizeBound: 0.3, rMin: 0.024, start: 4, seeding: "random"};
 
   // `points` lie on the level set, at least three, not all on a line.
   constructor(field, points, options = {}) {
@@ -20,9 +21,7 @@ Lesson.Run = class Run {
     while (this.frames[this.frames.length - 1].next && this.frames.length < 1500) this.advance();
   }
 
-  get last() {
-    return this.frames[this.frames.length - 1];
-  }
+  get last() { return this.frames[this.frames.length - 1]; }
 
   push(frame) {
     const next = this.nextOf(frame);
@@ -32,7 +31,7 @@ Lesson.Run = class Run {
   // What the state asks for.
   nextOf({kind, restricted, polyline, poles, left}) {
     if (kind === "end") return {action: null, left};
-    if (polyline) return {action: polyline.next(this.options) ?? {kind: "end"}};
+    if (polyline) return {action: polyline.next(this.options) ?? { kind: "end" }};
     if (poles) return {action: {kind: "build"}};
     const stage1 = Lesson.recover.next(restricted, this.options);
     if (stage1.violation) return {action: stage1.violation, left: stage1.left};
@@ -44,11 +43,16 @@ Lesson.Run = class Run {
   advance() {
     const {restricted, polyline, poles, next, left} = this.last;
     const frame = {kind: next.kind, action: next, restricted, polyline, poles};
-    if (next.kind === "poles") frame.poles = Lesson.computePoles(restricted);
-    else if (next.kind === "build") this.build(frame);
-    else if (next.kind === "end") frame.left = left;
-    else if (polyline) frame.polyline = polyline.after(next);
-    else frame.restricted = restricted.insert(next.point);
+    if (next.kind === "poles")
+      frame.poles = Lesson.computePoles(restricted);
+    else if (next.kind === "build")
+      this.build(frame);
+    else if (next.kind === "end")
+      frame.left = left;
+    else if (polyline)
+      frame.polyline = polyline.after(next);
+    else
+      frame.restricted = restricted.insert(next.point);
     this.push(frame);
   }
 
@@ -66,8 +70,11 @@ Lesson.Run = class Run {
   }
 
   certificate(frame = this.last) {
-    const {points, edges} = this.mesh(frame);
-    return Lesson.certify(this.levelSet, points, edges);
+    if (!frame.certificate) {
+      const {points, edges} = this.mesh(frame);
+      frame.certificate = Lesson.certify(this.levelSet, points, edges);
+    }
+    return frame.certificate;
   }
 };
 

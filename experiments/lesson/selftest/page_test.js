@@ -1,0 +1,178 @@
+// The page as its readers use it: by keys, by the pointer, by addresses. Every chapter with steps is played forward,
+// backward and by address, and has to show the same each time.
+(() => {
+  const {test, check, equal} = Lesson.selftest;
+  let page = null;
+
+  // A page of its own, out of sight but as large as a screen.
+  const open = () => {
+    if (page) return page;
+    const root = Lesson.element("div", {style: "position: absolute; left: -3000px; top: 0; width: 1280px"});
+    document.body.append(root);
+    page = new Lesson.Page(root);
+    return page;
+  };
+
+  const press = (key, more = {}) =>
+      document.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true, ...more}));
+
+  const goTo = (address) => open().showAddress(address);
+
+  // All that a reader gets to see or hear of a state.
+  const seen = () => {
+    const {cards, live, player, stage} = page;
+    const svg = Lesson.svgOf(stage.scene(), "", {layers: player.layers});
+    return [
+      player.step, live.textContent, cards.now.textContent, cards.next.textContent, cards.why.textContent,
+      cards.code.querySelector(".lit")?.textContent ?? "", svg
+    ];
+  };
+
+  const stepped = () => Lesson.chapters.filter((chapter) => !chapter.page);
+
+  test("forward, backward and by address all is the same", () => {
+    open();
+    for (const chapter of stepped()) {
+      goTo(`#${chapter.name}/0`);
+      const last = page.player.last();
+      const forward = [seen()], times = [];
+      while (page.player.step < last) {
+        const begin = performance.now();
+        press("ArrowRight");
+        times.push(performance.now() - begin);
+        forward.push(seen());
+      }
+      check(forward.length === last + 1, `${chapter.name}: ${forward.length} states`);
+      check(new Set(forward.map(String)).size === forward.length, `${chapter.name}: two steps look alike`);
+      for (let step = last; step >= 0; --step) {
+        equal(seen(), forward[step], `${chapter.name}/${step} backward`);
+        press("ArrowLeft");
+      }
+      for (let k = 0; k < 60; ++k) {
+        const step = (k * 37) % (last + 1);
+        goTo(`#${chapter.name}/${step}`);
+        equal(seen(), forward[step], `${chapter.name}/${step} by address`);
+      }
+      times.sort((s, t) => s - t);
+      const [median, most] = [times[times.length >> 1], times[times.length - 1]];
+      check(median < 50, `${chapter.name}: ${median} ms a step`);
+      Lesson.selftest.notes.push(
+          `${chapter.name}: ${last} steps, ${median.toFixed(1)} ms a step (median), ` +
+          `${most.toFixed(1)} ms the longest; ${chapter.milliseconds?.toFixed(0) ?? "–"} ms for the run`);
+    }
+  });
+
+  test("keys do what the help says", () => {
+    open();
+    for (const chapter of stepped()) {
+      goTo(`#${chapter.name}/0`);
+      const {player} = page;
+      const steps = chapter.steps();
+      press("End");
+      equal(player.step, player.last(), "End");
+      press("Home");
+      equal(player.step, 0, "Home");
+      goTo(`#${chapter.name}/1`);
+      press("ArrowRight", {shiftKey: true});
+      const to = steps.findIndex((step, i) => i > 1 && step.kind === steps[1].kind);
+      equal(player.step, to < 0 ? player.last() : to, "Shift and the right arrow");
+      for (const layer of Object.keys(chapter.layers)) {
+        const isOn = player.layers.has(Number(layer));
+        press(layer);
+        check(player.layers.has(Number(layer)) !== isOn, `layer ${layer} off and on`);
+        press(layer);
+      }
+      press("t");
+      press("t");
+      const isHandled = !press("ArrowRight");
+      check(isHandled, "arrows do not scroll the page");
+      press(" ");
+      player.pause();
+    }
+  });
+
+  test("predict mode hides what comes, and counts", () => {
+    open();
+    for (const chapter of stepped()) {
+      goTo(`#${chapter.name}/0`);
+      const {player} = page;
+      player.predict.restart();
+      press("p");
+      const last = Math.min(player.last(), 40);
+      let right = 0, asked = 0;
+      for (let step = 0; step < last; ++step) {
+        const {kind} = chapter.steps()[step + 1];
+        const {sentence} = chapter.next(step);
+        const shown = () => page.live.textContent + page.cards.next.textContent;
+        check(!shown().includes(sentence) && page.cards.why.hidden, `step ${step}: what comes is shown`);
+        const others = Object.keys(chapter.kinds).filter((other) => chapter.kinds[other].key && other !== kind);
+        const guess = step % 3 ? kind : others[step % others.length];
+        press(chapter.kinds[guess].key);
+        asked += 1;
+        right += guess === kind ? 1 : 0;
+        check(
+            shown().includes(sentence) && !page.cards.why.hidden,
+            `step ${step}: what comes is hidden after the answer`);
+        // A second answer does not count.
+        press(chapter.kinds[kind].key);
+        equal(player.predict.scoreText(), `${right} of ${asked} right`, `step ${step}`);
+        equal(player.step, step, "an answer is no step");
+        press("ArrowRight");
+      }
+      press("p");
+    }
+  });
+
+  // Counts what is drawn and keeps nothing.
+  const nowhere = {path() {}, circle() {}, text() {}};
+
+  test("labels do not cover each other", () => {
+    open();
+    for (const chapter of stepped()) {
+      for (let step = 0; step < chapter.steps().length; step += 1) {
+        const scene = chapter.scene(step, {preview: true});
+        for (const [width, height] of [[840, 552], [390, 320]]) {
+          const view = new Lesson.View(scene.bounds, width, height);
+          const boxes = Lesson.paint(scene, view, nowhere, {layers: null, dark: false}).map((label) => label.box);
+          const covered = boxes.some(
+              (a, i) => boxes.slice(i + 1).some(
+                  (b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom));
+          const outside = boxes.some((b) => b.left < 0 || b.top < 0 || b.right > width || b.bottom > height);
+          check(!covered && !outside, `${chapter.name}/${step} at ${width}x${height}`);
+        }
+      }
+    }
+  });
+
+  test("pictures are SVG files that can be read", () => {
+    open();
+    for (const chapter of stepped()) {
+      for (let step = 0; step < chapter.steps().length; step += 7) {
+        const svg = Lesson.svgOf(chapter.scene(step, {preview: true}), chapter.sentence(step), {dark: step % 2 === 0});
+        const parsed = new DOMParser().parseFromString(svg, "image/svg+xml");
+        check(!parsed.querySelector("parsererror") && !svg.includes("NaN"), `${chapter.name}/${step}`);
+        equal(parsed.querySelector("title").textContent, chapter.sentence(step), `${chapter.name}/${step}`);
+      }
+    }
+  });
+
+  test("the page names no address outside of it", () => {
+    const sources = [...document.querySelectorAll("script, style")].map((element) => element.textContent).join("\n");
+    const addresses =
+        (sources.match(/https?:[^"'\s`]*/g) ?? []).filter((text) => !text.startsWith("http://www.w3.org/2000/svg"));
+    check(addresses.every((text) => text.includes("[^")), `addresses: ${addresses}`);
+    equal(document.querySelectorAll("script[src], link[href], img[src]").length, 0, "elements that load something");
+  });
+
+  test("every control has a name", () => {
+    open();
+    for (const chapter of Lesson.chapters) {
+      goTo(`#${chapter.name}`);
+      for (const control of page.stepped.parentNode.querySelectorAll(
+               "button, input, select, textarea, [role=slider]")) {
+        const name = control.getAttribute("aria-label") ?? control.closest("label")?.textContent ?? control.textContent;
+        check(name.trim() !== "", `${chapter.name}: ${control.outerHTML.slice(0, 80)}`);
+      }
+    }
+  });
+})();

@@ -1,0 +1,85 @@
+// The page in a real browser: `lesson.html#selftest` runs the tests of the page itself; here its result is read.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/lesson/lesson_page.h"
+#include "tests/support/program_runner.h"
+
+namespace deliso::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Chromium, or what DELISO_BROWSER names; none where none is installed.
+std::optional<fs::path> find_browser() {
+  const char* const chosen = std::getenv("DELISO_BROWSER");
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+      if (fs::exists(fs::path(folder) / name)) return fs::path(folder) / name;
+    }
+  }
+  return std::nullopt;
+}
+
+// What the browser makes of a page of this seed, once it is loaded; while its self-test runs, it counts as loading.
+ProgramResult browse(const fs::path& browser, std::uint64_t seed, const std::string& address) {
+  const TemporaryFolder folder;
+  write_file(folder / "lesson.html", lesson_page({.seed = seed}));
+  return run_program_at(browser,
+                        {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                         "--user-data-dir=" + folder / "profile", "--window-size=1280,720", "--enable-logging=stderr",
+                         "--dump-dom", "file://" + folder / "lesson.html" + address});
+}
+
+void expect_no_console_error(const ProgramResult& result) {
+  std::istringstream lines(result.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.find(":CONSOLE"), std::string::npos) << line;
+}
+
+std::string text_of_page(const std::string& dom) {
+  const std::string body = dom.substr(std::min(dom.find("id=\"lesson\""), dom.size()));
+  return std::regex_replace(body.substr(0, 8000), std::regex("<[^>]*>"), "\n");
+}
+
+class LessonBrowser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    browser_ = find_browser();
+    if (!browser_) GTEST_SKIP() << "no Chromium is installed: apt-get install chromium, or name one in DELISO_BROWSER";
+  }
+  std::optional<fs::path> browser_;
+};
+
+TEST_F(LessonBrowser, TheSelfTestPasses) {
+  const ProgramResult result = browse(*browser_, 1, "#selftest");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(result.out, match, std::regex(R"((\d+) passed, (\d+) failed)")))
+      << text_of_page(result.out) << result.err;
+  EXPECT_GT(std::stoi(match[1]), 20000);
+  EXPECT_EQ(match[2], "0") << text_of_page(result.out);
+  expect_no_console_error(result);
+}
+
+// Every chapter opens, and shows no failure.
+TEST_F(LessonBrowser, EveryAddressOpens) {
+  for (const std::string address : {"", "#plane/12", "#plane/99999", "#plane/x", "#coding/disk", "#nowhere"}) {
+    SCOPED_TRACE(address);
+    const ProgramResult result = browse(*browser_, 7, address);
+    EXPECT_NE(result.out.find("2D laboratory"), std::string::npos) << result.err;
+    EXPECT_EQ(result.out.find("role=\"alert\""), std::string::npos) << text_of_page(result.out);
+    expect_no_console_error(result);
+  }
+}
+
+}  // namespace
+}  // namespace deliso::testing
