@@ -39,9 +39,6 @@ struct ExplainCommandOptions {
   bool answers = false;
 };
 
-// The page shall be no larger.
-constexpr std::size_t kMostPageBytes = 1'950'000;
-
 MeshingOptions meshing_options(const ExplainCommandOptions& options) {
   MeshingOptions meshing;
   if (!options.config.empty()) meshing.parameters = read_parameters(options.config);
@@ -106,7 +103,7 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   }
   if (options.output.empty()) return ExitCode::kDone;
   lesson.runs = &runs;
-  const std::string page = lesson_page(lesson, kMostPageBytes);
+  const std::string page = lesson_page(lesson);
   write_text(page, options.output);
   if (options.text) return ExitCode::kDone;
   TextTable()

@@ -18,6 +18,6 @@ struct LessonOptions {
 
 // The page as a whole: the template with the style sheet, the scripts and the data put in. Equal options give equal
 // bytes. Runs are cut so that the page has about `most_bytes` at most.
-std::string lesson_page(const LessonOptions& options, std::size_t most_bytes);
+std::string lesson_page(const LessonOptions& options, std::size_t most_bytes = 1'950'000);
 
 }  // namespace deliso

@@ -1,3 +1,7 @@
+// The box around points, [low, high].
+Lesson.boxOf = (points) => [Math.min, Math.max].map(
+    (pick) => [0, 1, 2].map((axis) => points.reduce((best, p) => pick(best, p[axis]), points[0][axis])));
+
 // Where the reader stands: turns space into the plane, and tells what lies in front of what. The picture is not
 // foreshortened, so that parallel edges stay parallel.
 Lesson.Camera = class {
@@ -11,7 +15,7 @@ Lesson.Camera = class {
 
   reset() {
     this.turn = 0.6;
-    this.tilt = 0.5;
+    this.tilt = 0.75;
     this.update();
   }
 
@@ -34,12 +38,10 @@ Lesson.Camera = class {
   }
 
   // The larger, the nearer to the reader.
-  nearness(p) {
-    return Lesson.vectors.dot(Lesson.vectors.sub(p, this.middle), this.towards);
-  }
+  nearness(p) { return Lesson.vectors.dot(Lesson.vectors.sub(p, this.middle), this.towards); }
 
   bounds() {
-    const half = 0.52 * this.size;
+    const half = 0.5 * this.size;
     return [-half, -half, half, half];
   }
 };

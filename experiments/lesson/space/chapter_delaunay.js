@@ -12,7 +12,8 @@ Lesson.DelaunayChapter = class extends Lesson.SpaceChapter {
     // Enough to see small regions and large ones.
     const inserts = run.events.map((event, i) => [event, i]).filter(([event]) => event.e === "insert").slice(0, 40);
     for (const [, i] of inserts) {
-      for (const kind of ["region", "rim", "star"]) this.list.push({kind, event: kind === "star" ? i : i - 1, insert: i});
+      for (const kind of ["region", "rim", "star"])
+        this.list.push({kind, event: kind === "star" ? i : i - 1, insert: i});
     }
   }
 
@@ -46,28 +47,31 @@ Lesson.DelaunayChapter = class extends Lesson.SpaceChapter {
     if (insert < 0) return "The Delaunay triangulation of the first points: no vertex lies inside any circumball.";
     const {gone, facets, vertices, star} = this.counts(insert);
     switch (kind) {
-      case "region": return `The circumballs of ${Lesson.countText(gone, "tetrahedron", "tetrahedra")} hold the new point: ` +
-          "they are in conflict with it and go.";
-      case "rim": return `Their rim is a sphere of ${facets} facets on ${vertices} vertices, the infinite one among them if it is there.`;
-      default: return `The star of the new vertex over the rim: ${star} new tetrahedra, one a facet.`;
+      case "region":
+        return `The circumballs of ${Lesson.countText(gone, "tetrahedron", "tetrahedra")} hold the new point: ` +
+            "they are in conflict with it and go.";
+      case "rim":
+        return `Their rim is a sphere of ${facets} facets on ${
+            vertices} vertices, the infinite one among them if it is there.`;
+      default:
+        return `The star of the new vertex over the rim: ${star} new tetrahedra, one a facet.`;
     }
   }
 
   next(step) {
     if (step + 1 >= this.list.length) return null;
     const {kind} = this.list[step + 1];
-    const words = {region: "Which tetrahedra are in conflict with the next point?", rim: "What bounds the conflict region?",
-                   star: "How many tetrahedra fill the hole?"};
+    const words = {
+      region: "Which tetrahedra are in conflict with the next point?",
+      rim: "What bounds the conflict region?",
+      star: "How many tetrahedra fill the hole?"
+    };
     return {kind, sentence: words[kind]};
   }
 
-  why() {
-    return null;
-  }
+  why() { return {title: "A tetrahedron is in conflict with a point that its circumball holds.", rows: []}; }
 
-  line(step) {
-    return this.list[step + 1] ? this.code.lineOf(this.list[step + 1].kind) : -1;
-  }
+  line(step) { return this.list[step + 1] ? this.code.lineOf(this.list[step + 1].kind) : -1; }
 
   exercises() {
     const insert = this.list[1].insert;
@@ -82,7 +86,12 @@ Lesson.DelaunayChapter = class extends Lesson.SpaceChapter {
 
 Lesson.DelaunayChapter.code = (() => {
   const lines = [
-    {text: "find the tetrahedra whose circumballs hold p", file: "delaunay/bowyer_watson.h", name: "find_conflicts", kinds: ["region"]},
+    {
+      text: "find the tetrahedra whose circumballs hold p",
+      file: "delaunay/bowyer_watson.h",
+      name: "find_conflicts",
+      kinds: ["region"]
+    },
     {text: "the facets around them: the rim", file: "delaunay/bowyer_watson.h", name: "rim", kinds: ["rim"]},
     {text: "join p to the rim: its star", file: "delaunay/bowyer_watson.h", name: "fill_cavity", kinds: ["star"]},
   ];

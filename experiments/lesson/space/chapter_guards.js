@@ -2,8 +2,9 @@
 Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
     super(run, {name: "guards", title: "8 Guards", code: Lesson.GuardsChapter.code, shownLayers: [5, 7, 8]});
-    this.kinds = Object.fromEntries(Object.entries(Lesson.GuardsChapter.causes).map(([cause, {title, key, mark}]) =>
-        [cause, {title, key, mark, role: "refused"}]));
+    this.kinds =
+        Object.fromEntries(Object.entries(Lesson.GuardsChapter.causes)
+                               .map(([cause, {title, key, mark}]) => [cause, {title, key, mark, role: "refused"}]));
     this.kinds.start = {title: "the gallery", mark: "bar", role: "plain"};
     this.list.push({kind: "start", event: Math.max(0, run.meshAt)});
     const found = {};
@@ -47,7 +48,8 @@ Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
   sentence(step) {
     const event = this.event(step);
     if (event.e !== "keep") {
-      return `The mesh of random samples that stage 2 begins with. ${this.list.length - 1} refusals follow; name the guard of each.`;
+      return `The mesh of random samples that stage 2 begins with. ${
+          this.list.length - 1} refusals follow; name the guard of each.`;
     }
     return `Triangle ${event.t.join("–")}: ${Lesson.GuardsChapter.causes[event.cause].says}`;
   }
@@ -57,23 +59,32 @@ Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
     return {kind: this.list[step + 1].kind, sentence: "Another triangle is coarse, and its insertion is refused. Why?"};
   }
 
-  why() {
-    return null;
-  }
+  why() { return {title: "A refused triangle stays, and is tried again when something around it changes.", rows: []}; }
 
-  line(step) {
-    return this.code.lineOf(this.list[step].kind);
-  }
+  line(step) { return this.code.lineOf(this.list[step].kind); }
 };
 
 Lesson.GuardsChapter.causes = {
-  no_hit: {title: "no hit", key: "h", mark: "cross", says: "its dual line does not meet the surface, or beyond the box only."},
-  not_a_disk: {title: "not a disk", key: "d", mark: "diamond", says: "the triangles whose balls hold x_σ form no disk: its rim is no single cycle, or a vertex lies within."},
+  no_hit: {
+    title: "no hit",
+    key: "h",
+    mark: "cross",
+    says: "its dual line does not meet the surface, or beyond the box only."
+  },
+  not_a_disk: {
+    title: "not a disk",
+    key: "d",
+    mark: "diamond",
+    says: "the triangles whose balls hold x_σ form no disk: its rim is no single cycle, or a vertex lies within."
+  },
   repeated_vertex: {title: "repeated vertex", key: "v", mark: "pentagon", says: "the rim of E passes a vertex twice."},
-  flipped_triangle: {title: "flipped triangle", key: "f", mark: "triangle", says: "a triangle of D would face the wrong way."},
-  too_close: {title: "too close", key: "c", mark: "disc", says: "x_σ is nearer to a vertex than half of its ball's radius."},
+  flipped_triangle:
+      {title: "flipped triangle", key: "f", mark: "triangle", says: "a triangle of D would face the wrong way."},
+  too_close:
+      {title: "too close", key: "c", mark: "disc", says: "x_σ is nearer to a vertex than half of its ball's radius."},
   too_far: {title: "too far", key: "a", mark: "square", says: "x_σ lies far off the planes of E: D would be a spike."},
-  crossing_triangle: {title: "crossing triangle", key: "x", mark: "plus", says: "a triangle of D would cross another sheet."},
+  crossing_triangle:
+      {title: "crossing triangle", key: "x", mark: "plus", says: "a triangle of D would cross another sheet."},
 };
 
 Lesson.GuardsChapter.code = (() => {
@@ -87,5 +98,9 @@ Lesson.GuardsChapter.code = (() => {
     at("x_σ is near the planes of E", "kTooFar", ["too_far"]),
     at("D crosses no other triangle", "kCrossingTriangle", ["crossing_triangle"]),
   ];
-  return {title: "What an insertion must pass", lines, lineOf: (kind) => lines.findIndex((line) => line.kinds.includes(kind))};
+  return {
+    title: "What an insertion must pass",
+    lines,
+    lineOf: (kind) => lines.findIndex((line) => line.kinds.includes(kind))
+  };
 })();

@@ -1,5 +1,5 @@
-// Chapter 6: the poles. The surface cuts the Voronoi cell of a vertex in two; on either side the farthest Voronoi vertex is
-// a pole, and the nearer one of the two counts. Then the tetrahedra go.
+// Chapter 6: the poles. The surface cuts the Voronoi cell of a vertex in two; on either side the farthest Voronoi
+// vertex is a pole, and the nearer one of the two counts. Then the tetrahedra go.
 Lesson.PolesChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
     super(run, {name: "poles", title: "6 Poles", code: Lesson.PolesChapter.code, shownLayers: [1, 2, 5, 9]});
@@ -21,7 +21,8 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     if (run.meshAt >= 0) this.list.push({kind: "mesh", event: run.meshAt});
   }
 
-  // The Voronoi vertices of q: its tetrahedra's circumcenters. At the hull the cell is not bounded, and the box limits it.
+  // The Voronoi vertices of q: its tetrahedra's circumcenters. At the hull the cell is not bounded, and the box limits
+  // it.
   poles(replay, q) {
     const found = {above: null, below: null};
     for (const {v, above} of replay.tets.values()) {
@@ -41,7 +42,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     for (const f of replay.restricted()) picture.face(f.map((v) => replay.points[v]), "meshFace", 5);
     picture.flush();
     if (q === undefined) return picture.vertices(replay.points, -1);
-    for (const key of replay.sides.keys()) {
+    for (const key of [...replay.sides.keys()].sort()) {
       const v = key.split(",").map(Number);
       if (v.includes(q) && !v.some((corner) => replay.isVirtual(corner))) {
         picture.line(picture.dualEdge(replay, key), "voronoi", 9);
@@ -60,17 +61,17 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
   }
 
   // Three vertices near q, for the clamp.
-  around(replay, q) {
-    return replay.restricted().find((f) => f.includes(q)).map((v) => replay.points[v]);
-  }
+  around(replay, q) { return replay.restricted().find((f) => f.includes(q)).map((v) => replay.points[v]); }
 
   sentence(step) {
     const {kind, q, event} = this.list[step];
     if (kind === "start") return "Recover has ended. Every Voronoi cell is cut in two by the surface.";
-    if (kind === "mesh") return "BuildTriMesh: the triangles stay, the tetrahedra go. What needs empty balls through all vertices can never be asked again.";
+    if (kind === "mesh")
+      return "BuildTriMesh: the triangles stay, the tetrahedra go. What needs their empty balls can never be asked again.";
     const {above, below} = this.poles(this.run.at(event), q);
     const text = (pole) => (pole ? Lesson.numberText(pole.distance) : "none (not bounded)");
-    return `Vertex ${q}: the pole above is ${text(above)} away, the one below ${text(below)}. The nearer one counts: ${kind}.`;
+    return `Vertex ${q}: the pole above is ${text(above)} away, the one below ${text(below)}. The nearer one counts: ${
+        kind}.`;
   }
 
   next(step) {
@@ -79,20 +80,25 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     return {kind, sentence: kind === "mesh" ? "BuildTriMesh." : `Vertex ${q}: which of its poles counts?`};
   }
 
-  why() {
-    return null;
-  }
+  why() { return {title: "The pole height bounds the size of triangles: r / h̄ at most ε₂.", rows: []}; }
 
-  line(step) {
-    return this.code.lineOf(this.list[step + 1]?.kind ?? "mesh");
-  }
+  line(step) { return this.code.lineOf(this.list[step + 1]?.kind ?? "mesh"); }
 };
 
 Lesson.PolesChapter.code = (() => {
   const lines = [
-    {text: "ComputePoles: the farthest Voronoi vertices", file: "surface/restricted/poles.h", name: "compute_poles", kinds: ["above", "below"]},
+    {
+      text: "ComputePoles: the farthest Voronoi vertices",
+      file: "surface/restricted/poles.h",
+      name: "compute_poles",
+      kinds: ["above", "below"]
+    },
     {text: "h_q: the nearer one (stage2.pole_height)", file: "surface/base/parameters.h", name: "PoleHeight"},
     {text: "BuildTriMesh", file: "surface/extract/build_triangle_mesh.h", name: "build_triangle_mesh", kinds: ["mesh"]},
   ];
-  return {title: "Figure 9, lines 1 and 2", lines, lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))};
+  return {
+    title: "Figure 9, lines 1 and 2",
+    lines,
+    lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))
+  };
 })();

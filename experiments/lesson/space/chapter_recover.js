@@ -25,7 +25,8 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
   drawAction(picture, replay, event) {
     const {keyOf, rimOf} = Lesson.Replay;
     const points = (v) => v.map((corner) => replay.points[corner]);
-    for (const f of event.disk ?? []) if (f.every((v) => v >= 0)) picture.line([...points(f), replay.points[f[0]]], "target", 0);
+    for (const f of event.disk ?? [])
+      if (f.every((v) => v >= 0)) picture.line([...points(f), replay.points[f[0]]], "target", 0);
     if (event.sigma) {
       const facet = event.sigma.slice(0, 3);
       picture.line([...points(facet), replay.points[facet[0]]], "target", 0);
@@ -64,13 +65,21 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
   }
 
   viewPanel() {
-    const slider = Lesson.element("input", {type: "range", min: 0, max: 1.5, step: 0.05, value: this.explode,
-                                            "aria-label": "explode the conflict region", oninput: (event) => {
-      this.explode = Number(event.target.value);
-      this.context.redraw();
-    }});
+    const slider = Lesson.element("input", {
+      type: "range",
+      min: 0,
+      max: 1.5,
+      step: 0.05,
+      value: this.explode,
+      "aria-label": "explode the conflict region",
+      oninput: (event) => {
+        this.explode = Number(event.target.value);
+        this.context.redraw();
+      }
+    });
     const box = super.viewPanel();
-    box.append(Lesson.element("label", {class: "setting"}, Lesson.element("span", {}, "explode the conflict region"), slider));
+    box.append(
+        Lesson.element("label", {class: "setting"}, Lesson.element("span", {}, "explode the conflict region"), slider));
     return box;
   }
 };

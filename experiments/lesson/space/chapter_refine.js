@@ -12,8 +12,10 @@ Lesson.RefineChapter = class extends Lesson.SpaceChapter {
     picture.mesh(mesh);
     const next = this.nextEvent(step);
     if (preview && next?.gone) Lesson.drawDisk(picture, mesh.points, next);
-    if (mesh.points.length <= 400) picture.vertices(mesh.points, this.event(step).v);
-    else if (this.event(step).p) picture.mark(this.event(step).p, "disc", "vertex", 0, 5);
+    if (mesh.points.length <= 160)
+      picture.vertices(mesh.points, this.event(step).v);
+    else if (this.event(step).p)
+      picture.mark(this.event(step).p, "disc", "vertex", 0, 5);
   }
 
   exercises() {
@@ -23,7 +25,8 @@ Lesson.RefineChapter = class extends Lesson.SpaceChapter {
     return [{
       question: `E of vertex ${first.v} has ${gone} triangles and no vertex inside. How many triangles has D?`,
       answer: () => Lesson.Replay.starOf(first).length,
-      because: (value) => `a disk of ${gone} triangles without inner vertices has ${gone} + 2 edges on its rim, and D one ` +
+      because: (value) =>
+          `a disk of ${gone} triangles without inner vertices has ${gone} + 2 edges on its rim, and D one ` +
           `triangle for each: ${value}.`,
     }];
   }
@@ -34,7 +37,8 @@ Lesson.drawDisk = (picture, points, event) => {
   for (const t of event.gone) picture.face(t.map((v) => points[v]), "diskFace", 7);
   picture.flush();
   const p = event.p;
-  if (event.rim) for (const v of event.rim) picture.line([points[v], p], "pathD", 8);
+  if (event.rim)
+    for (const v of event.rim) picture.line([points[v], p], "pathD", 8);
   picture.mark(p, "star", "point", 0, 8);
   picture.label(p, "x_σ", 9);
 };

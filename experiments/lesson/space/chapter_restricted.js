@@ -1,7 +1,9 @@
 // Chapter 4: a facet and its dual edge. One facet of the triangulation a step; restricted or not?
 Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
-    super(run, {name: "restricted", title: "4 Restricted", code: Lesson.RestrictedChapter.code, shownLayers: [1, 2, 4, 6]});
+    super(
+        run,
+        {name: "restricted", title: "4 Restricted", code: Lesson.RestrictedChapter.code, shownLayers: [1, 2, 4, 6]});
     this.kinds = {
       start: {title: "the triangulation", mark: "bar", role: "plain"},
       restricted: {title: "restricted", key: "r", mark: "triangle", role: "approximate"},
@@ -11,7 +13,7 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
     // Restricted facets and others in turn, as far as both last.
     const replay = run.at(0);
     const facets = {restricted: [], clear: []};
-    for (const key of replay.sides.keys()) {
+    for (const key of [...replay.sides.keys()].sort()) {
       const v = key.split(",").map(Number);
       if (v.some((corner) => replay.isVirtual(corner))) continue;
       facets[this.signs(replay, key)[0] === this.signs(replay, key)[1] ? "clear" : "restricted"].push(key);
@@ -24,9 +26,7 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
     }
   }
 
-  signs(replay, key) {
-    return replay.sides.get(key).map((tet) => replay.tets.get(tet).above);
-  }
+  signs(replay, key) { return replay.sidesOf(key).map((tet) => replay.tets.get(tet).above); }
 
   draw(picture, step) {
     const replay = this.run.at(0);
@@ -38,7 +38,7 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
       picture.flush();
       const ends = picture.dualEdge(replay, key);
       picture.line(ends, "dualEdge", 0);
-      replay.sides.get(key).forEach((tet, i) => {
+      replay.sidesOf(key).forEach((tet, i) => {
         const {above} = replay.tets.get(tet);
         picture.mark(ends[i], above ? "square" : "disc", above ? "above" : "below", 0, 6);
       });
@@ -49,7 +49,8 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
 
   sentence(step) {
     const {key, kind} = this.list[step];
-    if (!key) return "A facet is restricted where its dual edge, between the circumcenters on both sides, meets the surface.";
+    if (!key)
+      return "A facet is restricted where its dual edge, between the circumcenters on both sides, meets the surface.";
     const replay = this.run.at(0);
     const [a, b] = this.signs(replay, key).map((above) => (above ? "above" : "below"));
     const hits = replay.hits.get(key)?.t.length ?? 0;
@@ -64,29 +65,44 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
   }
 
   why() {
-    return null;
+    return {
+      title: "The signs at the ends of its dual edge decide; the number of hits is odd just when they differ.",
+      rows: []
+    };
   }
 
-  line() {
-    return 1;
-  }
+  line() { return 1; }
 
   exercises() {
     const replay = this.run.at(0);
     const odd = [...replay.hits.values()].filter(({t}) => t.length % 2 === 0).length;
     return [{
-      question: "How many dual edges have an even number of hits, so that their facets are not restricted though the paper's test finds a hit?",
+      question:
+          "How many dual edges have an even number of hits, so that their facets are not restricted though there is one?",
       answer: () => odd,
-      because: () => "MultiIntersect inserts a hit of each of them first; with one sign a tetrahedron their facets do not count.",
+      because: () =>
+          "MultiIntersect inserts a hit of each of them first; with one sign a tetrahedron their facets do not count.",
     }];
   }
 };
 
 Lesson.RestrictedChapter.code = (() => {
   const lines = [
-    {text: "V_σ: from circumcenter to circumcenter", file: "surface/restricted/restricted_delaunay.h", name: "DualEdge"},
-    {text: "restricted: the signs at its ends differ", file: "surface/restricted/signed_delaunay.h", name: "is_restricted"},
-    {text: "x_σ: the hit nearest to the facet's plane", file: "surface/restricted/restricted_delaunay.h", name: "surface_hit"},
+    {
+      text: "V_σ: from circumcenter to circumcenter",
+      file: "surface/restricted/restricted_delaunay.h",
+      name: "DualEdge"
+    },
+    {
+      text: "restricted: the signs at its ends differ",
+      file: "surface/restricted/signed_delaunay.h",
+      name: "is_restricted"
+    },
+    {
+      text: "x_σ: the hit nearest to the facet's plane",
+      file: "surface/restricted/restricted_delaunay.h",
+      name: "surface_hit"
+    },
   ];
   return {title: "Del S restricted to the surface", lines, lineOf: () => 1};
 })();

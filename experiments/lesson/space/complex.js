@@ -46,8 +46,14 @@ Lesson.complexOf = (() => {
       return seen.size;
     };
     const vertices = roots(corners, 3 * triangles.length);
-    return {vertices, edges, triangles: triangles.length, chi: vertices - edges + triangles.length,
-            components: roots(pieces, triangles.length), open};
+    return {
+      vertices,
+      edges,
+      triangles: triangles.length,
+      chi: vertices - edges + triangles.length,
+      components: roots(pieces, triangles.length),
+      open
+    };
   };
 })();
 

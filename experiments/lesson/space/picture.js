@@ -2,8 +2,17 @@
 Lesson.SpacePicture = (() => {
   const {vectors} = Lesson;
 
-  const layers = {1: "box, slice", 2: "surface", 3: "Voronoi", 4: "Delaunay", 5: "restricted, mesh", 6: "hits",
-                  7: "conflict region, E", 8: "rim, star, D", 9: "poles"};
+  const layers = {
+    1: "box, slice",
+    2: "surface",
+    3: "Voronoi",
+    4: "Delaunay",
+    5: "mesh",
+    6: "hits",
+    7: "conflict, E",
+    8: "rim, D",
+    9: "poles"
+  };
 
   class SpacePicture {
     constructor(run, camera) {
@@ -16,25 +25,26 @@ Lesson.SpacePicture = (() => {
     face(points, name, layer) {
       const {camera} = this;
       const normal = vectors.cross(vectors.sub(points[1], points[0]), vectors.sub(points[2], points[0]));
-      this.faces.push({points: points.map((p) => camera.toPlane(p)), layer,
-                       role: `${name}${Lesson.shadeOf(normal, camera.towards)}`,
-                       nearness: camera.nearness(vectors.mean(points))});
+      this.faces.push({
+        points: points.map((p) => camera.toPlane(p)),
+        layer,
+        role: `${name}${Lesson.shadeOf(normal, camera.towards)}`,
+        nearness: camera.nearness(vectors.mean(points))
+      });
     }
 
     // Puts the faces gathered so far into the scene.
     flush() {
-      this.faces.sort((a, b) => a.nearness - b.nearness);
+      this.faces.sort(
+          (a, b) => a.nearness - b.nearness || Lesson.Replay.compare(a.points[0], b.points[0]) ||
+              Lesson.Replay.compare(a.points[1], b.points[1]));
       for (const {points, role, layer} of this.faces) this.scene.onLayer(layer).polygon(points, role);
       this.faces = [];
     }
 
-    line(points, role, layer) {
-      this.scene.onLayer(layer).line(points.map((p) => this.camera.toPlane(p)), role);
-    }
+    line(points, role, layer) { this.scene.onLayer(layer).line(points.map((p) => this.camera.toPlane(p)), role); }
 
-    mark(p, shape, role, layer, size) {
-      this.scene.onLayer(layer).mark(this.camera.toPlane(p), shape, role, size);
-    }
+    mark(p, shape, role, layer, size) { this.scene.onLayer(layer).mark(this.camera.toPlane(p), shape, role, size); }
 
     label(p, text, weight, layer = 0) {
       this.scene.onLayer(layer).label(this.camera.toPlane(p), text, "label", weight);
@@ -59,7 +69,7 @@ Lesson.SpacePicture = (() => {
     // Where the dual edge of a facet ends: at circumcenters, and towards infinity at the rim of the picture.
     dualEdge(replay, key) {
       const facet = key.split(",").map(Number).map((v) => replay.points[v]);
-      return replay.sides.get(key).map((tetKey) => {
+      return replay.sidesOf(key).map((tetKey) => {
         const {v} = replay.tets.get(tetKey);
         if (v.some((corner) => corner < 0)) return this.rayEnd(replay, key, facet);
         return this.clampTo(facet, vectors.circumcenter(v.map((corner) => replay.points[corner])));
@@ -68,7 +78,7 @@ Lesson.SpacePicture = (() => {
 
     rayEnd(replay, key, facet) {
       const {center, normal} = vectors.circumcircle(facet);
-      const inner = replay.sides.get(key).map((k) => replay.tets.get(k).v).find((v) => !v.some((c) => c < 0));
+      const inner = replay.sidesOf(key).map((k) => replay.tets.get(k).v).find((v) => !v.some((c) => c < 0));
       const corners = new Set(key.split(",").map(Number));
       const far = inner && replay.points[inner.find((v) => !corners.has(v))];
       const side = far && vectors.dot(vectors.sub(far, facet[0]), normal) > 0 ? -1 : 1;
@@ -95,23 +105,16 @@ Lesson.SpacePicture = (() => {
       points.forEach((p, v) => {
         const isNew = v === newest;
         this.mark(p, "disc", "vertex", 0, isNew ? 5 : 2.2);
-        if (points.length <= 400 || isNew) this.label(p, String(v), isNew ? 6 : 1 + this.camera.nearness(p) / 1000);
+        // Names of what lies behind would be taken for those in front.
+        const isInFront = this.camera.nearness(p) > -0.1 * this.camera.size;
+        if (isNew || (isInFront && points.length <= 160)) {
+          this.label(p, String(v), isNew ? 6 : 1 + this.camera.nearness(p) / 1000);
+        }
       });
     }
 
     triangulation(replay) {
-      const seen = new Set();
-      for (const {v} of replay.tets.values()) {
-        const finite = v.filter((corner) => !replay.isVirtual(corner));
-        for (let i = 0; i < finite.length; ++i) {
-          for (let j = 0; j < i; ++j) {
-            const key = Lesson.Replay.keyOf([finite[i], finite[j]]);
-            if (seen.has(key)) continue;
-            seen.add(key);
-            this.line([replay.points[finite[i]], replay.points[finite[j]]], "delaunay", 4);
-          }
-        }
-      }
+      for (const [a, b] of SpacePicture.edgesOf(replay)) this.line([replay.points[a], replay.points[b]], "delaunay", 4);
       const facets = replay.restricted();
       for (const f of facets) this.face(f.map((v) => replay.points[v]), "meshFace", 5);
       this.flush();
@@ -120,6 +123,19 @@ Lesson.SpacePicture = (() => {
         this.line(this.dualEdge(replay, key), "voronoi", 3);
         for (const p of this.hitsOf(replay, key)) this.mark(p, "cross", "hit", 6, 4);
       }
+    }
+
+    // The edges between vertices that are points of the surface, each once, sorted.
+    static edgesOf(replay) {
+      const size = replay.points.length;
+      const numbers = new Set();
+      for (const {v} of replay.tets.values()) {
+        const finite = v.filter((corner) => !replay.isVirtual(corner));
+        for (const a of finite)
+          for (const b of finite)
+            if (a < b) numbers.add(a * size + b);
+      }
+      return [...numbers].sort((a, b) => a - b).map((number) => [Math.floor(number / size), number % size]);
     }
 
     mesh({points, triangles}) {

@@ -23,9 +23,7 @@ Lesson.Replay = (() => {
       this.undo = [];          // of each event that is applied
     }
 
-    get position() {
-      return this.undo.length - 1;
-    }
+    get position() { return this.undo.length - 1; }
 
     // The state after event n.
     goTo(n) {
@@ -36,14 +34,21 @@ Lesson.Replay = (() => {
 
     apply(event) {
       switch (event.e) {
-        case "initial": return this.begin(event);
-        case "insert": return this.insert(event);
+        case "initial":
+          return this.begin(event);
+        case "insert":
+          return this.insert(event);
         case "mesh":
-        case "shape": return this.takeMesh(event);
-        case "refine": return this.refine(event);
-        case "restart": return this.takeBack();
-        case "refined": return Array.isArray(event.triangles) ? this.takeMesh(event) : () => {};
-        default: return () => {};
+        case "shape":
+          return this.takeMesh(event);
+        case "refine":
+          return this.refine(event);
+        case "restart":
+          return this.takeBack();
+        case "refined":
+          return Array.isArray(event.triangles) ? this.takeMesh(event) : () => {};
+        default:
+          return () => {};
       }
     }
 
@@ -68,7 +73,8 @@ Lesson.Replay = (() => {
         }
       }
       const changed = [];
-      for (const [key, count] of times) if (count === 2) changed.push(this.dropHits(key));
+      for (const [key, count] of times)
+        if (count === 2) changed.push(this.dropHits(key));
       this.points.push(event.p);
       const rim = Replay.rimOf(event.gone);
       const added = rim.map((f, i) => this.addTet([...f, event.v], event.above[i] === "1"));
@@ -114,8 +120,10 @@ Lesson.Replay = (() => {
       for (const f of facetsOf(v)) {
         const side = keyOf(f);
         const keys = this.sides.get(side);
-        if (keys) keys.push(key);
-        else this.sides.set(side, [key]);
+        if (keys)
+          keys.push(key);
+        else
+          this.sides.set(side, [key]);
       }
       return key;
     }
@@ -127,8 +135,10 @@ Lesson.Replay = (() => {
       for (const f of facetsOf(tet.v)) {
         const side = keyOf(f);
         const left = this.sides.get(side).filter((other) => other !== key);
-        if (left.length) this.sides.set(side, left);
-        else this.sides.delete(side);
+        if (left.length)
+          this.sides.set(side, left);
+        else
+          this.sides.delete(side);
       }
       return tet;
     }
@@ -142,16 +152,19 @@ Lesson.Replay = (() => {
     setHits([a, b, c, t]) {
       const key = keyOf([a, b, c]);
       const before = this.hits.get(key);
-      if (t.length) this.hits.set(key, {v: [a, b, c], t});
-      else this.hits.delete(key);
+      if (t.length)
+        this.hits.set(key, {v: [a, b, c], t});
+      else
+        this.hits.delete(key);
       return () => (before ? this.hits.set(key, before) : this.hits.delete(key));
     }
 
-    isVirtual(v) {
-      return this.virtual.has(v);
-    }
+    isVirtual(v) { return this.virtual.has(v); }
 
-    // The facets whose two tetrahedra differ in sign, those with virtual vertices left out.
+    // The keys of the two tetrahedra at a facet, in an order that no history tells.
+    sidesOf(key) { return [...this.sides.get(key)].sort(); }
+
+    // The facets whose two tetrahedra differ in sign, those with virtual vertices left out; sorted.
     restricted() {
       const found = [];
       for (const [key, tets] of this.sides) {
@@ -159,7 +172,7 @@ Lesson.Replay = (() => {
         const v = key.split(",").map(Number);
         if (!v.some((corner) => this.isVirtual(corner))) found.push(v);
       }
-      return found;
+      return found.sort(compare);
     }
 
     // The facets around some tetrahedra, each sorted, all sorted: the order of `above` in a trace.
@@ -182,5 +195,5 @@ Lesson.Replay = (() => {
     }
   }
 
-  return Object.assign(Replay, {keyOf, facetsOf, sorted});
+  return Object.assign(Replay, {keyOf, facetsOf, sorted, compare});
 })();

@@ -1,5 +1,5 @@
-// The exact curve of the surface in a plane of samples: in a square of the grid the field is bilinear, so that the curve
-// is a part of a hyperbola, of which points are computed one by one.
+// The exact curve of the surface in a plane of samples: in a square of the grid the field is bilinear, so that the
+// curve is a part of a hyperbola, of which points are computed one by one.
 Lesson.slice = (() => {
   // f00, f10, f01, f11 less the isovalue: the points of one square with f = 0, as polylines in [0, 1]^2.
   const arcs = (f00, f10, f01, f11, pieces = 6) => {
@@ -41,7 +41,8 @@ Lesson.slice = (() => {
       for (let i = 0; i + 1 < nx; ++i) {
         const f = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
         if (f.every((x) => x >= 0) || f.every((x) => x < 0)) continue;
-        for (const arc of arcs(...f)) lines.push(arc.map(([u, v]) => [(i + u) * step[0], (j + v) * step[1], k * step[2]]));
+        for (const arc of arcs(...f))
+          lines.push(arc.map(([u, v]) => [(i + u) * step[0], (j + v) * step[1], k * step[2]]));
       }
     }
     return lines;

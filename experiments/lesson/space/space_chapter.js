@@ -11,22 +11,14 @@ Lesson.SpaceChapter = class {
     this.pointer = this.turning();
   }
 
-  open(context) {
-    this.context = context;
-  }
+  open(context) { this.context = context; }
 
-  steps() {
-    return this.list;
-  }
+  steps() { return this.list; }
 
-  event(step) {
-    return this.run.events[this.list[step].event];
-  }
+  event(step) { return this.run.events[this.list[step].event]; }
 
   // The event that comes after a step, or null.
-  nextEvent(step) {
-    return step + 1 < this.list.length ? this.event(step + 1) : null;
-  }
+  nextEvent(step) { return step + 1 < this.list.length ? this.event(step + 1) : null; }
 
   scene(step, {preview}) {
     const picture = new Lesson.SpacePicture(this.run, this.run.camera);
@@ -36,24 +28,21 @@ Lesson.SpaceChapter = class {
   }
 
   sentence(step) {
-    const after = this.list.length - 1 === step && this.run.leftOut && this.event(step).e !== "end"
-        ? ` ${this.run.leftOut} more steps are not in this page.` : "";
+    const after = this.list.length - 1 === step && this.run.leftOut && this.event(step).e !== "end" ?
+        ` ${this.run.leftOut} more steps are not in this page.` :
+        "";
     return Lesson.spaceStory.happened(this.event(step)) + this.extra(step) + after;
   }
 
   // What a chapter adds to the sentence of a step.
-  extra() {
-    return "";
-  }
+  extra() { return ""; }
 
   next(step) {
     const event = this.nextEvent(step);
     return event && {kind: this.list[step + 1].kind, sentence: Lesson.spaceStory.coming(event)};
   }
 
-  why(step) {
-    return Lesson.spaceStory.why(this.nextEvent(step), this.run.limits);
-  }
+  why(step) { return Lesson.spaceStory.why(this.nextEvent(step), this.run.limits); }
 
   line(step) {
     const event = this.nextEvent(step);
@@ -78,31 +67,40 @@ Lesson.SpaceChapter = class {
     };
   }
 
-  panel() {
-    return Lesson.element("div", {}, ...this.exercises().map(Lesson.exercise), this.viewPanel());
-  }
+  panel() { return Lesson.element("div", {}, ...this.exercises().map(Lesson.exercise), this.viewPanel()); }
 
-  exercises() {
-    return [];
-  }
+  exercises() { return []; }
 
   // For those who cannot drag, and the slice.
   viewPanel() {
     const {element} = Lesson;
-    const turn = (text, label, a, b) => element("button", {"aria-label": label, title: label, onclick: () => {
-      this.run.camera.rotate(a, b);
-      this.context.redraw();
-    }}, text);
+    const turn = (text, label, a, b) => element(
+        "button", {
+          "aria-label": label,
+          title: label,
+          onclick: () => {
+            this.run.camera.rotate(a, b);
+            this.context.redraw();
+          }
+        },
+        text);
     const height = this.run.volume.dims[2];
-    const slice = element("input", {type: "range", min: -1, max: height - 1, value: this.sliceAt ?? -1,
-                                    "aria-label": "slice plane", oninput: (event) => {
-      this.sliceAt = Number(event.target.value) < 0 ? null : Number(event.target.value);
-      this.context.redraw();
-    }});
-    return element("div", {}, element("h2", {}, "View"),
-                   turn("←", "turn left", -0.2, 0), turn("→", "turn right", 0.2, 0), turn("↑", "tilt up", 0, 0.2),
-                   turn("↓", "tilt down", 0, -0.2),
-                   this.run.volume.samples.length
-                       ? element("label", {class: "setting"}, element("span", {}, "slice with the exact curve"), slice) : null);
+    const slice = element("input", {
+      type: "range",
+      min: -1,
+      max: height - 1,
+      value: this.sliceAt ?? -1,
+      "aria-label": "slice plane",
+      oninput: (event) => {
+        this.sliceAt = Number(event.target.value) < 0 ? null : Number(event.target.value);
+        this.context.redraw();
+      }
+    });
+    return element(
+        "div", {}, element("h2", {}, "View"), turn("←", "turn left", -0.2, 0), turn("→", "turn right", 0.2, 0),
+        turn("↑", "tilt up", 0, 0.2), turn("↓", "tilt down", 0, -0.2),
+        this.run.volume.samples.length ?
+            element("label", {class: "setting"}, element("span", {}, "slice with the exact curve"), slice) :
+            null);
   }
 };

@@ -4,7 +4,7 @@ Lesson.SpaceRun = class {
     Object.assign(this, {name, volume, events, leftOut});
     const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
     this.box = [[0, 0, 0], last];
-    this.camera = new Lesson.Camera(this.box);
+    this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));
     this.replay = new Lesson.Replay(events);
     this.meshAt = events.findIndex((event) => event.e === "mesh");
     this.limits = {...limits, ...(this.meshAt >= 0 ? events[this.meshAt].limits : {})};
@@ -12,9 +12,7 @@ Lesson.SpaceRun = class {
   }
 
   // The replay after an event; the last event that is no state of its own shows the one before.
-  at(event) {
-    return this.replay.goTo(Math.max(0, event));
-  }
+  at(event) { return this.replay.goTo(Math.max(0, event)); }
 
   // What the restricted facets are after an event of stage 1, as BuildTriMesh would take them.
   complex(event) {
@@ -52,12 +50,14 @@ Lesson.exercise = ({question, answer, because}) => {
   const check = () => {
     if (field.value === "") return;
     const right = answer();
-    reply.textContent = Number(field.value) === right ? `Right: ${because(right)}` : "Not so. Look again, or ask for the answer.";
+    reply.textContent =
+        Number(field.value) === right ? `Right: ${because(right)}` : "Not so. Look again, or ask for the answer.";
   };
   const show = () => (reply.textContent = `${answer()}: ${because(answer())}`);
   field.addEventListener("keydown", (event) => event.key === "Enter" && check());
-  const box = element("div", {class: "exercise"}, element("h2", {}, "Exercise"), element("p", {}, question), field, " ",
-                      element("button", {onclick: check}, "Check"), " ", element("button", {onclick: show}, "Answer"), reply);
+  const box = element(
+      "div", {class: "exercise"}, element("h2", {}, "Exercise"), element("p", {}, question), field, " ",
+      element("button", {onclick: check}, "Check"), " ", element("button", {onclick: show}, "Answer"), reply);
   if (Lesson.data.answers) show();
   return box;
 };

@@ -24,9 +24,9 @@ Lesson.spaceStory = (() => {
 
   const reasons = {
     multi_intersect: (e) => `The dual edge of facet ${name(e.sigma)} hits the surface ${e.sigma[3].length} times`,
-    extract_manifold: (e) => e.disk.length
-        ? `The umbrella of vertex ${e.q}, ${count(e.disk.length, "facet")}, is no disk`
-        : `Vertex ${e.q} has no restricted facet`,
+    extract_manifold: (e) => e.disk.length ?
+        `The umbrella of vertex ${e.q}, ${count(e.disk.length, "facet")}, is no disk` :
+        `Vertex ${e.q} has no restricted facet`,
     approximate_geometry: (e) => `Facet ${name(e.sigma)} is too coarse`,
     coverage: () => "The mesh is far from a part of the surface",
   };
@@ -38,22 +38,38 @@ Lesson.spaceStory = (() => {
     coverage: "a sample of that part goes in",
   };
 
-  const criteria = {criterion1: "h / r > ε₁", criterion2: "r / h̄ > ε₂", criterion3: "r / l > ρ",
-                    max_distance: "h > max_distance", boundary: "a boundary edge is too long",
-                    halving: "x_σ was refused; its longest edge is halved", coverage: "a sample of the surface is far"};
+  const criteria = {
+    criterion1: "h / r > ε₁",
+    criterion2: "r / h̄ > ε₂",
+    criterion3: "r / l > ρ",
+    max_distance: "h > max_distance",
+    boundary: "a boundary edge is too long",
+    halving: "x_σ was refused; its longest edge is halved",
+    coverage: "a sample of the surface is far"
+  };
 
   const coming = (e) => {
     switch (e.e) {
-      case "insert": return `${reasons[e.why](e)}: ${moves[e.why]}.`;
-      case "refuse": return `${reasons[e.why](e)}, but the point is refused (${e.cause.replace("_", " ")}).`;
-      case "mesh": return "All umbrellas are disks. ComputePoles, then BuildTriMesh; the tetrahedra are thrown away.";
-      case "refine": return `Triangle ${name(e.t)}: ${criteria[e.why]}. E is replaced by the star of its x_σ.`;
-      case "keep": return `Triangle ${name(e.t)} is coarse, but the insertion is refused: ${e.cause.replaceAll("_", " ")}.`;
-      case "restart": return "Triangles came to meet: all of stage 2 is taken back, and begins again with more care.";
-      case "shape": return "Badly shaped triangles are improved (not in the paper).";
-      case "refined": return "No triangle is left that can be refined.";
-      case "end": return "Nothing is left to do.";
-      default: return kinds[kindOf(e)].title;
+      case "insert":
+        return `${reasons[e.why](e)}: ${moves[e.why]}.`;
+      case "refuse":
+        return `${reasons[e.why](e)}, but the point is refused (${e.cause.replace("_", " ")}).`;
+      case "mesh":
+        return "All umbrellas are disks. ComputePoles, then BuildTriMesh; the tetrahedra are thrown away.";
+      case "refine":
+        return `Triangle ${name(e.t)}: ${criteria[e.why]}. E is replaced by the star of its x_σ.`;
+      case "keep":
+        return `Triangle ${name(e.t)} is coarse, but the insertion is refused: ${e.cause.replaceAll("_", " ")}.`;
+      case "restart":
+        return "Triangles came to meet: all of stage 2 is taken back, and begins again with more care.";
+      case "shape":
+        return "Badly shaped triangles are improved (not in the paper).";
+      case "refined":
+        return "No triangle is left that can be refined.";
+      case "end":
+        return "Nothing is left to do.";
+      default:
+        return kinds[kindOf(e)].title;
     }
   };
 
@@ -61,21 +77,31 @@ Lesson.spaceStory = (() => {
 
   const happened = (e) => {
     switch (e.e) {
-      case "initial": return `InitTriangulation: ${e.points.length} points of the surface, ${e.tets.length} tetrahedra ` +
-          "with those at infinity.";
-      case "insert": return `${kinds[e.why].title} inserted vertex ${e.v}: ${count(e.gone.length, "tetrahedron gave",
-          "tetrahedra gave")} way to ${starOf(e)}.`;
-      case "refuse": return `Refused: ${e.cause.replace("_", " ")}. ${reasons[e.why](e)} still.`;
-      case "mesh": return `BuildTriMesh: ${e.points.length} vertices, ${e.triangles.length} triangles. What needs ` +
-          "tetrahedra can never be asked again.";
-      case "refine": return `RefineGeom inserted vertex ${e.v}: E of ${count(e.gone.length, "triangle")} gave way to D of ` +
-          `${starOf(e)}.`;
-      case "keep": return `Refused: ${e.cause.replaceAll("_", " ")}. Triangle ${name(e.t)} stays as it is for now.`;
-      case "restart": return "Everything since BuildTriMesh was taken back.";
-      case "shape": return "Flips, moves and merges have improved small angles.";
-      case "end": return `The end: ${e.vertices} vertices, ${e.triangles} triangles, ${e.verdict}` +
-          `${e.proven ? ", proven" : ""}.`;
-      default: return `${kinds[kindOf(e)].title}.`;
+      case "initial":
+        return `InitTriangulation: ${e.points.length} points of the surface, ${e.tets.length} tetrahedra ` +
+            "with those at infinity.";
+      case "insert":
+        return `${kinds[e.why].title} inserted vertex ${e.v}: ${
+            count(e.gone.length, "tetrahedron gave", "tetrahedra gave")} way to ${starOf(e)}.`;
+      case "refuse":
+        return `Refused: ${e.cause.replace("_", " ")}. ${reasons[e.why](e)} still.`;
+      case "mesh":
+        return `BuildTriMesh: ${e.points.length} vertices, ${e.triangles.length} triangles. What needs ` +
+            "tetrahedra can never be asked again.";
+      case "refine":
+        return `RefineGeom inserted vertex ${e.v}: E of ${count(e.gone.length, "triangle")} gave way to D of ` +
+            `${starOf(e)}.`;
+      case "keep":
+        return `Refused: ${e.cause.replaceAll("_", " ")}. Triangle ${name(e.t)} stays as it is for now.`;
+      case "restart":
+        return "Everything since BuildTriMesh was taken back.";
+      case "shape":
+        return "Flips, moves and merges have improved small angles.";
+      case "end":
+        return `The end: ${e.vertices} vertices, ${e.triangles} triangles, ${e.verdict}` +
+            `${e.proven ? ", proven" : ""}.`;
+      default:
+        return `${kinds[kindOf(e)].title}.`;
     }
   };
 
@@ -86,17 +112,27 @@ Lesson.spaceStory = (() => {
     const title = coming(e);
     if (e.e === "insert" || e.e === "refuse") {
       switch (e.why) {
-        case "multi_intersect": return {title, rows: [row("hits of the dual edge", e.sigma[3].length, ">", 1)]};
-        case "extract_manifold": return {title, rows: [], remark: "Its facets do not form one cycle around it."};
-        case "approximate_geometry": return {title, rows: [
-          row("h / r  (ε)", e.h / e.r, ">", limits.epsilon), row("r / l  (ρ)", e.r / e.l, ">", limits.rho)]};
-        default: return {title, rows: []};
+        case "multi_intersect":
+          return {title, rows: [row("hits of the dual edge", e.sigma[3].length, ">", 1)]};
+        case "extract_manifold":
+          return {title, rows: [], remark: "Its facets do not form one cycle around it."};
+        case "approximate_geometry":
+          return {
+            title,
+            rows: [row("h / r  (ε)", e.h / e.r, ">", limits.epsilon), row("r / l  (ρ)", e.r / e.l, ">", limits.rho)]
+          };
+        default:
+          return {title, rows: []};
       }
     }
     if (e.e !== "refine") return {title, rows: []};
-    return {title, rows: [
-      row("h / r  (ε₁)", e.h / e.r, ">", limits.epsilon1), row("r / h̄  (ε₂)", e.r / e.pole, ">", limits.epsilon2),
-      row("r / l  (ρ)", e.r / e.l, ">", limits.rho), row("r  (r_min)", e.r, ">", limits.r_min)]};
+    return {
+      title,
+      rows: [
+        row("h / r  (ε₁)", e.h / e.r, ">", limits.epsilon1), row("r / h̄  (ε₂)", e.r / e.pole, ">", limits.epsilon2),
+        row("r / l  (ρ)", e.r / e.l, ">", limits.rho), row("r  (r_min)", e.r, ">", limits.r_min)
+      ]
+    };
   };
 
   return {kinds, kindOf, coming, happened, why, reasons, text};

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "experiments/lesson/lesson_page.h"
+#include "experiments/lesson/lesson_run.h"
 #include "tests/support/program_runner.h"
+#include "volume/fields/field_slices.h"
 
 namespace deliso::testing {
 namespace {
@@ -31,10 +33,21 @@ std::optional<fs::path> find_browser() {
   return std::nullopt;
 }
 
+// The runs that the page of `deliso explain` plays.
+const std::vector<LessonRun>& runs() {
+  static const std::vector<LessonRun> kRuns = [] {
+    std::vector<LessonRun> made;
+    made.push_back(run_observed("torus", generate_field("torus", 16), 0.7, {}));
+    made.push_back(run_observed("noise", generate_field("noise", 8), 127.5, {}));
+    return made;
+  }();
+  return kRuns;
+}
+
 // What the browser makes of a page of this seed, once it is loaded; while its self-test runs, it counts as loading.
 ProgramResult browse(const fs::path& browser, std::uint64_t seed, const std::string& address) {
   const TemporaryFolder folder;
-  write_file(folder / "lesson.html", lesson_page({.seed = seed}));
+  write_file(folder / "lesson.html", lesson_page({.seed = seed, .runs = &runs()}));
   return run_program_at(browser,
                         {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                          "--user-data-dir=" + folder / "profile", "--window-size=1280,720", "--enable-logging=stderr",
@@ -72,7 +85,9 @@ TEST_F(LessonBrowser, TheSelfTestPasses) {
 
 // Every chapter opens, and shows no failure.
 TEST_F(LessonBrowser, EveryAddressOpens) {
-  for (const std::string address : {"", "#plane/12", "#plane/99999", "#plane/x", "#coding/disk", "#nowhere"}) {
+  for (const std::string address :
+       {"", "#overview", "#delaunay/4", "#restricted/3", "#recover/16", "#recover/9999", "#poles/7", "#refine/900",
+        "#guards/5", "#plane/12", "#plane/99999", "#plane/x", "#coding/disk", "#nowhere"}) {
     SCOPED_TRACE(address);
     const ProgramResult result = browse(*browser_, 7, address);
     EXPECT_NE(result.out.find("2D laboratory"), std::string::npos) << result.err;

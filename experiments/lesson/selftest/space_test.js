@@ -1,0 +1,138 @@
+// The player of real runs: its replay against itself backwards and against what the program says of the run, its
+// geometry against definitions, the answers of its exercises against the trace.
+(() => {
+  const {test, check, equal} = Lesson.selftest;
+  const runs = () => (Lesson.data.runs ?? []).map((data) => new Lesson.SpaceRun(data));
+  const main = () => runs()[0];
+
+  // All that a state is, in an order of its own.
+  const stateOf = (replay) => JSON.stringify([
+    replay.points,
+    [...replay.tets].sort(),
+    [...replay.sides].map(([key, tets]) => [key, [...tets].sort()]).sort(),
+    [...replay.hits].sort(),
+    replay.mesh && [replay.mesh.points, [...replay.mesh.triangles].sort()],
+  ]);
+
+  test("the replay goes back the way it came", () => {
+    for (const run of runs()) {
+      const {replay, events} = run;
+      const stops = [0, 1, 5, 20, run.meshAt - 1, run.meshAt, run.meshAt + 1, run.meshAt + 30].filter(
+          (n) => n >= 0 && n < events.length);
+      const states = stops.map((n) => stateOf(replay.goTo(n)));
+      replay.goTo(events.length - 1);
+      for (let i = stops.length; i-- > 0;)
+        equal(stateOf(replay.goTo(stops[i])), states[i], `${run.name}, event ${stops[i]}`);
+    }
+  });
+
+  test("a state is a triangulation", () => {
+    const run = main();
+    if (!run) return;
+    for (let n = 0; n < run.meshAt; n += 7) {
+      const {replay} = {replay: run.at(n)};
+      for (const [key, tets] of replay.sides)
+        check(tets.length === 2, `event ${n}: facet ${key} has ${tets.length} sides`);
+      const pairs = [...replay.tets.values()];
+      // Delaunay: no vertex lies inside a circumball, beyond what six digits leave.
+      for (const {v} of pairs) {
+        if (v.includes(-1)) continue;
+        const center = Lesson.vectors.circumcenter(v.map((corner) => replay.points[corner]));
+        const radius = Lesson.vectors.distance(center, replay.points[v[0]]);
+        if (radius > 100) continue;
+        check(
+            replay.points.every((p) => Lesson.vectors.distance(p, center) > radius - 1e-2),
+            `event ${n}: ${v} is not empty`);
+      }
+    }
+  });
+
+  test("hits lie on the surface, and agree with the signs", () => {
+    const run = main();
+    if (!run || !run.volume.samples.length) return;
+    const picture = new Lesson.SpacePicture(run, run.camera);
+    for (let n = 0; n < run.meshAt; n += 11) {
+      const replay = run.at(n);
+      const restricted = new Set(replay.restricted().map(Lesson.Replay.keyOf));
+      for (const key of replay.hits.keys()) {
+        for (const p of picture.hitsOf(replay, key)) {
+          check(Math.abs(Lesson.slice.value(run.volume, p)) < 0.05, `event ${n}: the hit of ${key} is off the surface`);
+        }
+        check(
+            (replay.hits.get(key).t.length % 2 === 1) === restricted.has(key), `event ${n}: hits and signs of ${key}`);
+      }
+    }
+  });
+
+  test("the mesh at the end is what the program says", () => {
+    for (const run of runs()) {
+      if (run.leftOut) continue;
+      const {mesh} = run.at(run.events.length - 1);
+      equal([mesh.points.length, mesh.triangles.size], [run.end.vertices, run.end.triangles], run.name);
+      const its = Lesson.complexOf([...mesh.triangles.values()]);
+      const sum = {chi: 0, components: 0};
+      for (const {chi, count} of run.end.mesh) {
+        sum.chi += chi * count;
+        sum.components += count;
+      }
+      equal([its.chi, its.components], [sum.chi, sum.components], run.name);
+    }
+  });
+
+  test("complexes are counted right", () => {
+    const tetrahedron = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
+    equal([Lesson.complexOf(tetrahedron).chi, Lesson.complexOf(tetrahedron).components], [2, 1], "a tetrahedron");
+    // Two that share a vertex are two spheres.
+    const two = [...tetrahedron, ...tetrahedron.map((t) => t.map((v) => (v === 0 ? 0 : v + 10)))];
+    equal([Lesson.complexOf(two).chi, Lesson.complexOf(two).components], [4, 2], "two at a vertex");
+    equal(Lesson.complexOf([[0, 1, 2]]).open, 3, "a triangle has a boundary");
+  });
+
+  test("every insertion obeys Euler", () => {
+    for (const run of runs()) {
+      for (const event of run.events) {
+        if (event.e === "insert") {
+          const rim = Lesson.Replay.rimOf(event.gone);
+          const vertices = new Set(rim.flat()).size;
+          check(
+              event.above.length === rim.length && rim.length === 2 * vertices - 4,
+              `vertex ${event.v}: the rim is no sphere`);
+        }
+        if (event.e === "refine" && event.closed) {
+          check(Lesson.Replay.starOf(event).length === event.gone.length + 2, `vertex ${event.v}: D is not E + 2`);
+        }
+      }
+    }
+  });
+
+  test("exercises know their answers", () => {
+    for (const chapter of Lesson.chapters) {
+      for (const {question, answer, because} of chapter.exercises?.() ?? []) {
+        check(Number.isInteger(answer()) && because(answer()).length > 10, `${chapter.name}: ${question}`);
+        const box = Lesson.exercise({question, answer, because});
+        const field = box.querySelector("input");
+        const reply = () => box.querySelector(".score").textContent;
+        const [checkButton] = box.querySelectorAll("button");
+        field.value = String(answer() + 1);
+        checkButton.click();
+        check(!reply().startsWith("Right"), `${chapter.name}: a wrong answer passes`);
+        field.value = String(answer());
+        checkButton.click();
+        check(reply().startsWith("Right"), `${chapter.name}: the right answer fails`);
+      }
+    }
+  });
+
+  test("arcs of a slice lie where the bilinear field is zero", () => {
+    const random = new Lesson.Random(5);
+    for (let trial = 0; trial < 200; ++trial) {
+      const [a, b, c, d] = Array.from({length: 4}, () => random.between(-1, 1));
+      for (const arc of Lesson.slice.arcs(a, b, c, d)) {
+        for (const [u, v] of arc) {
+          const f = (1 - v) * (a + u * (b - a)) + v * (c + u * (d - c));
+          check(Math.abs(f) < 1e-9, `trial ${trial}: ${f}`);
+        }
+      }
+    }
+  });
+})();
