@@ -22,13 +22,15 @@ bool precedes(const Crossing& a, const Crossing& b) { return a.s < b.s || (a.s =
 class VoxelCollector {
  public:
   VoxelCollector(const ScalarGrid& grid, const MinMaxKdTree& tree, double isovalue, const LineSegment& r,
-                 std::vector<CellVisit>& voxels)
-      : grid_(grid), tree_(tree), isovalue_(isovalue), r_(r), voxels_(voxels) {}
+                 std::vector<CellVisit>& voxels, std::vector<NodeVisit>* nodes)
+      : grid_(grid), tree_(tree), isovalue_(isovalue), r_(r), voxels_(voxels), nodes_(nodes) {}
 
   // The part of the segment from `in` to `out`, which lies in the node.
   void traverse(int level, const CellBlock& node, const Crossing& in, const Crossing& out) {
     // Prune the node unless min < kappa < max.
-    if (!can_hold_isovalue(level, node)) return;
+    const bool is_pruned = !can_hold_isovalue(level, node);
+    if (nodes_ != nullptr) nodes_->push_back({level, node, is_pruned});
+    if (is_pruned) return;
     if (node.low == node.high) {
       voxels_.push_back({node.low, clamped(in), clamped(out)});
       return;
@@ -86,17 +88,18 @@ class VoxelCollector {
   double isovalue_;
   const LineSegment& r_;
   std::vector<CellVisit>& voxels_;
+  std::vector<NodeVisit>* nodes_;
 };
 
 }  // namespace
 
 std::vector<CellVisit> collect_voxels(const ScalarGrid& grid, const MinMaxKdTree& tree, double isovalue,
-                                      const LineSegment& r) {
+                                      const LineSegment& r, std::vector<NodeVisit>* nodes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr std::int32_t kEnd = -1;  // instead of an axis
   const int root = tree.root_level();
   std::vector<CellVisit> voxels;
-  VoxelCollector(grid, tree, isovalue, r, voxels)
+  VoxelCollector(grid, tree, isovalue, r, voxels, nodes)
       .traverse(root, tree.block(root, {0, 0, 0}), {-kInfinity, kEnd, 0}, {kInfinity, kEnd, 0});
   return voxels;
 }

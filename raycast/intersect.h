@@ -20,10 +20,18 @@
 
 namespace deliso {
 
+// A node that the traversal comes to (Figure 13), and whether it is left at once because it cannot hold the isovalue.
+struct NodeVisit {
+  int level = 0;  // of the tree; a single cell has level 0 or less
+  CellBlock block;
+  bool is_pruned = false;
+};
+
 // Section 4.1: the voxel cells that the segment passes and that can hold the isovalue, front to back, each with the
-// crossings between which the segment is in it. `tree` is that of the grid. Precondition: no sample equals `isovalue`.
+// crossings between which the segment is in it. `tree` is that of the grid. If `nodes` is given, it receives the nodes
+// in the order of the traversal. Precondition: no sample equals `isovalue`.
 std::vector<CellVisit> collect_voxels(const ScalarGrid& grid, const MinMaxKdTree& tree, double isovalue,
-                                      const LineSegment& r);
+                                      const LineSegment& r, std::vector<NodeVisit>* nodes = nullptr);
 
 // Section 4.2: the hits in these voxel cells, ascending: the roots of a cubic in each.
 std::vector<Hit> find_intersections(std::span<const CellVisit> voxels, const ScalarGrid& grid, double isovalue,

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "experiments/lesson/lesson_rays.h"
 #include "experiments/lesson/trace/trace_writer.h"
 #include "experiments/runs/record.h"
 #include "surface/certificate/certificate.h"
@@ -93,13 +94,15 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
   run.events.push_back(end_of(run.result));
   run.limits = {{"epsilon", options.parameters.stage1.epsilon}, {"rho", options.parameters.stage1.rho}};
   const Vec3 spacing = spacing_to_use(options.parameters, grid.spacing());
+  run.rays = lesson_rays(grid, run.result.isovalue_used, spacing, options.seed);
   run.volume = volume_of(grid, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
   return run;
 }
 
 Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_bytes) {
-  Json events = Json::array();
-  std::size_t bytes = run.volume.dump().size(), left_out = 0;
+  Json events = Json::array(), rays = part == LessonPart::kWhole ? run.rays : Json::array();
+  round_numbers(rays);
+  std::size_t bytes = run.volume.dump().size() + rays.dump().size(), left_out = 0;
   bool is_cut = false;
   for (Json event : run.events) {
     const std::string& kind = event.at("e").get_ref<const std::string&>();
@@ -115,11 +118,8 @@ Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_bytes) 
     bytes += its;
     events.push_back(std::move(event));
   }
-  return {{"name", run.name},
-          {"volume", run.volume},
-          {"limits", run.limits},
-          {"events", std::move(events)},
-          {"left_out", left_out}};
+  return {{"name", run.name}, {"volume", run.volume},        {"limits", run.limits},
+          {"rays", rays},     {"events", std::move(events)}, {"left_out", left_out}};
 }
 
 }  // namespace deliso

@@ -16,6 +16,7 @@ struct LessonRun {
   std::vector<Json> events;  // the whole trace (experiments/lesson/trace/trace_writer.h)
   MeshingResult result;
   Json limits;  // of stage 1: epsilon, rho
+  Json rays;    // see lesson_rays.h
   Json
       volume;  // dims, step (of the grid in mesh space), samples less the isovalue; and an approximation of the surface
 };

@@ -1,7 +1,7 @@
 // A run of the program with what its chapters share: the trace, its replay, and where the reader stands.
 Lesson.SpaceRun = class {
-  constructor({name, volume, events, limits, left_out: leftOut}) {
-    Object.assign(this, {name, volume, events, leftOut});
+  constructor({name, volume, events, limits, rays, left_out: leftOut}) {
+    Object.assign(this, {name, volume, events, leftOut, rays: rays ?? []});
     const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
     this.box = [[0, 0, 0], last];
     this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));

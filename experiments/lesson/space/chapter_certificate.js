@@ -1,0 +1,87 @@
+// Chapter 9: the certificate. The exact topology of the surface is found from the grid alone, and each component of the
+// mesh is compared with it. Here the Euler characteristic of the mesh is counted, term by term.
+Lesson.CertificateChapter = class {
+  constructor(run) { Object.assign(this, {run, name: "certificate", title: "9 Certificate"}); }
+
+  // Components of the last mesh that the page can rebuild: {vertices, edges, triangles, chi, open}.
+  components() {
+    const {mesh} = this.run.at(this.run.events.length - 1);
+    const triangles = [...(mesh?.triangles.values() ?? [])];
+    const parent = new Map();
+    const root = (v) => {
+      while (parent.get(v) !== v) v = parent.get(v);
+      return v;
+    };
+    for (const t of triangles) {
+      for (const v of t)
+        if (!parent.has(v)) parent.set(v, v);
+      parent.set(root(t[1]), root(t[0]));
+      parent.set(root(t[2]), root(t[0]));
+    }
+    const groups = new Map();
+    for (const t of triangles) {
+      const key = root(t[0]);
+      if (!groups.has(key)) groups.set(key, []);
+      groups.get(key).push(t);
+    }
+    return [...groups.values()].map((group) => Lesson.complexOf(group));
+  }
+
+  table(head, rows) {
+    const {element} = Lesson;
+    return element(
+        "table", {}, element("tr", {}, ...head.map((text) => element("th", {scope: "col"}, text))),
+        ...rows.map((row) => element("tr", {}, ...row.map((cell) => element("td", {}, String(cell))))));
+  }
+
+  exercises() {
+    const [first] = this.components();
+    if (!first) return [];
+    return [
+      {
+        question:
+            `A component of the mesh has ${first.vertices} vertices, ${first.edges} edges and ${first.triangles} ` +
+            "triangles. What is χ?",
+        answer: () => first.chi,
+        because: (chi) => `V − E + F = ${first.vertices} − ${first.edges} + ${first.triangles} = ${chi}.`,
+      },
+      ...(first.open ? [] : [{
+        question: "It is closed. What is its genus (the number of its tunnels)?",
+        answer: () => (2 - first.chi) / 2,
+        because: (genus) => `χ = 2 − 2 g, so g = ${genus}.`,
+      }]),
+    ];
+  }
+
+  page() {
+    const {element, countText} = Lesson;
+    const {end, leftOut} = this.run;
+    const exact = (end.isosurface ?? []).map(({chi, loops, count}) => [count, chi, loops]);
+    const box = element(
+        "div", {}, element("h1", {}, `${this.run.name}: is the mesh the surface?`),
+        element(
+            "p", {},
+            "The program knows two things that share nothing: the mesh that both stages have made, and the exact " +
+                "topology of the surface, which it finds from the samples alone: in every cell from the signs at corners, on " +
+                "faces and at the saddles within, glued across faces. They are compared component by component."));
+    box.append(...this.exercises().map(Lesson.exercise));
+    box.append(
+        element("h2", {}, "The surface, from the grid"),
+        this.table(["components", "χ of each", "boundary loops"], exact));
+    if (leftOut) {
+      box.append(
+          element("p", {}, `${leftOut} steps of the run are not in this page, so its last mesh is not counted here.`));
+    } else {
+      const rows = this.components().map((its, i) => [i + 1, its.vertices, its.edges, its.triangles, its.chi]);
+      box.append(
+          element("h2", {}, "The mesh, counted here"), this.table(["component", "V", "E", "F", "χ = V − E + F"], rows));
+    }
+    box.append(element(
+        "p", {},
+        `The program's verdict: ${end.verdict}${end.proven ? ", proven" : ""}. ` +
+            (end.repair_rounds ?
+                 `Before stage 2 it repaired the mesh in ${countText(end.repair_rounds, "round")} (not in the paper).` :
+                 "Nothing had to be repaired.")));
+    return box;
+  }
+};
