@@ -123,6 +123,38 @@
     }
   });
 
+  test("the saddle decides which arcs meet", () => {
+    const chapter = new Lesson.CellChapter();
+    const random = new Lesson.Random(9);
+    // Whether two corners of one sign are joined within the face, by flooding a fine grid.
+    const joins = ([f00, f10, f01, f11], from, to) => {
+      const n = 160;
+      const f = (i, j) => {
+        const [u, v] = [i / n, j / n];
+        return (1 - v) * (f00 + u * (f10 - f00)) + v * (f01 + u * (f11 - f01));
+      };
+      const seen = new Set([from.join()]);
+      const waiting = [from.map((x) => x * n)];
+      while (waiting.length) {
+        const [i, j] = waiting.pop();
+        if (i === to[0] * n && j === to[1] * n) return true;
+        for (const [a, b] of [[i + 1, j], [i - 1, j], [i, j + 1], [i, j - 1]]) {
+          if (a < 0 || b < 0 || a > n || b > n || seen.has(`${a},${b}`) || f(a, b) < 0) continue;
+          seen.add(`${a},${b}`);
+          waiting.push([a, b]);
+        }
+      }
+      return false;
+    };
+    for (let trial = 0; trial < 30; ++trial) {
+      chapter.values = [random.between(0.1, 1), random.between(-1, -0.1), random.between(-1, -0.1), random.between(0.1, 1)];
+      // Too near to a tie for the grid to tell.
+      if (Math.abs(chapter.saddle().value) < 0.02) continue;
+      const says = chapter.sentence().includes("the corners 00 and 11");
+      check(says === joins(chapter.values, [0, 0], [1, 1]), `trial ${trial}: ${chapter.values}`);
+    }
+  });
+
   test("arcs of a slice lie where the bilinear field is zero", () => {
     const random = new Lesson.Random(5);
     for (let trial = 0; trial < 200; ++trial) {
