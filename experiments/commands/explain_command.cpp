@@ -13,6 +13,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
+#include "experiments/lesson/lesson_figure.h"
 #include "experiments/lesson/lesson_page.h"
 #include "experiments/lesson/lesson_run.h"
 #include "experiments/lesson/trace/transcript.h"
@@ -32,6 +33,7 @@ struct ExplainCommandOptions {
   std::string isovalue;
   std::string output;
   std::string trace;
+  std::string figure;
   std::string config;
   std::vector<std::string> assignments;
   std::string seed = "1";
@@ -84,6 +86,8 @@ std::string trace_text(const LessonRun& run) {
 ExitCode run_explain(const ExplainCommandOptions& options) {
   if (options.output.empty() && options.trace.empty() && !options.text)
     throw InputError("explain: -o LESSON (a page such as lesson.html), --trace or --text is required");
+  if (!options.figure.empty() && options.output.empty())
+    throw InputError("explain: --figure needs -o FIGURE (a picture such as step.svg)");
   if (!options.volume.empty() && options.isovalue.empty())
     throw InputError("explain: --isovalue is required with a volume");
   if (options.volume.empty() && !options.isovalue.empty())
@@ -103,11 +107,11 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   }
   if (options.output.empty()) return ExitCode::kDone;
   lesson.runs = &runs;
-  const std::string page = lesson_page(lesson);
+  const std::string page = options.figure.empty() ? lesson_page(lesson) : lesson_figure(lesson, options.figure);
   write_text(page, options.output);
   if (options.text) return ExitCode::kDone;
   TextTable()
-      .row({"lesson", options.output})
+      .row({options.figure.empty() ? "lesson" : "figure", options.output})
       .row({"bytes", std::to_string(page.size())})
       .row({"events", std::to_string(runs.front().events.size())})
       .row({"seed", std::to_string(lesson.seed)})
@@ -125,6 +129,9 @@ void add_explain_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K");
   command.add_option("-o,--output", options->output, "The page: .html, to be opened from disk").type_name("LESSON");
+  command.add_option("--figure", options->figure, "One picture of the page as SVG, such as recover/3 (needs Chromium)")
+      .type_name("CHAPTER/STEP")
+      .check(refuse_empty_value);
   command.add_option("--trace", options->trace, "Write every step of the run as JSON lines")
       .type_name("FILE")
       .check(refuse_empty_name);

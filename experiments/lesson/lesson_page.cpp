@@ -60,6 +60,7 @@ std::string lesson_page(const LessonOptions& options, std::size_t most_bytes) {
                {"seed", std::to_string(options.seed)},
                {"answers", options.shows_answers},
                {"runs", Json::array()}};
+  if (!options.figure.empty()) data["figure"] = options.figure;
   const std::string scripts = modules_of_kind(".js");
   std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size());
   const std::size_t count = options.runs == nullptr ? 0 : options.runs->size();

@@ -13,6 +13,7 @@ struct LessonOptions {
   std::string title = "DelIso";
   std::uint64_t seed = 1;                        // of what is random in the page: fields, instances of exercises
   bool shows_answers = false;                    // of exercises, before they are tried
+  std::string figure = {};                       // the address of the one picture that is shown instead of the page
   const std::vector<LessonRun>* runs = nullptr;  // that the page plays: the main one, then others
 };
 

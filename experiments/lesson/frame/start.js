@@ -9,5 +9,7 @@ Lesson.theme.apply();
 for (const prepare of Lesson.preparations ?? []) prepare();
 if (window.location.hash === "#selftest")
   Lesson.selftest.run(document.getElementById("lesson"));
+else if (Lesson.data.figure)
+  Lesson.showFigure(document.getElementById("lesson"), Lesson.data.figure);
 else
   Lesson.page = new Lesson.Page(document.getElementById("lesson"));

@@ -96,5 +96,19 @@ TEST_F(LessonBrowser, EveryAddressOpens) {
   }
 }
 
+TEST_F(LessonBrowser, DrawsOneFigure) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_deliso({"explain", "--figure", "recover/2", "-o", folder / "a.svg"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string svg = read_file(folder / "a.svg");
+  EXPECT_TRUE(svg.starts_with("<svg xmlns=")) << svg.substr(0, 100);
+  EXPECT_NE(svg.find("<title>MultiIntersect inserted vertex 15"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  const ProgramResult refused = run_deliso({"explain", "--figure", "recover/9999", "-o", folder / "b.svg"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("expected a step of recover from 0 to"), std::string::npos) << refused.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.svg"});
+}
+
 }  // namespace
 }  // namespace deliso::testing
