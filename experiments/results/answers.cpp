@@ -50,9 +50,8 @@ class FigureFinder {
       return one.dataset == reference.dataset && one.variant == variant;
     });
     if (row == table_.rows.end()) return {};
-    const auto metric =
-        std::find_if(experiment_.metrics.begin(), experiment_.metrics.end(),
-                     [&reference](const Metric& one) { return one.name == reference.metric; });
+    const auto metric = std::find_if(experiment_.metrics.begin(), experiment_.metrics.end(),
+                                     [&reference](const Metric& one) { return one.name == reference.metric; });
     return row->cells[static_cast<std::size_t>(metric - experiment_.metrics.begin())].ours;
   }
 

@@ -38,8 +38,8 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
   // Titles, metrics, plots and published figures may differ; what was run may not.
   Json now = experiment_to_json(experiment);
   Json then = experiment_to_json(recorded);
-  for (const char* key : {"title", "question", "notes", "answers", "rows", "metrics", "plots", "reference",
-                          "builtin_datasets"}) {
+  for (const char* key :
+       {"title", "question", "notes", "answers", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {
     now.erase(key);
     then.erase(key);
   }

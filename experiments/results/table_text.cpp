@@ -11,7 +11,7 @@ namespace deliso {
 namespace {
 
 constexpr const char* kTableSchema = "deliso-table-1";
-constexpr double kSmall = 0.01;   // numbers below are written with an exponent
+constexpr double kSmall = 0.01;  // numbers below are written with an exponent
 constexpr const char* kThinkFirst =
     "Decide what you expect before you read the table; `deliso table FOLDER --answers` prints the answer below it.";
 constexpr const char* kTo = "–";  // "10–30"

@@ -1,8 +1,8 @@
 // The answers of an experiment as JSON: paragraphs with figures of the table, and what they claim.
 //
-// A reference to a figure reads "DATASET|VARIANT|METRIC". Between the bars, "A over B" in the place of the variant is the
-// median of A divided by that of B; the variant may be left empty where there is one only. A fourth part, |smallest,
-// |median or |largest, takes one figure of several repeats. In a paragraph a reference stands in braces.
+// A reference to a figure reads "DATASET|VARIANT|METRIC". Between the bars, "A over B" in the place of the variant is
+// the median of A divided by that of B; the variant may be left empty where there is one only. A fourth part,
+// |smallest, |median or |largest, takes one figure of several repeats. In a paragraph a reference stands in braces.
 #pragma once
 
 #include <string>
