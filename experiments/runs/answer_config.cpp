@@ -70,7 +70,7 @@ void check_than(const StrictObject& object, const Experiment& experiment) {
   if (is_in_braces(text)) {
     parse_figure_reference(text.substr(1, text.size() - 2), experiment, object.place_of("than"));
   } else if (object.at("is") != kRelationNames.front()) {
-    object.fail("is", "a text can only be 'equal'");
+    object.fail("is", "can only be 'equal' where 'than' is a text");
   }
 }
 
