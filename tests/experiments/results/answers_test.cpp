@@ -106,7 +106,8 @@ TEST(Answers, WhatRefersToNothingIsRefusedWithItsPlace) {
     return refusal(R"([{"text": "So.", "holds": [{"figure": "ball|fine|vertices", )" + rest + "}]}]");
   };
   EXPECT_MESSAGE(claim(R"("is": "greater", "than": 1)"), "#/answers/0/holds/0/is must be one of 'equal', 'below'");
-  EXPECT_MESSAGE(claim(R"("is": "above", "than": "many")"), "#/answers/0/holds/0/is can only be 'equal' where 'than' is a text");
+  EXPECT_MESSAGE(claim(R"("is": "above", "than": "many")"),
+                 "#/answers/0/holds/0/is can only be 'equal' where 'than' is a text");
   EXPECT_MESSAGE(claim(R"("is": "above", "than": "{ball|thin|vertices}")"), "holds/0/than names no variant: 'thin'");
   EXPECT_MESSAGE(claim(R"("is": "above", "than": null)"), "holds/0/than must be a number or a string");
   Json document = document_with(R"([{"text": "So."}])");
