@@ -26,6 +26,7 @@ std::vector<std::string> split_at_bars(const std::string& text) {
 template <class List>
 void check_name(const std::string& name, const List& list, const char* kind, const std::string& place) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const auto& item : list) names.push_back(item.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw InputError(place + " names no " + kind + ": '" + name + "'" + nearest_name_hint(name, names));

@@ -78,6 +78,7 @@ struct Plot {
 enum class Relation { kEqual, kBelow, kAbove, kAtMost, kAtLeast };
 
 // Something that an answer says and that the records must show.
+// Moving nlohmann's JSON is not declared noexcept. NOLINTNEXTLINE(bugprone-exception-escape)
 struct Claim {
   std::string figure;  // a reference to a figure: experiments/runs/answer_config.h
   Relation relation = Relation::kEqual;
