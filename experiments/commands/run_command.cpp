@@ -90,6 +90,9 @@ ExitCode run_run(const RunCommandOptions& options) {
   }
   runner.stop = &catch_stop_signals();
 
+  // A question that has an answer is to be thought about while the runs are made.
+  if (!experiment.answers.empty() && !options.quiet) std::cerr << "deliso: question: " << experiment.question << '\n';
+
   // Do the runs, with progress on a terminal.
   using Style = RunProgress::Style;
   Style style = stderr_is_terminal() ? Style::kBar : Style::kSilent;
@@ -104,7 +107,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   // A single shard gives no complete table yet.
   if (runner.shard.count == 1 && !summary.stopped) {
     std::vector<std::string> notes;
-    std::cout << write_tables(experiment, {runner.out_folder}, runner.out_folder, notes);
+    std::cout << write_tables(experiment, {runner.out_folder}, runner.out_folder, false, notes).markdown;
     for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
   }
   return exit_code;

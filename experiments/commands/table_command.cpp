@@ -16,6 +16,7 @@ struct TableCommandOptions {
   std::vector<std::string> folders;
   std::string output;
   std::string experiment;
+  bool answers = false;
 };
 
 ExitCode run_table(const TableCommandOptions& options) {
@@ -24,9 +25,11 @@ ExitCode run_table(const TableCommandOptions& options) {
   Experiment experiment = experiment_of(folders);
   if (!options.experiment.empty()) experiment = experiment_for_records(options.experiment, experiment);
   std::vector<std::string> notes;
-  std::cout << write_tables(experiment, folders, target, notes);
+  const PrintedTable printed = write_tables(experiment, folders, target, options.answers, notes);
+  std::cout << printed.markdown;
   for (const std::string& note : notes) std::cerr << "deliso: " << note << '\n';
-  return ExitCode::kDone;
+  for (const std::string& untrue : printed.untrue) std::cerr << "deliso: the answer does not hold: " << untrue << '\n';
+  return printed.untrue.empty() ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
 }  // namespace
@@ -49,9 +52,12 @@ void add_table_command(CommandLine& line, ExitCode& exit_code) {
                   "Take words, metrics and plots from this file; its runs must be those of the records")
       .type_name("FILE")
       .check(refuse_empty_name);
+  command.add_flag("--answers", options->answers,
+                   "Below the table, print the answer to the experiment's question and compare it with the records");
   command.footer(
       "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
-      "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");
+      "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.\n"
+      "Exit code 1 with --answers: the records do not show what the answer says.");
   command.callback(exit_code, [options] { return run_table(*options); });
 }
 

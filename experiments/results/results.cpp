@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "delaunay/base/check.h"
+#include "experiments/results/answers.h"
 #include "experiments/results/plot.h"
 #include "experiments/results/table.h"
 #include "experiments/runs/experiment_config.h"
@@ -37,7 +38,8 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
   // Titles, metrics, plots and published figures may differ; what was run may not.
   Json now = experiment_to_json(experiment);
   Json then = experiment_to_json(recorded);
-  for (const char* key : {"title", "question", "notes", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {
+  for (const char* key :
+       {"title", "question", "notes", "answers", "rows", "metrics", "plots", "reference", "builtin_datasets"}) {
     now.erase(key);
     then.erase(key);
   }
@@ -49,19 +51,22 @@ Experiment experiment_for_records(const fs::path& file, const Experiment& record
   return experiment;
 }
 
-std::string write_tables(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
-                         std::vector<std::string>& notes) {
+PrintedTable write_tables(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
+                          bool answers, std::vector<std::string>& notes) {
   const std::vector<Json> records = merge_records(experiment, folders, notes);
   const Table table = make_table(experiment, records);
-  std::string markdown = table_markdown(experiment, table);
+  PrintedTable printed{table_markdown(experiment, table), {}};
+  const AnswerText answer = answers ? answer_text(experiment, table) : AnswerText();
   std::error_code error;
   fs::create_directories(target, error);
   if (error) throw InputError("cannot make the folder " + target.string() + ": " + error.message());
-  write_text(markdown, target / "table.md");
+  write_text(printed.markdown, target / "table.md");
   write_text(table_csv(experiment, table), target / "table.csv");
   write_text(json_text(table_json(experiment, table)), target / "table.json");
   for (const PlotFile& plot : draw_plots(experiment, table, records)) write_text(plot.svg, target / plot.name);
-  return markdown;
+  printed.markdown += answer.markdown;
+  printed.untrue = answer.untrue;
+  return printed;
 }
 
 }  // namespace deliso

@@ -17,9 +17,16 @@ Experiment experiment_of(const std::vector<std::filesystem::path>& folders);
 // figures; throws InputError when it has other runs.
 Experiment experiment_for_records(const std::filesystem::path& file, const Experiment& recorded);
 
+// A table as it is printed, and the claims of the answers that its records do not show.
+struct PrintedTable {
+  std::string markdown;
+  std::vector<std::string> untrue;
+};
+
 // Merges the records of the folders, writes table.md, table.csv, table.json and the plots (SVG) into `target` and
-// returns the Markdown. Adds remarks about the merging to `notes`.
-std::string write_tables(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
-                         const std::filesystem::path& target, std::vector<std::string>& notes);
+// returns the Markdown. Adds remarks about the merging to `notes`. With `answers`, the experiment's answers follow the
+// Markdown; the files do not have them. Throws InputError where there are none.
+PrintedTable write_tables(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
+                          const std::filesystem::path& target, bool answers, std::vector<std::string>& notes);
 
 }  // namespace deliso

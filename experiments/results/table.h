@@ -49,6 +49,9 @@ struct Table {
 // The records must be of this experiment (otherwise InputError), at most one for each run, in any order.
 Table make_table(const Experiment& experiment, const std::vector<Json>& records);
 
+// "median (smallest–largest)", or the median alone where all agree; a text as it is; kNoFigure where there is none.
+std::string spread_text(const Figure& figure);
+
 // With title, question, how to read it, remarks.
 std::string table_markdown(const Experiment& experiment, const Table& table);
 

@@ -11,17 +11,10 @@ namespace deliso {
 namespace {
 
 constexpr const char* kTableSchema = "deliso-table-1";
-constexpr double kSmall = 0.01;   // numbers below are written with an exponent
+constexpr double kSmall = 0.01;  // numbers below are written with an exponent
+constexpr const char* kThinkFirst =
+    "Decide what you expect before you read the table; `deliso table FOLDER --answers` prints the answer below it.";
 constexpr const char* kTo = "–";  // "10–30"
-
-// "median (smallest–largest)", or the median alone where all agree.
-std::string spread_text(const Figure& figure) {
-  if (figure.numbers.empty()) return figure.text.empty() ? std::string(kNoFigure) : figure.text;
-  const std::string low = figure_text(figure.numbers.front());
-  const std::string high = figure_text(figure.numbers.back());
-  const std::string median = figure_text(figure.median());
-  return low == high ? median : median + " (" + low + kTo + high + ")";
-}
 
 // All digits: the number reads back as it was.
 std::string exact_text(double value) { return Json(value).dump(); }
@@ -168,10 +161,19 @@ std::string figure_text(double value) {
   return buffer.data();
 }
 
+std::string spread_text(const Figure& figure) {
+  if (figure.numbers.empty()) return figure.text.empty() ? std::string(kNoFigure) : figure.text;
+  const std::string low = figure_text(figure.numbers.front());
+  const std::string high = figure_text(figure.numbers.back());
+  const std::string median = figure_text(figure.median());
+  return low == high ? median : median + " (" + low + kTo + high + ")";
+}
+
 std::string table_markdown(const Experiment& experiment, const Table& table) {
   std::string text = "# " + experiment.title + "\n\n";
   if (!experiment.question.empty()) text += experiment.question + "\n\n";
   for (const std::string& note : experiment.notes) text += note + "\n\n";
+  if (!experiment.answers.empty()) text += std::string(kThinkFirst) + "\n\n";
   text += markdown_header(experiment) + markdown_body(experiment, table) + "\n";
   text += repeats_line(experiment) + "\n";
   if (!experiment.reference.source.empty()) text += "\nPaper: " + experiment.reference.source + "\n";

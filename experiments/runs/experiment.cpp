@@ -75,6 +75,7 @@ Experiment builtin_form(Experiment experiment) {
   experiment.datasets = std::move(experiment.builtin_datasets);
   experiment.builtin_datasets.clear();
   experiment.name += "_builtin";
+  experiment.answers.clear();  // they are about the other data sets
   prune_plots(experiment);
   forget_reference(experiment);
   return experiment;
@@ -90,6 +91,7 @@ Experiment smoke_form(Experiment experiment) {
   experiment.builtin_datasets.clear();
   experiment.repeats = 1;
   experiment.name += "_smoke";
+  experiment.answers.clear();
   for (Plot& plot : experiment.plots) {
     if (plot.across_datasets) plot.series = {{"smoke", {tiny.name}}};
   }

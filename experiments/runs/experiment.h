@@ -74,6 +74,23 @@ struct Plot {
   std::string x_label;             // of a histogram
 };
 
+// How a figure of the table compares with another, or with a number or a text.
+enum class Relation { kEqual, kBelow, kAbove, kAtMost, kAtLeast };
+
+// Something that an answer says and that the records must show.
+// Moving nlohmann's JSON is not declared noexcept. NOLINTNEXTLINE(bugprone-exception-escape)
+struct Claim {
+  std::string figure;  // a reference to a figure: experiments/runs/answer_config.h
+  Relation relation = Relation::kEqual;
+  Json than;  // a number, a text, or another reference in braces
+};
+
+// A paragraph of the answer to the experiment's question. Figures in it are references in braces.
+struct Answer {
+  std::string text;
+  std::vector<Claim> holds;
+};
+
 // What a run does: mesh the isosurface, or find its exact topology alone.
 enum class Task { kMesh, kTopology };
 
@@ -91,6 +108,7 @@ struct Experiment {
   std::string title;
   std::string question;            // what the table answers; may be empty
   std::vector<std::string> notes;  // what a reader should know, a paragraph each
+  std::vector<Answer> answers;     // shown on request only, so that a reader can think first
   Task task = Task::kMesh;
   bool distances = false;  // also measure the distances between mesh and isosurface and self-intersections
   std::vector<Dataset> datasets;

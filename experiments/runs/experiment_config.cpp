@@ -5,6 +5,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
 #include "experiments/config/config.h"
+#include "experiments/runs/answer_config.h"
 #include "experiments/runs/experiment_datasets.h"
 #include "experiments/runs/experiment_keys.h"
 #include "experiments/runs/metric.h"
@@ -254,6 +255,7 @@ Experiment parse_experiment(const Json& document, const fs::path& path) {
   experiment.reference = parse_reference(object, folder);
   experiment.metrics = parse_metrics(object, experiment);
   experiment.plots = parse_plots(object, experiment);
+  experiment.answers = parse_answers(object, experiment);
   return experiment;
 }
 
@@ -282,6 +284,7 @@ Json experiment_to_json(const Experiment& experiment) {
   json["seed"] = experiment.seed;
   json["rows"] = kRowNames[static_cast<std::size_t>(experiment.rows)];
   json["metrics"] = metrics_to_json(experiment.metrics);
+  if (!experiment.answers.empty()) json["answers"] = answers_to_json(experiment.answers);
   if (!experiment.plots.empty()) json["plots"] = plots_to_json(experiment.plots);
   if (!experiment.reference.rows.empty()) {
     json["reference"] = Json{{"source", experiment.reference.source}, {"rows", experiment.reference.rows}};

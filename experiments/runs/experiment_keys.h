@@ -16,12 +16,15 @@ inline constexpr std::array<std::string_view, 2> kMesherNames = {"deliso", "marc
 inline constexpr std::array<std::string_view, 3> kPlotKindNames = {"curve", "bars", "histogram"};
 inline constexpr std::array<std::string_view, 2> kAcrossNames = {"variants", "datasets"};
 inline constexpr std::array<std::string_view, 2> kAxisNames = {"x", "y"};
+inline constexpr std::array<std::string_view, 5> kRelationNames = {"equal", "below", "above", "at_most", "at_least"};
 
 inline constexpr std::array kExperimentKeys = {
     KeyInfo{"name", KeyType::kText, false, "of the experiment in its records; default: the file's name"},
     KeyInfo{"title", KeyType::kText, true, "stands above the table"},
     KeyInfo{"question", KeyType::kText, false, "what the table answers"},
     KeyInfo{"notes", KeyType::kArray, false, "texts that stand below the question, a paragraph each"},
+    KeyInfo{"answers", KeyType::kArray, false,
+            "what the table shows, a paragraph each; printed by `deliso table --answers` alone"},
     choice_key("task", "what a run does: mesh the isosurface (default), or find its exact topology alone", kTaskNames),
     KeyInfo{"distances", KeyType::kBoolean, false,
             "also measure the distances between mesh and isosurface and the self-intersections"},
@@ -103,6 +106,17 @@ inline constexpr std::array kMetricKeys = {
     KeyInfo{"over", KeyType::kText, false, "divided by the median of this variant"},
     KeyInfo{"reference", KeyType::kText, false, "column of the reference that belongs beside it"},
     KeyInfo{"ratio", KeyType::kBoolean, false, "adds a column with ours over the reference's"},
+};
+
+inline constexpr std::array kAnswerKeys = {
+    KeyInfo{"text", KeyType::kText, true, "a paragraph; {DATASET|VARIANT|METRIC} stands for that figure of the table"},
+    KeyInfo{"holds", KeyType::kArray, false, "what it says of the table, to be compared with the records"},
+};
+
+inline constexpr std::array kClaimKeys = {
+    KeyInfo{"figure", KeyType::kText, true, "DATASET|VARIANT|METRIC, perhaps with |smallest, |median or |largest"},
+    choice_key("is", "how it compares with the next, in every run", kRelationNames, true),
+    KeyInfo{"than", KeyType::kAny, true, "a number, a text, or another figure in braces"},
 };
 
 inline constexpr std::array kReferenceKeys = {

@@ -54,9 +54,15 @@ Json experiment_schema() {
   refine_key(plot, "log", list_of(Json{{"type", "string"}, {"enum", kAxisNames}}));
   refine_key(plot, "series", list_of(series));
 
+  Json claim = keys_schema(kClaimKeys);
+  refine_key(claim, "than", either(text_schema(), Json{{"type", "number"}}));
+  Json answer = keys_schema(kAnswerKeys);
+  refine_key(answer, "holds", list_of(claim));
+
   Json schema = keys_schema(kExperimentKeys);
   schema["description"] = "An experiment of `deliso run`";
   refine_key(schema, "notes", list_of(text_schema()));
+  refine_key(schema, "answers", list_of(answer));
   refine_key(schema, "datasets", list_of(either(text_schema(), dataset)));
   refine_key(schema, "builtin_datasets", list_of(either(text_schema(), dataset)));
   refine_key(schema, "base", base);

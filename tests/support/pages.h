@@ -1,4 +1,5 @@
 // The pages that lead through the project (README.md and those of the folders), for tests of what they say.
+// A page is any file .md below a top folder; each top folder and wing has one of the name README.md.
 #pragma once
 
 #include <filesystem>
@@ -44,7 +45,7 @@ inline std::vector<std::string> all_pages() {
   std::vector<std::string> pages = {"README.md"};
   for (const std::string_view top : kTopFolders) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root() / top)) {
-      if (entry.path().filename() != "README.md") continue;
+      if (entry.path().extension() != ".md") continue;
       pages.push_back(std::filesystem::relative(entry.path(), root()).string());
     }
   }

@@ -71,6 +71,11 @@ Json full_document() {
   document["metrics"][0]["ratio"] = true;
   document["metrics"][0]["variant"] = "fine stage1.epsilon=0.2";
   document["metrics"][1]["over"] = "fine stage1.epsilon=0.2";
+  document["answers"] = parse_json(R"([
+    {"text": "{ball|fine stage1.epsilon=0.2|vertices} are enough.",
+     "holds": [{"figure": "ball|fine stage1.epsilon=0.2|vertices", "is": "above", "than": 4},
+               {"figure": "ball|fine stage1.epsilon=0.2|verdict", "is": "equal", "than": "homeomorphic"}]}])",
+                                   "answers");
   document["plots"] = parse_json(R"([
     {"name": "a", "title": "A", "kind": "curve", "x": "vertices", "y": ["share"], "log": ["x"], "across": "datasets",
      "series": [{"name": "all", "members": ["ball", "ring"]}]},
@@ -115,6 +120,8 @@ TEST(ExperimentSchema, TheFullDocumentNamesEveryKeyAndIsTaken) {
   expect_all(kMetricKeys, document["metrics"]);
   expect_all(kPlotKeys, document["plots"]);
   expect_all(kSeriesKeys, document["plots"][0]["series"]);
+  expect_all(kAnswerKeys, document["answers"]);
+  expect_all(kClaimKeys, document["answers"][0]["holds"]);
   expect_all(kReferenceKeys, Json::array({document["reference"]}));
 }
 

@@ -222,26 +222,6 @@ TEST(RunConfig, EveryExperimentOfTheProjectRunsInItsSmokeForm) {
   }
 }
 
-// What its notes say: small pieces are lost when the rays are few, large ones are not.
-TEST(RunConfig, TheTeachingExperimentOnTopologyShowsWhatItSays) {
-  const TemporaryFolder folder;
-  const std::string file = (fs::path(DELISO_SOURCE_DIR) / "configs/teaching/2_topology.json").string();
-  const ProgramResult result = run_deliso({"run", file, "--out", folder / "out"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const Json table = read_json(folder / "out/table.json");
-  ASSERT_EQ(table["rows"].size(), 12u);
-  for (const Json& row : table["rows"]) {
-    SCOPED_TRACE(row.dump());
-    const Json& components = row["cells"][0];
-    ASSERT_EQ(components["metric"], "components");
-    const bool is_blobs = row["dataset"] == "blobs";
-    const int all = is_blobs ? 15 : row["dataset"] == "bubbles" ? 27 : 4;
-    EXPECT_EQ(components["max"] == all, row["variant"] != "5 random rays" || !is_blobs);
-    EXPECT_EQ(components["min"] == all, row["variant"] == "a point on every component" || !is_blobs);
-    EXPECT_GE(components["min"], 4);
-  }
-}
-
 TEST(RunConfig, EveryFileOfParametersMeshesATinySphere) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_deliso({"generate", "sphere", "--size", "8", "-o", folder / "sphere.nrrd"}).exit_code, 0);
