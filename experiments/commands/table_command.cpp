@@ -49,7 +49,9 @@ void add_table_command(CommandLine& line, ExitCode& exit_code) {
                   "Take words, metrics and plots from this file; its runs must be those of the records")
       .type_name("FILE")
       .check(refuse_empty_name);
-  command.footer(
+  command.examples(
+      "deliso table out/table3\n"
+      "deliso table out/table3-1 out/table3-2 -o out/table3",
       "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
       "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.");
   command.callback(exit_code, [options] { return run_table(*options); });
