@@ -156,9 +156,10 @@ void check_isovalue(const ScalarGrid& grid, double isovalue) {
 void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {
   if (used == isovalue) return;
   const bool is_sample = regular_isovalue(grid, isovalue) != isovalue;
+  // Few digits, unless they would be those of the isovalue itself.
+  const std::string used_text = short_text(used) == short_text(isovalue) ? shortest_text(used) : short_text(used);
   std::cerr << "deliso: " << (is_sample ? "a sample" : "a saddle of the interpolant") << " equals the isovalue "
-            << shortest_text(isovalue) << ", so the isosurface is singular; used " << shortest_text(used)
-            << " instead\n";
+            << shortest_text(isovalue) << ", so the isosurface is singular; used " << used_text << " instead\n";
 }
 
 }  // namespace deliso

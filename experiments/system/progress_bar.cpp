@@ -31,17 +31,13 @@ double filled_share(const Progress& progress) {
 }  // namespace
 
 std::string progress_line(double share, const std::string& text, std::size_t width) {
-  constexpr std::size_t kLongestBar = 28, kShortestBar = 5;
-  constexpr std::size_t kAround = 3;  // brackets and a blank
-  const std::size_t room = width > text.size() + kAround ? width - text.size() - kAround : 0;
-  std::string line;
-  if (room >= kShortestBar) {
-    const std::size_t length = std::min(room, kLongestBar);
-    std::string bar(static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(length)), '#');
-    bar.resize(length, '.');
-    line = "[" + bar + "] ";
-  }
-  return (line + text).substr(0, width);
+  // The length depends on the width alone, so that the bar stays still while the text grows.
+  constexpr std::size_t kLongestBar = 28, kShortestBar = 6;
+  const std::size_t length = std::min(kLongestBar, width * 7 / 20);
+  if (length < kShortestBar) return text.substr(0, width);
+  std::string bar(static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(length)), '#');
+  bar.resize(length, '.');
+  return ("[" + bar + "] " + text).substr(0, width);
 }
 
 ProgressBar::~ProgressBar() {
@@ -59,7 +55,7 @@ void ProgressBar::show(const Progress& progress) {
   }
   share_ = std::max(share_, share);
   vertices_ = std::max(vertices_, progress.vertices);
-  if (!visible_ || (drawn_ && now - last_seconds_ < 0.1)) return;
+  if (!visible_ || (drawn_ && now - last_seconds_ < interval_)) return;
   draw(stage_ + "  " + std::to_string(vertices_) + " vertices, " + std::to_string(progress.queued) + " waiting", now);
 }
 
@@ -67,7 +63,7 @@ void ProgressBar::show(double share, std::string_view step) {
   const double now = stopwatch_.seconds();
   share_ = std::max(share_, share);
   stage_ = step;
-  if (!visible_ || (drawn_ && now - last_seconds_ < 0.1)) return;
+  if (!visible_ || (drawn_ && now - last_seconds_ < interval_)) return;
   draw(stage_, now);
 }
 

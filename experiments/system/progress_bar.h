@@ -11,12 +11,13 @@
 
 namespace deliso {
 
-// Draws at most ten times a second and wipes its line when destroyed. What is shown never goes back: parts of the work
-// that are done apart from each other count their own vertices.
+// Draws as often as the interval lets it, and wipes its line when destroyed. What is shown never goes back: parts of
+// the work that are done apart from each other count their own vertices.
 class ProgressBar {
  public:
-  // Nothing is drawn unless `visible`.
-  ProgressBar(std::ostream& stream, bool visible) : stream_(stream), visible_(visible) {}
+  // Nothing is drawn unless `visible`. `interval`: seconds between two drawings, at least.
+  ProgressBar(std::ostream& stream, bool visible, double interval = 0.1)
+      : stream_(stream), visible_(visible), interval_(interval) {}
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -31,6 +32,7 @@ class ProgressBar {
 
   std::ostream& stream_;
   bool visible_;
+  double interval_;
   bool drawn_ = false;
   double last_seconds_ = -1;
   double share_ = 0;  // the largest so far
@@ -39,7 +41,7 @@ class ProgressBar {
   Stopwatch stopwatch_;
 };
 
-// The line: a bar with so much of it filled, and a text, within `width` columns. The bar goes before the text is cut.
+// The line: a bar with so much of it filled, and a text, cut at `width` columns. In a narrow terminal there is no bar.
 std::string progress_line(double share, const std::string& text, std::size_t width);
 
 // Columns of the terminal: by the variable COLUMNS, by the terminal itself, or else 80.
