@@ -48,7 +48,7 @@ TEST(Usage, HelpNamesEveryCommandAndParameter) {
 
 TEST(Usage, EveryHelpHasExamples) {
   for (const std::string command :
-       {"mesh", "verify", "topology", "info", "generate", "run", "table", "render", "schema"}) {
+       {"mesh", "verify", "topology", "info", "generate", "run", "table", "render", "explain", "schema"}) {
     EXPECT_TRUE(contains(run_deliso({command, "--help"}).out, "Examples:\n  deliso " + command + " ")) << command;
   }
 }
