@@ -22,6 +22,11 @@ fault_packages=(
   "python3:/usr/bin/python3"
   "faketime:/usr/bin/faketime"
 )
+# Programs that fill our meshes, for tests that are skipped without them; so are those with python3-vtk9.
+other_program_packages=(
+  "tetgen:/usr/bin/tetgen"
+  "gmsh:/usr/bin/gmsh"
+)
 
 # For the tests of the page of lessons in a browser, which are skipped without it.
 browser_packages=("chromium:/usr/bin/chromium")

@@ -18,7 +18,7 @@ inline bool has_isosurface(const ScalarGrid& grid, double isovalue) {
 // The range of the data, for a message; adds that the lowest value is no isovalue when that was the mistake.
 inline std::string isovalue_range_text(const ScalarGrid& grid, double isovalue) {
   const auto [low, high] = grid.range();
-  const std::string range = "the data's range is " + shortest_text(low) + " to " + shortest_text(high);
+  const std::string range = "the data's range is " + short_text(low) + " to " + short_text(high);
   return isovalue <= low ? range + ", and an isovalue must lie above the minimum" : range;
 }
 

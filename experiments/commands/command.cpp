@@ -1,6 +1,8 @@
 #include "experiments/commands/command.h"
 
 #include <algorithm>
+#include <iostream>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -54,6 +56,32 @@ void check_option_names(const CLI::App& app, int argc, const char* const* argv) 
   }
 }
 
+const CLI::Option* find_option(const CLI::App& command, const std::string& name) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional() && option->check_name(name)) return option;
+  }
+  return nullptr;
+}
+
+// Names an option without its value; CLI11 would take the next option for the value, and miss that one.
+void check_option_values(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* command = argc < 2 ? nullptr : find_command(app, argv[1]);
+  if (command == nullptr) return;
+  for (int i = 2; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--") return;
+    const CLI::Option* option = name.starts_with('-') ? find_option(*command, name) : nullptr;
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    const std::string value = i + 1 < argc ? argv[i + 1] : "";
+    const bool is_missing = i + 1 == argc || (value.starts_with('-') && find_option(*command, value) != nullptr);
+    if (is_missing)
+      throw InputError(
+          name + ": expected a value" +
+          (i + 1 == argc ? std::string(", found the end of the command line") : ", found the option '" + value + "'"));
+    ++i;
+  }
+}
+
 }  // namespace
 
 CommandOption& CommandOption::type_name(const std::string& name) {
@@ -93,7 +121,22 @@ void Command::add_flag(const std::string& names, bool& value, const std::string&
   command_->add_flag(names, value, help);
 }
 
-void Command::footer(const std::string& text) { command_->footer(text); }
+void Command::examples(const std::string& lines, const std::string& remarks) {
+  std::string text = remarks + (remarks.empty() ? "Examples:" : "\n\nExamples:");
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) text += "\n  " + line;
+  command_->footer(text);
+}
+
+void Command::add_help(const std::string& name, const std::string& help, std::function<std::string()> text) {
+  command_->add_flag_callback(
+      name,
+      [text = std::move(text)] {
+        std::cout << text();
+        throw CLI::Success();
+      },
+      help);
+}
 
 void Command::callback(ExitCode& exit_code, std::function<ExitCode()> action) {
   command_->callback([action = std::move(action), &exit_code] { exit_code = action(); });
@@ -116,6 +159,7 @@ Command CommandLine::add_command(const std::string& name, const std::string& hel
 void CommandLine::parse(int argc, const char* const* argv) {
   check_first_argument(*app_, argc, argv);
   check_option_names(*app_, argc, argv);
+  check_option_values(*app_, argc, argv);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help or --version

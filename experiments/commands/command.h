@@ -43,8 +43,10 @@ class Command {
   CommandOption add_option(const std::string& names, std::string& value, const std::string& help);
   CommandOption add_option(const std::string& names, std::vector<std::string>& values, const std::string& help);
   void add_flag(const std::string& names, bool& value, const std::string& help);
-  // The last paragraph of the help.
-  void footer(const std::string& text);
+  // The last paragraphs of the help: `remarks`, if any, and under the word "Examples" the command lines of `lines`.
+  void examples(const std::string& lines, const std::string& remarks = "");
+  // A flag that prints a text instead of running the command.
+  void add_help(const std::string& name, const std::string& help, std::function<std::string()> text);
   // Sets what the command does, which runs while the command line is parsed; `exit_code` receives the result.
   void callback(ExitCode& exit_code, std::function<ExitCode()> action);
 

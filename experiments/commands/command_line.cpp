@@ -8,8 +8,10 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
+#include "experiments/system/files.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/shrinking_input.h"
+#include "experiments/system/standard_input.h"
 #include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
@@ -63,12 +65,29 @@ RawOptions raw_options(const VolumeOptions& options) {
   return raw;
 }
 
+// Messages call it by its own name, not by that of the file it is kept in.
+Volume volume_of_standard_input(ReadOptions read, const std::string& format) {
+  read.format = format;
+  const std::string path = standard_input_file().string();
+  try {
+    return read_placed_volume(path, read);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path))
+      text.replace(at, path.size(), "standard input");
+    const std::string unknown = "has no extension";
+    if (const std::size_t at = text.find(unknown); at != std::string::npos)
+      text.replace(at, unknown.size(), "its beginning tells no format (--volume-format names one)");
+    throw InputError(text);
+  }
+}
+
 }  // namespace
 
 void add_volume_options(Command& command, VolumeOptions& options) {
   command
       .add_option("VOLUME", options.path,
-                  "The volume: " + std::string(kVolumeExtensions) + "; each may be packed (.gz)")
+                  "The volume: " + std::string(kVolumeExtensions) + "; each may be packed (.gz); - is standard input")
       .type_name("")
       .required()
       .check(refuse_empty_name);
@@ -92,6 +111,11 @@ void add_volume_options(Command& command, VolumeOptions& options) {
       .add_option("--channel", options.channel, "Of a file with several values a voxel, or several volumes: which one")
       .type_name("N")
       .check(refuse_empty_value);
+  command
+      .add_option("--volume-format", options.format,
+                  "Of standard input: nrrd, nii, mha, npy, raw, ... (default: told by its beginning)")
+      .type_name("F")
+      .check(refuse_empty_value);
   command.add_option("--array", options.array, "Of a .vtk or .vti file with several arrays: which one")
       .type_name("NAME")
       .check(refuse_empty_value);
@@ -100,12 +124,15 @@ void add_volume_options(Command& command, VolumeOptions& options) {
 Volume load_volume(const VolumeOptions& options) {
   const bool described = !options.dims.empty() || !options.type.empty() || !options.endian.empty() ||
                          !options.spacing.empty() || !options.skip.empty();
-  const std::string extension = lower_case_extension(options.path);
+  const bool is_stream = is_standard_stream(options.path);
+  if (!options.format.empty() && !is_stream)
+    throw InputError("--volume-format is that of standard input, but the volume is " + options.path);
+  const std::string extension = is_stream ? "." + options.format : lower_case_extension(options.path);
   if (described && extension != ".raw") {
     throw InputError("--dims, --type, --endian, --spacing and --skip describe a .raw file, but the volume is " +
                      options.path);
   }
-  if (!options.array.empty() && extension != ".vtk" && extension != ".vti") {
+  if (!options.array.empty() && extension != ".vtk" && extension != ".vti" && extension != ".") {
     throw InputError("--array names an array of a .vtk or .vti file, but the volume is " + options.path);
   }
   ReadOptions read = raw_options(options);
@@ -114,6 +141,7 @@ Volume load_volume(const VolumeOptions& options) {
     if (extension == ".raw") throw InputError("--channel: a .raw file has one value a voxel, " + options.path);
   }
   read.array = options.array;
+  if (is_stream) return volume_of_standard_input(read, options.format);
   end_where_input_shrinks(options.path);
   return read_placed_volume(options.path, read);
 }
@@ -128,9 +156,10 @@ void check_isovalue(const ScalarGrid& grid, double isovalue) {
 void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {
   if (used == isovalue) return;
   const bool is_sample = regular_isovalue(grid, isovalue) != isovalue;
+  // Few digits, unless they would be those of the isovalue itself.
+  const std::string used_text = short_text(used) == short_text(isovalue) ? shortest_text(used) : short_text(used);
   std::cerr << "deliso: " << (is_sample ? "a sample" : "a saddle of the interpolant") << " equals the isovalue "
-            << shortest_text(isovalue) << ", so the isosurface is singular; used " << shortest_text(used)
-            << " instead\n";
+            << shortest_text(isovalue) << ", so the isosurface is singular; used " << used_text << " instead\n";
 }
 
 }  // namespace deliso

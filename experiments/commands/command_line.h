@@ -20,6 +20,7 @@ struct VolumeOptions {
   std::string skip;
   std::string channel;
   std::string array;
+  std::string format;  // of standard input
 };
 
 void add_volume_options(Command& command, VolumeOptions& options);

@@ -146,6 +146,9 @@ void add_explain_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--seed", options->seed, "Seed of the run, and of the random fields and exercises in the page")
       .type_name("N")
       .show_default();
+  command.examples(
+      "deliso explain -o lesson.html\n"
+      "deliso explain small.nrrd --isovalue 50 --text");
   command.callback(exit_code, [options] { return run_explain(*options); });
 }
 

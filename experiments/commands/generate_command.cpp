@@ -58,7 +58,8 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
                         ? field.default_size
                         : static_cast<std::int32_t>(parse_count(options.size, "--size", 2, kLargestFieldSize));
   const std::uint64_t seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
-  check_replaceable(options.output, "-o");
+  const bool is_stream = is_standard_stream(options.output);
+  if (!is_stream) check_replaceable(options.output, "-o");
   const bool is_raw = options.encoding == "raw";
   if (!is_raw && options.encoding != "gzip") {
     throw InputError("--encoding is \"" + options.encoding + "\", expected \"gzip\" or \"raw\"");
@@ -69,8 +70,14 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
     hold.check();
     return slices.next();
   };
-  write_volume({{size, size, size}, slices.type()}, next, options.output,
-               is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
+  const auto write = [&](const std::string& path) {
+    write_volume({{size, size, size}, slices.type()}, next, path, is_raw ? NrrdEncoding::kRaw : NrrdEncoding::kGzip);
+  };
+  if (is_stream) {
+    write_to_standard_output(write, ".nrrd");
+  } else {
+    write(options.output);
+  }
   hold.finish();
   const std::string side = std::to_string(size);
   TextTable()
@@ -78,7 +85,7 @@ ExitCode run_generate(const GenerateCommandOptions& options) {
       .row({"dims", side + " " + side + " " + side})
       .row({"type", field.type_name})
       .row({"suggested isovalue", suggested_isovalue(field, size, seed)})
-      .print(std::cout);
+      .print(is_stream ? std::cerr : std::cout);
   return ExitCode::kDone;
 }
 
@@ -88,13 +95,18 @@ void add_generate_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<GenerateCommandOptions>();
   Command command = line.add_command("generate", "Write a built-in volume");
   command.add_option("NAME", options->name, "Which one").type_name("");
-  command.add_option("-o,--output", options->output, "The volume: .nrrd or .raw").type_name("VOLUME");
+  command.add_option("-o,--output", options->output, "The volume: .nrrd or .raw; - is standard output (NRRD)")
+      .type_name("VOLUME");
   command.add_option("--size", options->size, "Samples along each axis (default: the field's own)").type_name("N");
   command.add_option("--seed", options->seed, "Seed of the fields that are random").type_name("N").show_default();
   command.add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
       .type_name("gzip|raw")
       .show_default();
   command.add_flag("--list", options->list, "List the built-in volumes");
+  command.examples(
+      "deliso generate torus --size 64 -o torus.nrrd\n"
+      "deliso generate torus -o - | deliso mesh - --isovalue 0.7 -o torus.ply\n"
+      "deliso generate --list");
   command.callback(exit_code, [options] { return run_generate(*options); });
 }
 

@@ -1,4 +1,4 @@
-// deliso info: the contents of a volume, and suggested isovalues.
+// deliso info: the contents of a volume, and suggested isovalues; or those of a mesh.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/mesh_info.h"
 #include "experiments/commands/sample_histogram.h"
 #include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
@@ -23,6 +24,7 @@ namespace {
 
 struct InfoCommandOptions {
   VolumeOptions volume;
+  MeshFormatOptions mesh;
   std::string report;
   bool json = false;
 };
@@ -115,6 +117,8 @@ void print_info(const Json& report, const Volume& volume, const SampleHistogram&
 ExitCode run_info(const InfoCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
+  if (is_mesh_input(options.volume.path, options.mesh) && options.volume.format.empty())
+    return run_mesh_info(options.volume.path, options.mesh, options.report, options.json);
   const Volume volume = load_volume(options.volume);
   const ScalarGrid& grid = volume.grid;
   const SampleHistogram histogram = sample_histogram(grid);
@@ -122,7 +126,7 @@ ExitCode run_info(const InfoCommandOptions& options) {
   if (!options.report.empty()) write_text(json_text(report), options.report);
   if (options.json) {
     std::cout << json_text(report);
-  } else {
+  } else if (!is_standard_stream(options.report)) {
     print_info(report, volume, histogram);
   }
   return ExitCode::kDone;
@@ -132,12 +136,16 @@ ExitCode run_info(const InfoCommandOptions& options) {
 
 void add_info_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<InfoCommandOptions>();
-  Command command = line.add_command("info", "Dimensions, range, histogram and suggested isovalues of a volume");
+  Command command = line.add_command("info", "What a volume holds, with suggested isovalues, or what a mesh is");
   add_volume_options(command, options->volume);
+  add_mesh_input_option(command, options->mesh);
   command.add_flag("--json", options->json, "Print JSON");
   command.add_option("--report", options->report, "Write the JSON to a file")
       .type_name("FILE")
       .check(refuse_empty_name);
+  command.examples(
+      "deliso info head.nrrd\n"
+      "deliso info head.ply --json");
   command.callback(exit_code, [options] { return run_info(*options); });
 }
 

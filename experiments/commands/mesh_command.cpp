@@ -13,6 +13,8 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/mesh_fields.h"
+#include "experiments/commands/mesh_output.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
@@ -24,7 +26,6 @@
 #include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
 #include "surface/deliso.h"
-#include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
 #include "surface/mesh/mesh_quality.h"
 #include "volume/io/sha256.h"
@@ -37,6 +38,7 @@ struct MeshCommandOptions {
   WorldOptions world;
   std::string isovalue;
   std::string output;
+  MeshFormatOptions format;
   std::string config;
   std::vector<std::string> assignments;
   std::string seed = "1";
@@ -56,28 +58,42 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   return parameters;
 }
 
-void check_mesh_output(const std::filesystem::path& path, const std::string& option) {
-  if (!is_mesh_path(path)) {
-    throw InputError(option + ": a mesh file ends in " + std::string(kMeshExtensions) + ", found '" + path.string() +
-                     "'");
-  }
-  check_replaceable(path, option);
-}
-
 // Finds everything that could prevent the results from being written before the work starts.
 void check_outputs(const MeshCommandOptions& options) {
-  check_mesh_output(options.output, "-o");
-  if (!options.stage1_output.empty()) check_mesh_output(options.stage1_output, "--stage1-out");
+  check_mesh_output(options.output, "-o", options.format);
+  if (!options.stage1_output.empty())
+    check_mesh_output(options.stage1_output, "--stage1-out", {"", options.format.gmsh_version});
   if (!options.report.empty()) check_writable(options.report, "--report");
+  check_one_standard_output(
+      {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
   check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
                  {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
 }
 
 Json report_of(const MeshRun& run, const Volume& volume, const World& world, const MeshingResult& result) {
   Json report = mesh_report(run, result);
+  report["surface"] = surface_json(transformed(result.mesh, world.from_grid), run.options.threads);
   report["volume"].update(source_json(volume));
   report["world"] = world_json(world);
   return report;
+}
+
+bool holds_fields(MeshFormat format) { return format == MeshFormat::kLegacyVtk || format == MeshFormat::kVtp; }
+
+// What goes into the mesh's file beside it.
+MeshFileOptions file_options(const MeshCommandOptions& options, const MeshRun& run, const World& world,
+                             const MeshingResult& result) {
+  const Parameters& parameters = run.options.parameters;
+  MeshFileOptions file;
+  file.format = output_format(options.output, "-o", options.format);
+  file.ascii = options.ascii;
+  file.gmsh_version = gmsh_version(options.format);
+  file.metres = metres_in_unit(world.units);
+  file.comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
+                                parameters.promise.max_distance, world);
+  if (holds_fields(*file.format))
+    file.attributes = mesh_fields(result, run.grid, parameters, world.from_grid, run.options.threads);
+  return file;
 }
 
 void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const Volume& volume, const World& world,
@@ -87,16 +103,17 @@ void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const 
   const std::string report = options.report.empty() ? "" : json_text(report_of(run, volume, world, result));
   const bool is_file = !is_special(options.report);
   if (!is_file) write_text(report, options.report);
-  const std::vector<std::string> comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
-                                                          run.options.parameters.promise.max_distance, world);
-  write_mesh(transformed(result.mesh, world.from_grid), options.output, options.ascii, comments);
+  MeshFileOptions file = file_options(options, run, world, result);
+  write_mesh_output(transformed(result.mesh, world.from_grid), options.output, file);
   if (!options.stage1_output.empty() && result.stage1_mesh) {
-    write_mesh(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, options.ascii, comments);
+    file.attributes = {};
+    file.format = output_format(options.stage1_output, "--stage1-out", {});
+    write_mesh_output(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, file);
   }
   if (is_file && !options.report.empty()) write_text(report, options.report);
 }
 
-void print_summary(const MeshingResult& result, const MeshingOptions& options) {
+void print_summary(const MeshingResult& result, const MeshingOptions& options, std::ostream& stream) {
   const TopologySum topology = sum_of(mesh_topology(result));
   TextTable table;
   table.row({"vertices", std::to_string(result.mesh.points.size())})
@@ -107,13 +124,13 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options) {
       .row({"verdict", verdict_name(result.certificate.verdict)})
       .row({"min angle (degrees)", number_text(measure_quality(result.mesh, options.threads).min_angle_degrees)})
       .row({"seconds", number_text(result.total_seconds)});
-  table.print(std::cout);
+  table.print(stream);
   if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
-  std::cout << '\n'
-            << (is_proven(result.certificate) ? "proven" : "not proven")
-            << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
-            << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-            << number_text(options.parameters.promise.max_distance) << " voxel)\n";
+  stream << '\n'
+         << (is_proven(result.certificate) ? "proven" : "not proven")
+         << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
+         << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
+         << number_text(options.parameters.promise.max_distance) << " voxel)\n";
 }
 
 // The triangles that could not be brought to the angle asked for, and where the worst of them is.
@@ -158,8 +175,9 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
-  meshing.keep_stage1_mesh = !options.stage1_output.empty();
   check_outputs(options);
+  const MeshFormat format = output_format(options.output, "-o", options.format);
+  meshing.keep_stage1_mesh = !options.stage1_output.empty() || holds_fields(format);
   meshing.stop = &catch_stop_signals();
   const Volume volume = load_volume(options.volume);
   const ScalarGrid& grid = volume.grid;
@@ -176,11 +194,14 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   }();
   if (meshing.parameters.certify) {
     const Vec3& s = grid.spacing();
-    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, format,
+                   metres_in_unit(world.units), result.certificate);
   }
 
   write_outputs(options, run, volume, world, result);
-  print_summary(result, meshing);
+  // Where a result goes to standard output, nothing else does.
+  const bool is_taken = is_standard_stream(options.output) || is_standard_stream(options.report);
+  print_summary(result, meshing, is_taken ? std::cerr : std::cout);
   if (!options.quiet) print_remarks(run, world, result);
   return exit_code_of(meshing, result);
 }
@@ -192,7 +213,9 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   Command command = line.add_command("mesh", "Mesh an isosurface and certify the mesh");
   add_volume_options(command, options->volume);
   command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K").required();
-  command.add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
+  command
+      .add_option("-o,--output", options->output,
+                  "The mesh: " + std::string(kMeshExtensions) + "; - is standard output")
       .type_name("MESH")
       .required();
   command.add_option("--config", options->config, "Parameters in a JSON file")
@@ -210,9 +233,15 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   command.add_option("--threads", options->threads, "Threads to use").type_name("N").show_default();
   add_world_options(command, options->world);
+  add_mesh_output_options(command, options->format);
   command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
-  command.add_flag("--ascii", options->ascii, "Write PLY as text");
-  command.footer(parameters_help());
+  command.add_flag("--ascii", options->ascii, "Write PLY, STL, VTK and VTP as text");
+  command.add_help("--help-parameters", "The parameters of --config and --set, with their defaults", parameters_help);
+  command.examples(
+      "deliso mesh head.nrrd --isovalue 50 -o head.ply\n"
+      "deliso mesh head.nii.gz --isovalue 50 --set boundary=closed -o head.smesh && tetgen -pqA head.smesh\n"
+      "deliso mesh engine_256x256x256_uint8.raw --isovalue 100 --set promise.max_distance=0.5 --threads 2 -o e.vtp\n"
+      "deliso mesh - --isovalue 50 -o - < head.nrrd | deliso info -");
   command.callback(exit_code, [options] { return run_mesh(*options); });
 }
 

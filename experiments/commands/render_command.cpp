@@ -18,6 +18,7 @@
 #include "experiments/pictures/picture.h"
 #include "experiments/system/files.h"
 #include "experiments/system/parse_number.h"
+#include "experiments/system/progress_bar.h"
 #include "experiments/system/text_table.h"
 #include "surface/intersection/exact_tests.h"
 #include "surface/mesh/io/mesh_io.h"
@@ -166,7 +167,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   // Every option is checked before anything is read.
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   const View view = parse_view(options);
-  const PictureOptions picture = parse_picture_options(options);
+  PictureOptions picture = parse_picture_options(options);
   std::vector<ClipPlane> clips;
   for (const std::string& clip : options.clips) clips.push_back(parse_clip_plane(clip, "--clip"));
   const bool alone = options.meshes.empty() && !options.marching_cubes;
@@ -194,8 +195,13 @@ ExitCode run_render(const RenderCommandOptions& options) {
     whole.extend(panel.shape->box().high);
   }
   const Box3 kept = kept_box(whole, clips, camera.toward_eye(), "--clip");
-  for (std::int32_t i = 0; i < panel_count; ++i) {
-    draw(*panels[static_cast<std::size_t>(i)].shape, kept, camera, picture, i * width, image);
+  {
+    ProgressBar bar(std::cerr, stderr_is_terminal());
+    for (std::int32_t i = 0; i < panel_count; ++i) {
+      const Panel& panel = panels[static_cast<std::size_t>(i)];
+      picture.progress = [&](double share) { bar.show((i + share) / panel_count, panel.name); };
+      draw(*panel.shape, kept, camera, picture, i * width, image);
+    }
   }
   write_png(image, options.output);
   print_panels(options.output, image, panels, stopwatch.seconds());
@@ -229,6 +235,9 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
   add("--line-width", options->line_width, "Of the edges, in pixels; 0: none", "W").show_default();
   add("--threads", options->threads, "Threads to use (default: all)", "N");
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.examples(
+      "deliso render head.nrrd --isovalue 50 -o head.png\n"
+      "deliso render head.nrrd --isovalue 50 --mesh head.ply --surface --clip x=80 -o cut.png");
   command.callback(exit_code, [options] { return run_render(*options); });
 }
 

@@ -138,7 +138,9 @@ void add_run_command(CommandLine& line, ExitCode& exit_code) {
   command.add_flag("--smoke", options->smoke, "Do every variant once on one tiny field: does the experiment work?");
   command.add_flag("--progress", options->progress, "A line on stderr for every run that ends (for log files)");
   command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
-  command.footer(
+  command.examples(
+      "deliso run configs/paper/table3.json --data volumes --out out/table3\n"
+      "deliso run configs/bench/volume_size.json --builtin --dry-run",
       "A volume that is absent is listed as absent, with the way to get it, and is no failure.\n"
       "Exit codes: 0 every run was made, or is absent; 1 a run failed; 3 stopped, --resume goes on.");
   command.callback(exit_code, [options] { return run_run(*options); });

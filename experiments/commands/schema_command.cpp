@@ -13,6 +13,9 @@ void add_schema_command(CommandLine& line, ExitCode& exit_code) {
   const auto markdown = std::make_shared<bool>(false);
   Command command = line.add_command("schema", "Print the JSON schema of parameters and experiments");
   command.add_flag("--markdown", *markdown, "Print the parameters as a Markdown table instead");
+  command.examples(
+      "deliso schema > parameters.schema.json\n"
+      "deliso schema --markdown");
   command.callback(exit_code, [markdown] {
     if (*markdown) {
       std::cout << parameters_markdown();

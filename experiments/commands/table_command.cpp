@@ -54,7 +54,9 @@ void add_table_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   command.add_flag("--answers", options->answers,
                    "Below the table, print the answer to the experiment's question and compare it with the records");
-  command.footer(
+  command.examples(
+      "deliso table out/table3\n"
+      "deliso table out/table3-1 out/table3-2 -o out/table3",
       "The table has a column for each metric of the experiment. Its plots are NAME.svg: curves of one metric\n"
       "against another, bars of a row's parts, or histograms of counts; the key 'plots' of the experiment names them.\n"
       "Exit code 1 with --answers: the records do not show what the answer says.");

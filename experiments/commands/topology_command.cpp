@@ -36,7 +36,7 @@ std::string common_name(const ComponentTopology& topology) {
   return "genus " + std::to_string(genus);
 }
 
-void print_counts(const std::vector<TopologyCount>& counts) {
+void print_counts(const std::vector<TopologyCount>& counts, std::ostream& stream) {
   TextTable table;
   table.row({"surface", "count", "euler characteristic", "boundary loops"});
   for (const TopologyCount& entry : counts) {
@@ -46,7 +46,7 @@ void print_counts(const std::vector<TopologyCount>& counts) {
   const TopologySum sum = sum_of(counts);
   table.row({"all", std::to_string(sum.components), std::to_string(sum.euler_characteristic),
              std::to_string(sum.boundary_loops)});
-  table.print(std::cout, true);
+  table.print(stream, true);
 }
 
 ExitCode run_topology(const TopologyCommandOptions& options) {
@@ -80,7 +80,8 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
                          {"total_seconds", seconds}};
     write_text(json_text(report), options.report);
   }
-  print_counts(counts);
+  // Where the report goes to standard output, nothing else does.
+  print_counts(counts, is_standard_stream(options.report) ? std::cerr : std::cout);
   remark_isovalue(grid, isovalue, used);
   return ExitCode::kDone;
 }
@@ -96,6 +97,7 @@ void add_topology_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("FILE")
       .check(refuse_empty_name);
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.examples("deliso topology head.nrrd --isovalue 50 --report -");
   command.callback(exit_code, [options] { return run_topology(*options); });
 }
 

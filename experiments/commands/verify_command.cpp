@@ -10,13 +10,14 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/mesh_output.h"
 #include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
+#include "experiments/system/progress_bar.h"
 #include "experiments/system/text_table.h"
-#include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
 #include "surface/verification/verification.h"
 
@@ -25,6 +26,7 @@ namespace {
 
 struct VerifyCommandOptions {
   std::string mesh;
+  MeshFormatOptions format;
   VolumeOptions volume;
   WorldOptions world;
   std::string isovalue;
@@ -143,7 +145,7 @@ std::string_view result_text(std::string_view check, bool pass) {
 }
 
 // One row per figure of the report; lists are left out.
-void print_checks(const Json& report) {
+void print_checks(const Json& report, std::ostream& stream) {
   TextTable table;
   table.row({"check", "figure", "value", "result"});
   for (const auto& [check, figures] : report["checks"].items()) {
@@ -158,7 +160,7 @@ void print_checks(const Json& report) {
   for (const auto& [name, figure] : report["quality"].items()) {
     if (!figure.is_array()) table.row({"quality", name, figure_text(figure), ""});
   }
-  table.print(std::cout, true);
+  table.print(stream, true);
 }
 
 // Places of the grid's own coordinates as points of the mesh's file.
@@ -186,12 +188,14 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   check_space(options.world.space);
-  TriangleMesh mesh = read_mesh(options.mesh);
+  check_one_standard_input({{"MESH", options.mesh}, {"VOLUME", options.volume.path}});
+  MeshFile file = read_mesh_input(options.mesh, options.format);
+  TriangleMesh mesh = std::move(file.mesh);
   const Volume volume = load_volume(options.volume);
   const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
   const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
-                                       : promised_distance(options.mesh).value_or(PromiseParameters().max_distance);
+                                       : promised_distance(file.comments).value_or(PromiseParameters().max_distance);
   check_isovalue(grid, isovalue);
   // Everything is measured in the grid's own coordinates: the map to the world is undone, but for rounding.
   if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
@@ -199,20 +203,26 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   if (options.ignore_spacing) forget_spacing(mesh, judged);
   if (options.closed) judged = padded(judged, judged.range().first);
   const Promise promise{.max_distance = max_distance};
-  Verification verification = verify_mesh(mesh, judged, isovalue, promise);
+  Verification verification = [&] {
+    ProgressBar bar(std::cerr, stderr_is_terminal());
+    return verify_mesh(mesh, judged, isovalue, promise,
+                       [&bar](double share, std::string_view step) { bar.show(share, step); });
+  }();
   if (!options.ignore_spacing) to_world(verification, world.from_grid);
 
   const Json report = verify_report(options, volume, world, promise, verification);
   if (!options.report.empty()) write_text(json_text(report), options.report);
-  print_checks(report);
+  // Where the report goes to standard output, nothing else does.
+  std::ostream& out = is_standard_stream(options.report) ? std::cerr : std::cout;
+  print_checks(report, out);
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
   remark_isovalue(judged, isovalue, verification.isovalue_used);
-  std::cout << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
-  for (const std::string& failure : verification.failures) std::cout << "  " << failure << '\n';
+  out << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
+  for (const std::string& failure : verification.failures) out << "  " << failure << '\n';
   constexpr std::size_t kMostDifferences = 10;
   const std::vector<std::string>& differences = verification.topology.differences;
   for (std::size_t i = 0; i < std::min(kMostDifferences, differences.size()); ++i) {
-    std::cout << "  " << differences[i] << '\n';
+    out << "  " << differences[i] << '\n';
   }
   return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;
 }
@@ -222,10 +232,11 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
 void add_verify_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyCommandOptions>();
   Command command = line.add_command("verify", "Check any mesh against an isosurface");
-  command.add_option("MESH", options->mesh, "The mesh: " + std::string(kMeshExtensions))
+  command.add_option("MESH", options->mesh, "The mesh: " + std::string(kReadMeshExtensions) + "; - is standard input")
       .type_name("")
       .required()
       .check(refuse_empty_name);
+  add_mesh_input_option(command, options->format);
   add_volume_options(command, options->volume);
   command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
   command.add_option("--report", options->report, "Write every figure as JSON")
@@ -242,6 +253,9 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
   command.add_flag("--ignore-spacing", options->ignore_spacing,
                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
+  command.examples(
+      "deliso verify head.ply head.nrrd --isovalue 50\n"
+      "deliso verify other.obj head.nrrd --isovalue 50 --max-distance 0.5mm --report r.json");
   command.callback(exit_code, [options] { return run_verify(*options); });
 }
 

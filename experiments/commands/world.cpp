@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
@@ -102,38 +101,34 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
                                        double promised, const World& world) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
+  lines.push_back(std::string(kPromise) + shortest_text(promised));
   lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
     lines.push_back("local origin " + shortest_text(o.x) + " " + shortest_text(o.y) + " " + shortest_text(o.z) +
                     ", to be added to every vertex");
   }
-  lines.push_back("volume " + on_one_line(std::filesystem::path(volume_path).filename().string()));
+  const std::string file = std::filesystem::path(volume_path).filename().string();
+  lines.push_back("volume " + (file == "-" ? "of standard input" : on_one_line(file)));
   lines.push_back("samples sha256 " + sha256);
-  lines.push_back(std::string(kPromise) + shortest_text(promised));
   return lines;
 }
 
-// Comments stand before the vertices or, in OFF files, behind the triangles.
-std::optional<double> promised_distance(const std::string& mesh_path) {
-  constexpr std::size_t kMost = 4096;  // bytes at either end
-  std::ifstream file(mesh_path, std::ios::binary);
-  std::string ends(kMost, ' ');
-  file.read(ends.data(), kMost);
-  file.clear();
-  file.seekg(0, std::ios::end);
-  const auto size = static_cast<std::streamoff>(file.tellg());
-  file.seekg(std::max(std::streamoff{0}, size - static_cast<std::streamoff>(kMost)));
-  std::string last(kMost, ' ');
-  file.read(last.data(), kMost);
-  ends += '\n' + last;
-  for (std::size_t at = ends.find(kPromise); at != std::string::npos; at = ends.find(kPromise, at + 1)) {
-    const std::size_t number = at + kPromise.size();
+std::optional<double> promised_distance(const std::vector<std::string>& comments) {
+  for (const std::string& comment : comments) {
+    if (!comment.starts_with(kPromise)) continue;
     double value = 0;
-    const auto [end, error] = std::from_chars(ends.data() + number, ends.data() + ends.size(), value);
+    const char* const number = comment.data() + kPromise.size();
+    const auto [end, error] = std::from_chars(number, comment.data() + comment.size(), value);
     if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
   }
   return std::nullopt;
+}
+
+std::optional<double> metres_in_unit(const std::string& units) {
+  const bool is_millimetre = units == "mm";
+  if (!is_millimetre && units_in_a_millimetre(units) == 1) return std::nullopt;
+  return 1e-3 / units_in_a_millimetre(units);
 }
 
 Json source_json(const Volume& volume) {

@@ -39,12 +39,16 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 // the world; any other as it is.
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume);
 
-// What a mesh file says of its origin: program, isovalue, promise, space and units, volume and hash, one line each.
+// Metres in a unit of the world; none where the units are unknown.
+std::optional<double> metres_in_unit(const std::string& units);
+
+// What a mesh file says of its origin: program and isovalue, promise, space and units, volume, hash, one line each. The
+// promise comes early: the header of a binary STL file holds 80 letters.
 // `promised`: promise.max_distance, in voxels.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world);
-// The promise.max_distance that such a line of a mesh file names, if there is one.
-std::optional<double> promised_distance(const std::string& mesh_path);
+// The promise.max_distance that one of such lines of a mesh file names, if any does.
+std::optional<double> promised_distance(const std::vector<std::string>& comments);
 
 // format, stored_type, channels, channel, space, units and the affine map from index to world, for reports.
 Json source_json(const Volume& volume);

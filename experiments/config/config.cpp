@@ -109,6 +109,15 @@ void require_object(const Json& value, const std::string& what) {
   }
 }
 
+// A report, a record, or another document that holds parameters under this key and none beside it.
+bool holds_parameters(const Json& document) {
+  if (!document.is_object() || !document.contains("parameters") || !document["parameters"].is_object()) return false;
+  for (const auto& [key, value] : document.items()) {
+    if (is_group(key) || find_field(key) != nullptr) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void apply_parameters(const Json& document, const std::string& source, Parameters& parameters) {
@@ -134,7 +143,14 @@ void apply_parameters(const Json& document, const std::string& source, Parameter
 
 Parameters read_parameters(const std::filesystem::path& path) {
   Parameters parameters;
-  apply_parameters(read_json(path), path.string(), parameters);
+  const Json document = read_json(path);
+  if (document.is_object() && document.contains("base"))
+    throw InputError(path.string() +
+                     ": this is an experiment (for deliso run), expected parameters: those of its runs " +
+                     "are what stands under base.parameters, changed by each variant");
+  const bool is_whole = holds_parameters(document);
+  apply_parameters(is_whole ? document["parameters"] : document,
+                   is_whole ? path.string() + ": parameters" : path.string(), parameters);
   return parameters;
 }
 

@@ -17,7 +17,8 @@ namespace deliso {
 // type, or one out of range (with the allowed range).
 void apply_parameters(const Json& document, const std::string& source, Parameters& parameters);
 
-// The defaults, changed by the file.
+// The defaults, changed by the file: parameters, or a document that holds them under the key `parameters`, such as a
+// report.
 Parameters read_parameters(const std::filesystem::path& path);
 
 Json value_to_json(const ParameterValue& value);

@@ -1,9 +1,11 @@
 #include "experiments/pictures/picture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <thread>
 #include <vector>
 
 #include "delaunay/base/parallel.h"
@@ -26,6 +28,25 @@ std::array<float, 3> floats(const Vec3& v) {
 }
 Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
+// Counts rows of a half of the work, on all threads, and tells of them on its own.
+class RowProgress {
+ public:
+  RowProgress(const PictureOptions& options, std::int32_t rows, double from)
+      : options_(options), rows_(rows), from_(from) {}
+  void done() {
+    const std::int32_t count = ++done_;
+    if (!options_.progress || std::this_thread::get_id() != own_) return;
+    options_.progress(from_ + 0.5 * static_cast<double>(count) / static_cast<double>(rows_));
+  }
+
+ private:
+  const PictureOptions& options_;
+  std::int32_t rows_;
+  double from_;
+  std::atomic<std::int32_t> done_{0};
+  std::thread::id own_ = std::this_thread::get_id();
+};
+
 // The rays of a picture: samples^2 per pixel, on a regular lattice.
 class SamplePlane {
  public:
@@ -37,9 +58,11 @@ class SamplePlane {
         width_(camera.width() * options.samples),
         height_(camera.height() * options.samples),
         samples_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
-    run_tasks(static_cast<std::size_t>(height_), options.threads, [this](std::size_t i) {
+    RowProgress progress(options, height_, 0);
+    run_tasks(static_cast<std::size_t>(height_), options.threads, [&](std::size_t i) {
       const auto row = static_cast<std::int32_t>(i);
       for (std::int32_t column = 0; column < width_; ++column) cell(column, row) = traced(column, row);
+      progress.done();
     });
   }
 
@@ -156,6 +179,7 @@ void draw(const Shape& shape, const Box3& kept, const Camera& camera, const Pict
   const Surroundings surroundings(camera, options.samples);
   // How it looks: a pixel is the mean of its samples, where nothing is seen over the colour that it has (white).
   const std::int32_t n = options.samples;
+  RowProgress progress(options, camera.height(), 0.5);
   run_tasks(static_cast<std::size_t>(camera.height()), options.threads, [&](std::size_t row_of_pixels) {
     const auto y = static_cast<std::int32_t>(row_of_pixels);
     for (std::int32_t x = 0; x < camera.width(); ++x) {
@@ -177,6 +201,7 @@ void draw(const Shape& shape, const Box3& kept, const Camera& camera, const Pict
       const auto bytes = srgb(share * sum + (n * n - seen) * share * Colour{1, 1, 1});
       std::copy(bytes.begin(), bytes.end(), image.pixel(left + x, y));
     }
+    progress.done();
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "experiments/pictures/camera.h"
 #include "experiments/pictures/image.h"
@@ -13,6 +14,8 @@ struct PictureOptions {
   std::int32_t samples = 3;  // along each side of a pixel: samples^2 rays; >= 1
   double line_width = 1.1;   // of edges, in pixels, whatever the zoom; 0: no edges
   std::int32_t threads = 1;  // the picture does not depend on it
+  // Called now and then, by the thread that draws, with the fraction that is done; may be empty.
+  std::function<void(double share)> progress;
 };
 
 // Draws what of `shape` is in `kept` into the camera's width x height pixels of `image` from column `left` on. Pixels

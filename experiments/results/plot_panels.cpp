@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "experiments/results/plot_legend.h"
 #include "experiments/results/plot_style.h"
@@ -22,6 +23,21 @@ constexpr std::string_view kFrameColor = "#888888";
 bool is_shown(const PanelGrid& grid, const PlotPoint& p) {
   if (grid.x_scale == AxisScale::kLog && !(p.x > 0)) return false;
   return grid.y_scale == AxisScale::kLinear || p.y > 0;
+}
+
+// A text in lines of at most this width, broken at blanks; a longer word has a line of its own.
+std::vector<std::string> lines_of(const std::string& text, double width, double size) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    if (!line.empty() && text_width(line + " " + word, size) > width) {
+      lines.push_back(word);
+    } else {
+      line += (line.empty() ? "" : " ") + word;
+    }
+  }
+  return lines;
 }
 
 class PanelDrawer {
@@ -129,8 +145,14 @@ class PanelDrawer {
     const double middle = corner.x + kPanelWidth / 2;
     if (row == 0) drawing_.text({middle, corner.y - 10}, grid_.columns[column], {13, "middle", true});
     if (row + 1 == grid_.y_labels.size()) drawing_.text({middle, bottom + 34}, grid_.x_label, {kNameSize, "middle"});
-    if (column == 0) {
-      drawing_.text({22, corner.y + kPanelHeight / 2}, grid_.y_labels[row], {kNameSize, "middle", false, true});
+    if (column > 0) return;
+    // Lines beside each other, left of the ticks.
+    const std::vector<std::string> lines = lines_of(grid_.y_labels[row], kPanelHeight, kNameSize);
+    constexpr double kMiddle = 22, kLineHeight = 14;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const double offset = static_cast<double>(i) - 0.5 * static_cast<double>(lines.size() - 1);
+      drawing_.text({kMiddle + kLineHeight * offset, corner.y + kPanelHeight / 2}, lines[i],
+                    {kNameSize, "middle", false, true});
     }
   }
 

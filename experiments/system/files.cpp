@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <iostream>
 #include <string_view>
 #include <system_error>
 
@@ -43,7 +44,10 @@ void write_special(std::string_view text, const fs::path& path) {
 
 }  // namespace
 
+bool is_standard_stream(const fs::path& path) { return path == "-"; }
+
 bool is_special(const fs::path& path) {
+  if (is_standard_stream(path)) return true;
   if (path.parent_path() == "/dev" || path.parent_path() == "/dev/fd") return true;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -58,6 +62,10 @@ std::string read_text(const fs::path& path) {
 }
 
 void write_text(const std::string& text, const fs::path& path) {
+  if (is_standard_stream(path)) {
+    std::cout << text << std::flush;
+    return;
+  }
   if (is_special(path)) {
     write_special(text, path);
     return;
@@ -69,8 +77,28 @@ void write_text(const std::string& text, const fs::path& path) {
   hold.finish();
 }
 
+void write_to_standard_output(const std::function<void(const std::string& path)>& write, const std::string& extension) {
+  // A folder of its own, which is gone afterwards whatever happens.
+  struct Folder {
+    std::string path = (fs::temp_directory_path() / "deliso-XXXXXX").string();
+    Folder() {
+      if (mkdtemp(path.data()) == nullptr)
+        throw InputError("standard output: no temporary folder " + path + ": " + std::strerror(errno));
+    }
+    ~Folder() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+  };
+  const Folder folder;
+  const std::string path = folder.path + "/volume" + extension;
+  write(path);
+  std::cout << read_text(path) << std::flush;
+}
+
 void check_writable(const fs::path& path, const std::string& option) {
   std::error_code error;
+  if (is_standard_stream(path)) return;
   if (path.empty()) throw InputError(option + ": expected the name of a file, found an empty one");
   if (fs::is_directory(path, error)) {
     throw InputError(option + ": " + path.string() + " is a directory, expected the name of a file");

@@ -27,6 +27,16 @@ void check_apart_from(const NamedFile& output, std::span<const NamedFile> others
   }
 }
 
+void check_one(const std::vector<NamedFile>& files, const std::string& stream) {
+  const NamedFile* first = nullptr;
+  for (const NamedFile& file : files) {
+    if (!is_standard_stream(file.path)) continue;
+    if (first != nullptr)
+      throw InputError(file.option + ": " + stream + " is that of " + first->option + " already, expected a file");
+    first = &file;
+  }
+}
+
 }  // namespace
 
 void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
@@ -36,5 +46,9 @@ void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Name
     check_apart_from(outputs[i], std::span(outputs).first(i));
   }
 }
+
+void check_one_standard_output(const std::vector<NamedFile>& outputs) { check_one(outputs, "standard output"); }
+
+void check_one_standard_input(const std::vector<NamedFile>& inputs) { check_one(inputs, "standard input"); }
 
 }  // namespace deliso

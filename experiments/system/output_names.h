@@ -17,4 +17,10 @@ struct NamedFile {
 // links included. Empty names and devices (/dev/stdout) are left out.
 void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
+// Throws InputError when more than one of the outputs is `-`, standard output.
+void check_one_standard_output(const std::vector<NamedFile>& outputs);
+
+// The same of inputs and standard input.
+void check_one_standard_input(const std::vector<NamedFile>& inputs);
+
 }  // namespace deliso

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/counted.h"
-#include "delaunay/base/shortest_text.h"
+#include "experiments/system/text_table.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
@@ -27,43 +26,34 @@ std::int64_t coinciding(std::vector<Vec3> points) {
   return count;
 }
 
-// Rounds all coordinates to floats; false when one is beyond their range.
-bool round_to_floats(TriangleMesh& mesh) {
-  for (Vec3& p : mesh.points) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::abs(p[axis]) > static_cast<double>(std::numeric_limits<float>::max())) return false;
-      p[axis] = static_cast<double>(static_cast<float>(p[axis]));
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
-void judge_rounding(const TriangleMesh& mesh, const Affine& to_world, double voxel, const std::filesystem::path& path,
-                    Certificate& certificate) {
+void judge_rounding(const TriangleMesh& mesh, const Affine& to_world, double voxel, const std::string& path,
+                    MeshFormat format, std::optional<double> metres, Certificate& certificate) {
   const bool is_moved = !(to_world == Affine());
-  if (!keeps_floats(path) && !is_moved) return;
+  if (!keeps_floats(format) && !is_moved) return;
   // The verification allows vertices within 1e-3 voxel of the isosurface; before rounding ours are within 3e-4.
   constexpr double kFarthest = 5e-4;
-  TriangleMesh rounded = transformed(mesh, to_world);
-  if (keeps_floats(path) && !round_to_floats(rounded)) return;
+  TriangleMesh rounded = as_stored(transformed(mesh, to_world), format, metres);
+  if (!std::all_of(rounded.points.begin(), rounded.points.end(), is_finite)) return;
   if (is_moved) rounded = transformed(std::move(rounded), to_world.inverse());
   double moved = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     moved = std::max(moved, distance(rounded.points[v], mesh.points[v]) / voxel);
   // In STL vertices are one where they coincide; in other files they are what their numbers say.
-  const std::int64_t together = keeps_floats(path) ? coinciding(rounded.points) : 0;
+  const std::int64_t together = format == MeshFormat::kStl ? coinciding(rounded.points) : 0;
   const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
   if (together == 0 && !crosses && moved <= kFarthest) return;
-  const std::string what = "; here vertices move by up to " + shortest_text(moved) + " voxels, " +
+  const std::string what = "; here vertices move by up to " + number_text(moved) + " voxels, " +
                            counted(together, "vertex coincides with another", "vertices coincide with others") +
                            " and " + counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + ".";
-  certificate.broken.push_back(
-      keeps_floats(path) ? path.string() + ": STL rounds coordinates to single precision" + what +
-                               " PLY, OFF and OBJ keep the mesh as it is; --local-origin helps far from the origin."
-                         : path.string() + ": the map to the world rounds coordinates" + what);
+  certificate.broken.push_back(keeps_floats(format)
+                                   ? path + ": " + std::string(name_of(format)) +
+                                         " rounds coordinates to single precision" + what +
+                                         " PLY, OFF and OBJ keep the mesh as it is; --local-origin helps far from the "
+                                         "origin."
+                                   : path + ": the map to the world rounds coordinates" + what);
 }
 
 }  // namespace deliso

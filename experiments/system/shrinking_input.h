@@ -1,4 +1,5 @@
-// Input files that someone shortens, or whose disk fails, while they are mapped into memory (volume/io/base/mapped_file.h).
+// Input files that someone shortens, or whose disk fails, while they are mapped into memory
+// (volume/io/base/mapped_file.h).
 #pragma once
 
 #include <filesystem>

@@ -216,8 +216,12 @@ void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isoval
 
 }  // namespace
 
-Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise) {
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise,
+                         const VerificationProgress& progress) {
   const Stopwatch stopwatch;
+  const auto begin = [&](double share, std::string_view step) {
+    if (progress) progress(share, step);
+  };
   check_input(mesh, grid, isovalue);
   Verification v;
   v.vertices = static_cast<std::int64_t>(mesh.points.size());
@@ -225,6 +229,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   v.isovalue = isovalue;
 
   // Ground truth.
+  begin(0, "exact topology");
   const RegularTopology regular = regular_topology(grid, isovalue);
   const IsosurfaceTopology& truth = regular.topology;
   v.isovalue_used = regular.isovalue;
@@ -234,13 +239,16 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
   TriangleMesh voxels = mesh;
   for (Vec3& p : voxels.points) p = probe.to_voxels(p);
+  begin(0.1, "vertices");
   const std::vector<std::optional<double>> off = vertex_distances(voxels, probe, promise.max_residual);
   const std::vector<NextToCentroid> next = look_next_to_centroids(voxels, probe);
 
   // Combinatorics.
+  begin(0.3, "triangles that cross");
   v.self_intersection.found = self_intersections(mesh, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
   AssignmentFaults faults;
+  begin(0.4, "components");
   {
     const MeshTopology topology = mesh_topology(mesh);
     faults = faults_of_places(mesh, topology, grid, regular);
@@ -252,8 +260,10 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   add_assignment_faults(faults, v.topology);
 
   // Geometry.
+  begin(0.5, "distances");
   const DistanceCounts counts = check_distances(voxels, probe, off, promise, v);
   v.normals = check_normals(voxels, next);
+  begin(0.8, "Delaunay balls");
   v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);
   v.quality = measure_quality(mesh);
 

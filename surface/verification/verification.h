@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "surface/certificate/certificate.h"
@@ -100,9 +102,12 @@ struct Verification {
   double seconds = 0;
 };
 
+// Called when a step begins, with the fraction of the steps that are done.
+using VerificationProgress = std::function<void(double share, std::string_view step)>;
+
 // Precondition: finite coordinates. Throws InputError when a triangle names a vertex out of range or the isovalue is
 // outside the range of the volume.
-Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue,
-                         const Promise& promise = {});
+Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise = {},
+                         const VerificationProgress& progress = {});
 
 }  // namespace deliso

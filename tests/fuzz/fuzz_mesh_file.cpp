@@ -45,13 +45,31 @@ void require_round_trip(const TriangleMesh& mesh) {
   require(are_equal(mesh, parse_ply(ply_bytes(mesh, true), "ply")), "PLY as text keeps a mesh");
   require(are_equal(mesh, parse_off(off_bytes(mesh), "off")), "OFF keeps a mesh");
   require(are_equal(mesh, parse_obj(obj_bytes(mesh), "obj")), "OBJ keeps a mesh");
+  require(are_equal(mesh, parse_medit(medit_bytes(mesh), "mesh")), "Medit keeps a mesh");
   for (const bool ascii : {false, true}) {
+    MeshFileOptions options;
+    options.ascii = ascii;
+    options.comments = {"one", "another"};
+    MeshComments comments;
+    require(are_equal(mesh, parse_legacy_vtk(legacy_vtk_bytes(mesh, options), "vtk", &comments)), "VTK keeps a mesh");
+    require(comments == options.comments, "VTK keeps comments");
+    require(are_equal(mesh, parse_vtp(vtp_bytes(mesh, options), "vtp")), "VTP keeps a mesh");
     try {
       const TriangleMesh again = parse_stl(stl_bytes(mesh, ascii), "stl");
       require(again.triangles.size() == mesh.triangles.size(), "STL keeps the number of triangles");
     } catch (const InputError& error) {
       require_sentence(error.what());  // beyond the range of floats
     }
+  }
+}
+
+// Formats that are only written: whatever the mesh, the bytes are made, or one sentence says why not.
+void require_written(const TriangleMesh& mesh) {
+  require(!gmsh_bytes(mesh).empty() && !smesh_bytes(mesh).empty(), "Gmsh's and TetGen's formats hold any mesh");
+  try {
+    require(glb_bytes(mesh).starts_with("glTF"), "GLB begins as it must");
+  } catch (const InputError& error) {
+    require_sentence(error.what());  // beyond the range of floats
   }
 }
 
@@ -76,6 +94,7 @@ void run(std::string_view input) {
   require_valid(*mesh);
   if (mesh->points.size() + mesh->triangles.size() > kMostWritten) return;
   require_round_trip(*mesh);
+  require_written(*mesh);
   // The verifier takes as long as all the rest on some ten inputs.
   if (mesh->triangles.size() > kMostVerified || input.size() % kVerifyOne != 0) return;
   const Verification v = verify_mesh(*mesh, ball(), 0);

@@ -106,7 +106,7 @@ Volume read_as(VolumeFormat format, UnpackedFile& file, const ReadOptions& optio
 }  // namespace
 
 Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string extension = lower_case_extension(path);
+  const std::string extension = options.format.empty() ? lower_case_extension(path) : "." + options.format;
   std::optional<VolumeFormat> format = format_of_extension(extension);
   if (!format && reads_by_itk(path)) return read_by_itk(path, {options.channel});
   if (format || std::filesystem::is_regular_file(path)) {

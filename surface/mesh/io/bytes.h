@@ -25,12 +25,19 @@ void append_little_endian(std::string& bytes, Number value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+template <class Number>
+void append_big_endian(std::string& bytes, Number value) {
+  if constexpr (std::endian::native == std::endian::little) value = byte_swapped(value);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
 // Walks through binary data. `what` names the thing that is missing when the data end early.
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string file, std::endian order, std::size_t position = 0)
       : bytes_(bytes), file_(std::move(file)), swap_(order != std::endian::native), position_(position) {}
 
+  [[nodiscard]] std::size_t position() const { return position_; }
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - position_; }
 
   template <class Number>

@@ -1,10 +1,13 @@
 // STL: triangles without connectivity. Corners with equal coordinates become one vertex, numbered as they first appear.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
@@ -67,6 +70,33 @@ std::string joined(const MeshComments& comments) {
   return line;
 }
 
+float nearest_float(double value) {
+  constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
+  if (std::abs(value) <= kMost) return static_cast<float>(value) + 0.0f;  // -0 becomes 0
+  return value > 0 ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+}
+
+// The points whose coordinates are nearest floats, or floats next to these: the nearest point first.
+std::vector<Vec3> float_points_around(const Vec3& p) {
+  std::vector<Vec3> points;
+  std::array<std::array<double, 3>, 3> choices{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float nearest = nearest_float(p[axis]);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    choices[axis] = {static_cast<double>(nearest), static_cast<double>(std::nextafter(nearest, -kInfinity) + 0.0f),
+                     static_cast<double>(std::nextafter(nearest, kInfinity) + 0.0f)};
+  }
+  for (const double x : choices[0]) {
+    for (const double y : choices[1]) {
+      for (const double z : choices[2]) points.push_back({x, y, z});
+    }
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const Vec3& a, const Vec3& b) { return squared_distance(a, p) < squared_distance(b, p); });
+  return points;
+}
+
+// The mesh with its points as they are stored.
 std::string ascii_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   std::string text = "solid deliso" + std::string(comments.empty() ? "" : " ") + joined(comments) + "\n";
   const auto append = [&](const char* keyword, const Vec3& p) {
@@ -144,12 +174,35 @@ TriangleMesh parse_ascii(std::string_view bytes, const std::string& file) {
 
 }  // namespace
 
-std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& name, const MeshComments& comments) {
+std::vector<Vec3> stl_points(const TriangleMesh& mesh) {
+  // The first vertex at a place keeps it; others move on to a free one beside it.
+  std::vector<Vec3> points;
+  points.reserve(mesh.points.size());
+  std::unordered_set<Vec3, PointHash> taken;
+  std::vector<std::size_t> late;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Vec3& p = mesh.points[v];
+    points.push_back({static_cast<double>(nearest_float(p.x)), static_cast<double>(nearest_float(p.y)),
+                      static_cast<double>(nearest_float(p.z))});
+    if (!taken.insert(points.back()).second && is_finite(points.back())) late.push_back(v);
+  }
+  for (const std::size_t v : late) {
+    for (const Vec3& p : float_points_around(mesh.points[v])) {
+      if (!is_finite(p) || !taken.insert(p).second) continue;
+      points[v] = p;
+      break;
+    }
+  }
+  return points;
+}
+
+std::string stl_bytes(const TriangleMesh& exact, bool ascii, const std::string& name, const MeshComments& comments) {
+  const TriangleMesh mesh{stl_points(exact), exact.triangles};
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::abs(mesh.points[v][axis]) <= static_cast<double>(std::numeric_limits<float>::max())) continue;
+      if (std::isfinite(mesh.points[v][axis])) continue;
       throw InputError(name + ": STL holds floats, and a coordinate of vertex " + std::to_string(v) +
-                       " is beyond their range: " + shortest_text(mesh.points[v][axis]));
+                       " is beyond their range: " + shortest_text(exact.points[v][axis]));
     }
   }
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -173,14 +226,17 @@ std::string stl_bytes(const TriangleMesh& mesh, bool ascii, const std::string& n
   return bytes;
 }
 
+bool is_binary_stl(std::string_view head, std::uint64_t size) {
+  if (head.size() < kHeaderSize) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, head.data() + kHeaderSize - 4, 4);
+  if constexpr (std::endian::native == std::endian::big) count = byte_swapped(count);
+  return size == kHeaderSize + kRecordSize * std::uint64_t{count};
+}
+
 TriangleMesh parse_stl(std::string_view bytes, const std::string& file) {
   // A binary file may begin with "solid" too; only its size tells for sure.
-  if (bytes.size() >= kHeaderSize) {
-    std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + kHeaderSize - 4, 4);
-    if constexpr (std::endian::native == std::endian::big) count = byte_swapped(count);
-    if (bytes.size() == kHeaderSize + kRecordSize * count) return parse_binary(bytes, file);
-  }
+  if (is_binary_stl(bytes, bytes.size())) return parse_binary(bytes, file);
   return bytes.substr(0, 5) == "solid" ? parse_ascii(bytes, file) : parse_binary(bytes, file);
 }
 

@@ -38,7 +38,35 @@ TEST(Usage, HelpNamesEveryCommandAndParameter) {
     EXPECT_TRUE(contains(help.out, "  " + command + " ")) << command;
     EXPECT_EQ(run_deliso({command, "--help"}).exit_code, 0) << command;
   }
-  EXPECT_TRUE(contains(run_deliso({"mesh", "--help"}).out, "stage2.epsilon1 = 0.1"));
+  const ProgramResult parameters = run_deliso({"mesh", "--help-parameters"});
+  EXPECT_EQ(parameters.exit_code, 0);
+  EXPECT_TRUE(contains(parameters.out, "stage2.epsilon1 = 0.1"));
+  const std::string mesh_help = run_deliso({"mesh", "--help"}).out;
+  EXPECT_FALSE(contains(mesh_help, "stage2.epsilon1 = 0.1"));
+  EXPECT_TRUE(contains(mesh_help, "--help-parameters"));
+}
+
+TEST(Usage, EveryHelpHasExamples) {
+  for (const std::string command :
+       {"mesh", "verify", "topology", "info", "generate", "run", "table", "render", "explain", "schema"}) {
+    EXPECT_TRUE(contains(run_deliso({command, "--help"}).out, "Examples:\n  deliso " + command + " ")) << command;
+  }
+}
+
+TEST(Usage, AnOptionWithoutItsValueIsNamed) {
+  const auto refusal = [](std::vector<std::string> arguments) {
+    const ProgramResult result = run_deliso(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_EQ(refusal({"mesh", "v.nrrd", "--isovalue", "-o", "x.ply"}),
+            "deliso: --isovalue: expected a value, found the option '-o'\n");
+  EXPECT_EQ(refusal({"mesh", "v.nrrd", "-o", "--isovalue", "3"}),
+            "deliso: -o: expected a value, found the option '--isovalue'\n");
+  EXPECT_EQ(refusal({"mesh", "v.nrrd", "-o", "x.ply", "--isovalue"}),
+            "deliso: --isovalue: expected a value, found the end of the command line\n");
+  // A negative number and a lone dash are values.
+  EXPECT_TRUE(contains(refusal({"mesh", "no.nrrd", "--isovalue", "-3", "-o", "-"}), "no.nrrd"));
 }
 
 TEST(Usage, GenerateListsAndWritesEveryField) {

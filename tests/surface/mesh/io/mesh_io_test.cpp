@@ -54,10 +54,10 @@ void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
   }
 }
 
-TEST_F(MeshIo, PlyOffAndObjKeepEveryBit) {
+TEST_F(MeshIo, FormatsOfDoublesKeepEveryBit) {
   const TriangleMesh mesh = awkward_mesh(11);
   for (const bool ascii : {false, true}) {
-    for (const char* name : {"mesh.ply", "mesh.off", "mesh.obj", "mesh.PLY"}) {
+    for (const char* name : {"mesh.ply", "mesh.off", "mesh.obj", "mesh.PLY", "mesh.mesh", "mesh.vtk", "mesh.vtp"}) {
       SCOPED_TRACE(std::string(name) + (ascii ? " as text" : ""));
       write_mesh(mesh, file(name), ascii);
       expect_same_bits(read_mesh(file(name)), mesh);
@@ -67,7 +67,8 @@ TEST_F(MeshIo, PlyOffAndObjKeepEveryBit) {
 
 TEST_F(MeshIo, KnownPathsAreThoseThatAreWritten) {
   const TriangleMesh mesh = awkward_mesh(1);
-  for (const std::string name : {"m.ply", "m.PLY", "m.off", "m.obj", "m.Stl", "m.txt", "m", "m.plyx", "ply"}) {
+  for (const std::string name : {"m.ply", "m.PLY", "m.off", "m.obj", "m.Stl", "m.mesh", "m.msh", "m.smesh", "m.vtk",
+                                 "m.VTP", "m.txt", "m", "m.plyx", "ply"}) {
     bool written = true;
     try {
       write_mesh(mesh, file(name));
@@ -122,9 +123,18 @@ TEST_F(MeshIo, PromisesOfHugeCountsDoNotTakeMemory) {
 TEST_F(MeshIo, DamagedFilesNeverDoWorseThanAnInputError) {
   const TriangleMesh mesh = testing::tetrahedron_mesh();
   using Parser = TriangleMesh (*)(std::string_view, const std::string&);
+  const auto vtk = [](std::string_view bytes, const std::string& name) { return parse_legacy_vtk(bytes, name); };
+  const auto vtp = [](std::string_view bytes, const std::string& name) { return parse_vtp(bytes, name); };
+  MeshFileOptions text;
+  text.ascii = true;
+  text.comments = {"one", "another one"};
+  MeshFileOptions binary = text;
+  binary.ascii = false;
   const std::vector<std::pair<std::string, Parser>> cases = {
-      {ply_bytes(mesh, false), parse_ply}, {ply_bytes(mesh, true), parse_ply},  {off_bytes(mesh), parse_off},
-      {obj_bytes(mesh), parse_obj},        {stl_bytes(mesh, false), parse_stl}, {stl_bytes(mesh, true), parse_stl}};
+      {legacy_vtk_bytes(mesh, text), vtk}, {legacy_vtk_bytes(mesh, binary), vtk},  {vtp_bytes(mesh, text), vtp},
+      {vtp_bytes(mesh, binary), vtp},      {medit_bytes(mesh, text), parse_medit}, {ply_bytes(mesh, false), parse_ply},
+      {ply_bytes(mesh, true), parse_ply},  {off_bytes(mesh), parse_off},           {obj_bytes(mesh), parse_obj},
+      {stl_bytes(mesh, false), parse_stl}, {stl_bytes(mesh, true), parse_stl}};
   for (const auto& [bytes, parse] : cases) {
     std::int64_t errors = 0;
     const auto try_parse = [&, parse = parse](std::string_view damaged) {
@@ -201,7 +211,7 @@ TEST_F(MeshIo, ALinkStaysAndItsTargetIsReplaced) {
 }
 
 TEST_F(MeshIo, TheEmptyMeshIsAMesh) {
-  for (const char* name : {"mesh.ply", "mesh.off", "mesh.obj", "mesh.stl"}) {
+  for (const char* name : {"mesh.ply", "mesh.off", "mesh.obj", "mesh.stl", "mesh.mesh", "mesh.vtk", "mesh.vtp"}) {
     for (const bool ascii : {false, true}) {
       write_mesh({}, file(name), ascii);
       expect_same_bits(read_mesh(file(name)), {});
