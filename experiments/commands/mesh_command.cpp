@@ -1,10 +1,13 @@
 // deliso mesh: a volume and an isovalue in, a certified Delaunay mesh out.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +16,8 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
+#include "experiments/commands/label_files.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
@@ -27,7 +32,7 @@
 #include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
 #include "surface/mesh/mesh_quality.h"
-#include "volume/io/sha256.h"
+#include "volume/filters/labels.h"
 
 namespace deliso {
 namespace {
@@ -35,7 +40,7 @@ namespace {
 struct MeshCommandOptions {
   VolumeOptions volume;
   WorldOptions world;
-  std::string isovalue;
+  FieldOptions field;
   std::string output;
   std::string config;
   std::vector<std::string> assignments;
@@ -53,6 +58,7 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   if (!options.config.empty()) parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments)
     set_parameter(with_length_in_voxels(assignment, volume), parameters);
+  apply_field_options(options.field, volume, parameters.field);
   return parameters;
 }
 
@@ -65,40 +71,79 @@ void check_mesh_output(const std::filesystem::path& path, const std::string& opt
 }
 
 // Finds everything that could prevent the results from being written before the work starts.
-void check_outputs(const MeshCommandOptions& options) {
-  check_mesh_output(options.output, "-o");
-  if (!options.stage1_output.empty()) check_mesh_output(options.stage1_output, "--stage1-out");
-  if (!options.report.empty()) check_writable(options.report, "--report");
-  check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
-                 {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
+void check_outputs(const MeshCommandOptions& options, const std::vector<std::int32_t>& labels) {
+  check_label_names(options.output, "-o", labels, true);
+  check_label_names(options.stage1_output, "--stage1-out", labels, true);
+  check_label_names(options.report, "--report", labels, false);
+  const Labels runs = runs_of(labels);
+  for (const std::optional<std::int32_t> label : runs) {
+    const std::string output = name_for(options.output, label), stage1 = name_for(options.stage1_output, label),
+                      report = name_for(options.report, label);
+    check_mesh_output(output, "-o");
+    if (!stage1.empty()) check_mesh_output(stage1, "--stage1-out");
+    if (!report.empty()) check_writable(report, "--report");
+    check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
+                   {{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
+  }
 }
 
-Json report_of(const MeshRun& run, const Volume& volume, const World& world, const MeshingResult& result) {
-  Json report = mesh_report(run, result);
+// One surface: all of a run but for several labels.
+struct Meshed {
+  std::optional<std::int32_t> label;
+  ChosenField chosen;
+  MeshingOptions meshing;
+  MeshingResult result;
+};
+
+Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume,
+               const std::string& sha256, const World& world) {
+  const MeshRun run{options.volume.path, volume.grid, meshed.chosen.isovalue, meshed.meshing, sha256};
+  Json report = mesh_report(run, meshed.result);
   report["volume"].update(source_json(volume));
   report["world"] = world_json(world);
+  report["field"] = field_json(options.field, meshed.chosen);
   return report;
 }
 
-void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const Volume& volume, const World& world,
-                   MeshingResult& result) {
-  // First the report is made in memory, or written where it cannot be taken back: if this fails, no mesh may be left
-  // behind.
-  const std::string report = options.report.empty() ? "" : json_text(report_of(run, volume, world, result));
-  const bool is_file = !is_special(options.report);
-  if (!is_file) write_text(report, options.report);
-  const std::vector<std::string> comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
-                                                          run.options.parameters.promise.max_distance, world);
-  write_mesh(transformed(result.mesh, world.from_grid), options.output, options.ascii, comments);
-  if (!options.stage1_output.empty() && result.stage1_mesh) {
-    write_mesh(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, options.ascii, comments);
+// The meshes and reports of all labels, those of one name in one file.
+void write_outputs(const MeshCommandOptions& options, const std::vector<Meshed>& all, const Volume& volume,
+                   const std::string& sha256, const World& world) {
+  // First the reports are made in memory, or written where they cannot be taken back: if this fails, no mesh may be
+  // left behind.
+  std::map<std::string, Json> reports;
+  MeshFiles meshes;
+  for (const Meshed& meshed : all) {
+    const MeshingResult& result = meshed.result;
+    const Parameters& parameters = meshed.meshing.parameters;
+    if (!options.report.empty()) {
+      reports[name_for(options.report, meshed.label)].push_back(report_of(options, meshed, volume, sha256, world));
+    }
+    std::vector<std::string> comments = mesh_comments(options.volume.path, sha256, result.isovalue_used,
+                                                      parameters.promise.max_distance, world);
+    append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, comments);
+    const auto add = [&](const std::string& name, const TriangleMesh& mesh) {
+      meshes.add(name_for(name, meshed.label), transformed(mesh, world.from_grid), meshed.label, comments);
+    };
+    add(options.output, result.mesh);
+    if (!options.stage1_output.empty() && result.stage1_mesh) add(options.stage1_output, *result.stage1_mesh);
   }
-  if (is_file && !options.report.empty()) write_text(report, options.report);
+  for (auto& [name, list] : reports) {
+    list = one_or_all(std::move(list));
+    if (is_special(name)) write_text(json_text(list), name);
+  }
+  meshes.write(options.ascii);
+  for (const auto& [name, report] : reports) {
+    if (!is_special(name)) write_text(json_text(report), name);
+  }
 }
 
-void print_summary(const MeshingResult& result, const MeshingOptions& options) {
+void print_summary(const Meshed& meshed) {
+  const MeshingResult& result = meshed.result;
+  const MeshingOptions& options = meshed.meshing;
   const TopologySum topology = sum_of(mesh_topology(result));
+  const std::string field = field_text(meshed.chosen.parameters);
   TextTable table;
+  if (!field.empty()) table.row({"field", field});
   table.row({"vertices", std::to_string(result.mesh.points.size())})
       .row({"triangles", std::to_string(result.mesh.triangles.size())})
       .row({"components", std::to_string(topology.components)})
@@ -110,10 +155,11 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options) {
   table.print(std::cout);
   if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
   std::cout << '\n'
-            << (is_proven(result.certificate) ? "proven" : "not proven")
+            << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
             << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
             << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-            << number_text(options.parameters.promise.max_distance) << " voxel)\n";
+            << number_text(options.parameters.promise.max_distance) << " voxel"
+            << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }
 
 // The triangles that could not be brought to the angle asked for, and where the worst of them is.
@@ -128,10 +174,20 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
 }
 
 // What a reader of stderr must know beyond the table.
-void print_remarks(const MeshRun& run, const World& world, const MeshingResult& result) {
+void print_remarks(const MeshCommandOptions& options, const Volume& volume, const World& world, const Meshed& meshed) {
+  const MeshingResult& result = meshed.result;
+  const ChosenField& chosen = meshed.chosen;
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
-  remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
-  remark_shape(result.shape, run.options.parameters);
+  for (const std::string& remark : field_remarks(volume, options.field, chosen)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  if (const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen); !remark.empty()) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
+  remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
+  remark_shape(result.shape, meshed.meshing.parameters);
+  const MeshRun run{options.volume.path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;
@@ -150,39 +206,56 @@ ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result
   return proven || !options.parameters.certify ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
+// Meshes one surface, with a progress bar on a terminal.
+Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const World& world, MeshingOptions meshing,
+                std::optional<std::int32_t> label) {
+  if (label) meshing.parameters.field.label = label;
+  ChosenField chosen = choose_field(options.volume.path, volume, options.field, meshing.parameters.field);
+  MeshingResult result = [&] {
+    ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
+    MeshingOptions watched = meshing;
+    watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
+    return mesh_isosurface(chosen.grid, chosen.isovalue, watched);
+  }();
+  if (meshing.parameters.certify) {
+    const Vec3& s = volume.grid.spacing();
+    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+  }
+  return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result)};
+}
+
 ExitCode run_mesh(const MeshCommandOptions& options) {
   // Every option is checked before the volume is read, and the volume before the work starts.
-  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  check_field_options(options.field);
   MeshingOptions meshing;
   meshing.parameters = resolved_parameters(options, nullptr);
   check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
   meshing.keep_stage1_mesh = !options.stage1_output.empty();
-  check_outputs(options);
+  std::vector<std::int32_t> labels = parse_labels(options.field.label);
+  if (labels.empty() && meshing.parameters.field.label) labels.push_back(*meshing.parameters.field.label);
+  check_outputs(options, labels);
   meshing.stop = &catch_stop_signals();
   const Volume volume = load_volume(options.volume);
-  const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
   meshing.parameters = resolved_parameters(options, &volume);
+  const std::string sha256 = sha256_as_read(volume);
 
-  // Mesh, with a progress bar on a terminal.
-  const MeshRun run{options.volume.path, grid, isovalue, meshing, sample_sha256(grid)};
-  MeshingResult result = [&] {
-    ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
-    MeshingOptions watched = meshing;
-    watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
-    return mesh_isosurface(grid, isovalue, watched);
-  }();
-  if (meshing.parameters.certify) {
-    const Vec3& s = grid.spacing();
-    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, result.certificate);
+  std::vector<Meshed> all;
+  for (const std::optional<std::int32_t> label : runs_of(labels)) {
+    all.push_back(mesh_one(options, volume, world, meshing, label));
+    if (all.back().result.stopped_early()) break;
   }
-
-  write_outputs(options, run, volume, world, result);
-  print_summary(result, meshing);
-  if (!options.quiet) print_remarks(run, world, result);
-  return exit_code_of(meshing, result);
+  write_outputs(options, all, volume, sha256, world);
+  ExitCode worst = ExitCode::kDone;
+  for (const Meshed& meshed : all) {
+    if (&meshed != &all.front()) std::cout << '\n';
+    print_summary(meshed);
+    if (!options.quiet) print_remarks(options, volume, world, meshed);
+    worst = std::max(worst, exit_code_of(meshed.meshing, meshed.result));
+  }
+  return worst;
 }
 
 }  // namespace
@@ -191,8 +264,13 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<MeshCommandOptions>();
   Command command = line.add_command("mesh", "Mesh an isosurface and certify the mesh");
   add_volume_options(command, options->volume);
-  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K").required();
-  command.add_option("-o,--output", options->output, "The mesh: " + std::string(kMeshExtensions))
+  add_isovalue_option(command, options->field);
+  add_field_options(command, options->field);
+  command
+      .add_option("-o,--output", options->output,
+                  "The mesh: " + std::string(kMeshExtensions) +
+                      "; {label} in the name stands for the label, without it several share one .ply with a label "
+                      "per triangle")
       .type_name("MESH")
       .required();
   command.add_option("--config", options->config, "Parameters in a JSON file")

@@ -83,8 +83,8 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 }
 
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {
-  constexpr std::array<std::string_view, 3> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
-                                                     "promise.max_distance"};
+  constexpr std::array<std::string_view, 4> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
+                                                     "promise.max_distance", "field.smooth"};
   const std::size_t equals = assignment.find('=');
   const std::string key = assignment.substr(0, equals);
   if (equals == std::string::npos || std::find(kLengths.begin(), kLengths.end(), key) == kLengths.end())
@@ -95,7 +95,7 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
 }
 
 namespace {
-constexpr std::string_view kPromise = "promise.max_distance ";
+constexpr std::string_view kPromise = "promise.max_distance";
 }
 
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
@@ -110,29 +110,40 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
   }
   lines.push_back("volume " + on_one_line(std::filesystem::path(volume_path).filename().string()));
   lines.push_back("samples sha256 " + sha256);
-  lines.push_back(std::string(kPromise) + shortest_text(promised));
+  lines.push_back(std::string(kPromise) + " " + shortest_text(promised));
   return lines;
 }
 
 // Comments stand before the vertices or, in OFF files, behind the triangles.
-std::optional<double> promised_distance(const std::string& mesh_path) {
+MeshFileNotes::MeshFileNotes(const std::string& mesh_path) {
   constexpr std::size_t kMost = 4096;  // bytes at either end
   std::ifstream file(mesh_path, std::ios::binary);
-  std::string ends(kMost, ' ');
-  file.read(ends.data(), kMost);
+  std::string first(kMost, ' '), last(kMost, ' ');
+  file.read(first.data(), kMost);
   file.clear();
   file.seekg(0, std::ios::end);
   const auto size = static_cast<std::streamoff>(file.tellg());
   file.seekg(std::max(std::streamoff{0}, size - static_cast<std::streamoff>(kMost)));
-  std::string last(kMost, ' ');
   file.read(last.data(), kMost);
-  ends += '\n' + last;
-  for (std::size_t at = ends.find(kPromise); at != std::string::npos; at = ends.find(kPromise, at + 1)) {
-    const std::size_t number = at + kPromise.size();
-    double value = 0;
-    const auto [end, error] = std::from_chars(ends.data() + number, ends.data() + ends.size(), value);
-    if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
+  ends_ = '\n' + first + '\n' + last;
+}
+
+std::optional<std::string> MeshFileNotes::value(std::string_view key) const {
+  for (const std::string_view begin : {"\ncomment ", "\n# "}) {
+    const std::string start = std::string(begin) + std::string(key) + " ";
+    const std::size_t at = ends_.find(start);
+    if (at == std::string::npos) continue;
+    const std::size_t from = at + start.size();
+    return ends_.substr(from, ends_.find_first_of("\r\n", from) - from);
   }
+  return std::nullopt;
+}
+
+std::optional<double> promised_distance(const std::string& mesh_path) {
+  const std::string text = MeshFileNotes(mesh_path).value(kPromise).value_or("");
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
   return std::nullopt;
 }
 

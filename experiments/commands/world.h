@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/commands/command.h"
@@ -43,6 +44,16 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
 // `promised`: promise.max_distance, in voxels.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world);
+// Such lines of a mesh file, where they are a key and a value.
+class MeshFileNotes {
+ public:
+  explicit MeshFileNotes(const std::string& mesh_path);
+  // The text after the key, if there is such a line.
+  [[nodiscard]] std::optional<std::string> value(std::string_view key) const;
+
+ private:
+  std::string ends_;  // of the file: the first and the last bytes
+};
 // The promise.max_distance that such a line of a mesh file names, if there is one.
 std::optional<double> promised_distance(const std::string& mesh_path);
 
