@@ -144,8 +144,9 @@ ChosenField choose_field(const std::string& path, const Volume& volume, const Fi
                          const FieldParameters& parameters) {
   if (volume.as_read && options.nan == "refuse") {
     throw InputError(path + ": " + first_not_finite_text(*volume.as_read, volume.grid.dims()) +
-                     ": every sample must be a finite number, or --nan outside or --nan inside must say what the " +
-                     std::to_string(volume.not_finite.count()) + " that are not count as");
+                     ": every sample must be a finite number (" + std::to_string(volume.not_finite.count()) +
+                     (volume.not_finite.count() == 1 ? " is" : " are") +
+                     " not); --nan outside or --nan inside takes NaN for that side");
   }
   const double isovalue = isovalue_in(volume, options, parameters);
   if (!volume.as_read) return {volume.grid, isovalue, parameters};

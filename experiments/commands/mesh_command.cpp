@@ -102,6 +102,7 @@ Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Vo
   report["volume"].update(source_json(volume));
   report["world"] = world_json(world);
   report["field"] = field_json(options.field, meshed.chosen);
+  report["certificate"]["field"] = report["field"]["text"];
   return report;
 }
 
@@ -173,17 +174,21 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
             << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
 }
 
-// What a reader of stderr must know beyond the table.
-void print_remarks(const MeshCommandOptions& options, const Volume& volume, const World& world, const Meshed& meshed) {
-  const MeshingResult& result = meshed.result;
-  const ChosenField& chosen = meshed.chosen;
+// What a reader of stderr must know of the volume.
+void print_volume_remarks(const MeshCommandOptions& options, const Volume& volume, const World& world,
+                          const ChosenField& chosen) {
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
   for (const std::string& remark : field_remarks(volume, options.field, chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
-  if (const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen); !remark.empty()) {
-    std::cerr << "deliso: " << remark << '\n';
-  }
+  const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen);
+  if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
+}
+
+// What a reader of stderr must know of a mesh beyond the table.
+void print_remarks(const MeshCommandOptions& options, const Meshed& meshed) {
+  const MeshingResult& result = meshed.result;
+  const ChosenField& chosen = meshed.chosen;
   const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
   remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
   remark_shape(result.shape, meshed.meshing.parameters);
@@ -251,9 +256,11 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   ExitCode worst = ExitCode::kDone;
   for (const Meshed& meshed : all) {
     if (&meshed != &all.front()) std::cout << '\n';
-    print_summary(meshed);
-    if (!options.quiet) print_remarks(options, volume, world, meshed);
     worst = std::max(worst, exit_code_of(meshed.meshing, meshed.result));
+    print_summary(meshed);
+    if (options.quiet) continue;
+    if (&meshed == &all.front()) print_volume_remarks(options, volume, world, meshed.chosen);
+    print_remarks(options, meshed);
   }
   return worst;
 }

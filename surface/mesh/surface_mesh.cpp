@@ -15,15 +15,16 @@ void make_room(std::vector<Element>& array, std::size_t count) {
   if (count > array.capacity()) array.reserve(std::max(count, array.size() + array.size() / 4));
 }
 
-// Where a surface has been closed along the faces of a box, puts the points there onto them.
+// Where a surface has been closed along the faces of a box, puts the points there onto them: none lies outside, and
+// those inside by next to nothing are on them but for rounding.
 void settle_on_walls(std::vector<Vec3>& points, const Box3& walls, const Vec3& spacing) {
-  constexpr double kOfSpacing = 0x1p-24, kOfCoordinate = 0x1p-50;
+  constexpr double kOfSpacing = 0x1p-20, kOfCoordinate = 0x1p-50;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = walls.low[axis], high = walls.high[axis];
     const double near = kOfSpacing * spacing[axis] + kOfCoordinate * std::max(std::abs(low), std::abs(high));
     for (Vec3& p : points) {
-      if (std::abs(p[axis] - low) <= near) p[axis] = low;
-      if (std::abs(p[axis] - high) <= near) p[axis] = high;
+      if (p[axis] <= low + near) p[axis] = low;
+      if (p[axis] >= high - near) p[axis] = high;
     }
   }
 }

@@ -30,20 +30,20 @@ struct Bins {
 Bins bins_of(const Samples& samples) {
   constexpr double kMost = 65536;
   const auto [low, high] = finite_range(samples);
-  const bool is_whole = visit_samples(samples, []<class Sample>(const SampleArray<Sample>&) {
-    return std::is_integral_v<Sample>;
-  });
+  const bool is_whole = visit_samples(
+      samples, []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
   Bins bins;
-  const double count = is_whole ? std::min(kMost, high - low + 1) : kMost;
   bins.low = low;
-  bins.width = is_whole ? std::ceil((high - low + 1) / count) : high / count - low / count;
+  bins.width = is_whole ? std::ceil((high - low + 1) / kMost) : high / kMost - low / kMost;
+  const double count = is_whole ? std::ceil((high - low + 1) / bins.width) : kMost;
+  const double half_width = is_whole ? bins.width / 2 : (high / 2 - low / 2) / kMost;  // differences may overflow
   bins.counts.resize(static_cast<std::size_t>(count), 0);
   bins.sums.resize(bins.counts.size(), 0);
-  visit_samples(samples, [&](const auto& all) {
+  visit_samples(samples, [&bins, half_width, lowest = low](const auto& all) {
     for (const auto sample : all) {
-      const auto value = static_cast<double>(sample);
-      const double half = value / 2 - low / 2;  // differences of doubles may overflow
-      const std::size_t bin = std::min(static_cast<std::size_t>(half / (bins.width / 2)), bins.counts.size() - 1);
+      const double half = static_cast<double>(sample) / 2 - lowest / 2;
+      const double share = half_width > 0 ? half / half_width : 0;
+      const std::size_t bin = std::min(static_cast<std::size_t>(share), bins.counts.size() - 1);
       bins.counts[bin] += 1;
       bins.sums[bin] += half;
     }
@@ -102,7 +102,7 @@ double otsu_isovalue(const Samples& samples) {
 
 double mean_isovalue(const Samples& samples) {
   const double low = finite_range(samples).first;
-  const double mean = visit_samples(samples, [&](const auto& all) {
+  const double mean = visit_samples(samples, [low](const auto& all) {
     const auto count = static_cast<double>(all.size());
     double sum = 0;
     for (const auto sample : all) sum += (static_cast<double>(sample) / 2 - low / 2) / count;
