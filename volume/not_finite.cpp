@@ -46,7 +46,8 @@ NotFiniteCounts count_not_finite(const Samples& samples) {
 
 std::string first_not_finite_text(const Samples& samples, const Dims& dims) {
   return visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& s) {
-    const auto first = std::find_if(s.begin(), s.end(), [](Sample v) { return !std::isfinite(static_cast<double>(v)); });
+    const auto first =
+        std::find_if(s.begin(), s.end(), [](Sample v) { return !std::isfinite(static_cast<double>(v)); });
     const auto n = static_cast<std::size_t>(first - s.begin());
     const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
     const auto value = static_cast<double>(*first);

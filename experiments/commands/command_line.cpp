@@ -120,12 +120,11 @@ Volume load_volume(const VolumeOptions& options) {
 
 void remark_isovalue(const ScalarGrid* grid, double isovalue, double used) {
   if (used == isovalue) return;
-  const std::string at = grid == nullptr                                   ? "a sample or a saddle of the interpolant"
+  const std::string at = grid == nullptr                                 ? "a sample or a saddle of the interpolant"
                          : regular_isovalue(*grid, isovalue) != isovalue ? "a sample"
-                                                                           : "a saddle of the interpolant";
-  std::cerr << "deliso: " << at << " equals the isovalue "
-            << shortest_text(isovalue) << ", so the isosurface is singular; used " << shortest_text(used)
-            << " instead\n";
+                                                                         : "a saddle of the interpolant";
+  std::cerr << "deliso: " << at << " equals the isovalue " << shortest_text(isovalue)
+            << ", so the isosurface is singular; used " << shortest_text(used) << " instead\n";
 }
 
 }  // namespace deliso

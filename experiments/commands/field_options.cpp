@@ -192,12 +192,13 @@ std::vector<std::string> field_remarks(const Volume& volume, const FieldOptions&
   }
   const NotFiniteCounts& counts = volume.not_finite;
   if (counts.nan > 0) {
-    remarks.push_back(counted(static_cast<std::int64_t>(counts.nan), "sample is NaN, taken as ",
-                              "samples are NaN, taken as ") + options.nan);
+    remarks.push_back(
+        counted(static_cast<std::int64_t>(counts.nan), "sample is NaN, taken as ", "samples are NaN, taken as ") +
+        options.nan);
   }
   if (counts.count() > counts.nan) {
-    remarks.push_back(counted(static_cast<std::int64_t>(counts.count() - counts.nan), "sample is infinite",
-                              "samples are infinite"));
+    remarks.push_back(
+        counted(static_cast<std::int64_t>(counts.count() - counts.nan), "sample is infinite", "samples are infinite"));
   }
   return remarks;
 }

@@ -68,8 +68,8 @@ Json info_report(const InfoCommandOptions& options, const Volume& volume, const 
   Json described = volume_json(options.volume.path, looked.grid, sha256_as_read(volume));
   described.update(source_json(volume));
   const NotFiniteCounts& counts = volume.not_finite;
-  described["not_finite"] = Json{
-      {"nan", counts.nan}, {"plus_infinite", counts.plus_infinite}, {"minus_infinite", counts.minus_infinite}};
+  described["not_finite"] =
+      Json{{"nan", counts.nan}, {"plus_infinite", counts.plus_infinite}, {"minus_infinite", counts.minus_infinite}};
   described["kind"] = kind_name(looked.kinds.kind);
   described["values"] = looked.kinds.values.empty() ? Json() : Json(looked.kinds.values);
   Json suggestions = Json::array();
@@ -217,8 +217,7 @@ void add_info_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<InfoCommandOptions>();
   Command command = line.add_command("info", "Dimensions, range, histogram and suggested isovalues of a volume");
   add_volume_options(command, options->volume);
-  command
-      .add_option("--smooth", options->smooth, "The histogram of the field smoothed as by mesh --smooth")
+  command.add_option("--smooth", options->smooth, "The histogram of the field smoothed as by mesh --smooth")
       .type_name("SIGMA")
       .check(refuse_empty_value);
   command.add_flag("--json", options->json, "Print JSON");

@@ -42,8 +42,10 @@ void check_label_names(const std::string& pattern, const std::string& option, co
     throw InputError(option + ": {label} stands for a label, but none is meshed, expected --label N or another name");
   }
   if (!is_mesh || pattern.empty() || labels.size() < 2 || lower_case_extension(pattern) == ".ply") return;
-  throw InputError(option + ": several labels in one file need a .ply, which holds a label per triangle, or {label} in "
-                   "the name for a file each, found '" + pattern + "'");
+  throw InputError(option +
+                   ": several labels in one file need a .ply, which holds a label per triangle, or {label} in "
+                   "the name for a file each, found '" +
+                   pattern + "'");
 }
 
 void MeshFiles::add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,

@@ -95,8 +95,8 @@ struct Meshed {
   MeshingResult result;
 };
 
-Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume,
-               const std::string& sha256, const World& world) {
+Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume, const std::string& sha256,
+               const World& world) {
   const MeshRun run{options.volume.path, volume.grid, meshed.chosen.isovalue, meshed.meshing, sha256};
   Json report = mesh_report(run, meshed.result);
   report["volume"].update(source_json(volume));
@@ -119,8 +119,8 @@ void write_outputs(const MeshCommandOptions& options, const std::vector<Meshed>&
     if (!options.report.empty()) {
       reports[name_for(options.report, meshed.label)].push_back(report_of(options, meshed, volume, sha256, world));
     }
-    std::vector<std::string> comments = mesh_comments(options.volume.path, sha256, result.isovalue_used,
-                                                      parameters.promise.max_distance, world);
+    std::vector<std::string> comments =
+        mesh_comments(options.volume.path, sha256, result.isovalue_used, parameters.promise.max_distance, world);
     append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, comments);
     const auto add = [&](const std::string& name, const TriangleMesh& mesh) {
       meshes.add(name_for(name, meshed.label), transformed(mesh, world.from_grid), meshed.label, comments);

@@ -58,9 +58,8 @@ std::vector<std::size_t> best_two_edges(const SampleHistogram& histogram) {
 SampleHistogram sample_histogram(const Samples& samples, std::int32_t bins) {
   SampleHistogram histogram;
   std::tie(histogram.low, histogram.high) = finite_range(samples);
-  const bool integers = visit_samples(samples, [](const auto& all) {
-    return std::is_integral_v<typename std::decay_t<decltype(all)>::value_type>;
-  });
+  const bool integers = visit_samples(
+      samples, [](const auto& all) { return std::is_integral_v<typename std::decay_t<decltype(all)>::value_type>; });
   if (integers) {
     // As few bins as possible, each with a whole number of integers.
     const double values = histogram.high - histogram.low + 1;
@@ -86,8 +85,7 @@ SampleHistogram sample_histogram(const Samples& samples, std::int32_t bins) {
 std::vector<IsovalueSuggestion> suggested_isovalues(const Samples& samples, const SampleHistogram& histogram) {
   const auto filled = std::count_if(histogram.counts.begin(), histogram.counts.end(), [](auto n) { return n > 0; });
   if (filled < 2) return {};
-  std::vector<IsovalueSuggestion> suggestions = {
-      {otsu_isovalue(samples), "separates two classes (Otsu)", "otsu"}};
+  std::vector<IsovalueSuggestion> suggestions = {{otsu_isovalue(samples), "separates two classes (Otsu)", "otsu"}};
   if (filled == 2) return suggestions;
   for (const std::size_t edge : best_two_edges(histogram)) {
     const double isovalue = middle_of_gap(samples, histogram.low + static_cast<double>(edge) * histogram.bin_width());

@@ -203,15 +203,13 @@ Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volum
     for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
   }
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  MeshedField field =
-      meshed_field(grid, chosen.isovalue, parameters, options.closed, grid.spacing(), threads);
+  MeshedField field = meshed_field(grid, chosen.isovalue, parameters, options.closed, grid.spacing(), threads);
   Verification verification = verify_mesh(mesh, field.grid, field.isovalue, promise);
   if (!options.ignore_spacing) to_world(verification, world.from_grid);
   return {std::move(chosen), std::move(field), std::move(verification)};
 }
 
-void print_judged(const Json& report, const Volume& volume, const VerifyCommandOptions& options,
-                  const Judged& judged) {
+void print_judged(const Json& report, const Volume& volume, const VerifyCommandOptions& options, const Judged& judged) {
   const Verification& v = judged.verification;
   print_checks(report);
   for (const std::string& remark : field_remarks(volume, options.field, judged.chosen)) {

@@ -55,8 +55,7 @@ std::array<int, 6> expect_closed_in_box(const MeshingResult& result, const Scala
 }
 
 void expect_verified(const MeshingResult& result, const ScalarGrid& grid, double isovalue, const Parameters& p) {
-  const MeshedField field =
-      meshed_field(grid, isovalue, p.field, p.boundary == Boundary::kClosed, grid.spacing(), 1);
+  const MeshedField field = meshed_field(grid, isovalue, p.field, p.boundary == Boundary::kClosed, grid.spacing(), 1);
   TriangleMesh mesh = result.mesh;
   if (p.field.invert) {
     for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
@@ -75,7 +74,8 @@ MeshingOptions closed() {
 
 TEST(ClosedSolids, OfOnesAreTheBox) {
   const MeshingOptions options = closed();
-  for (const auto& [spacing, origin] : {std::pair(Vec3{1, 1, 1}, Vec3{0, 0, 0}), {Vec3{0.1, 0.3, 0.7}, {0.1, -7, 1e4}}}) {
+  for (const auto& [spacing, origin] :
+       {std::pair(Vec3{1, 1, 1}, Vec3{0, 0, 0}), {Vec3{0.1, 0.3, 0.7}, {0.1, -7, 1e4}}}) {
     for (const double isovalue : {0.5, 1.0}) {
       const ScalarGrid grid({5, 6, 4}, std::vector<std::uint8_t>(120, 1), spacing, origin);
       const MeshingResult result = mesh_isosurface(grid, isovalue, options);
@@ -95,8 +95,8 @@ TEST(ClosedSolids, OfOnesAreTheBox) {
 // A signed distance, negative inside: a ball of radius 1.2 cut by the cube from -1 to 1.
 TEST(ClosedSolids, OfASignedDistanceIsTheCappedBallWhenInverted) {
   constexpr double kRadius = 1.2, kPi = std::numbers::pi;
-  const ScalarGrid grid = testing::sampled(
-      {33, 33, 33}, [](const Vec3& p) { return norm(p) - kRadius; }, {0.0625, 0.0625, 0.0625}, {-1, -1, -1});
+  const ScalarGrid grid = testing::sampled({33, 33, 33}, [](const Vec3& p) { return norm(p) - kRadius; },
+                                           {0.0625, 0.0625, 0.0625}, {-1, -1, -1});
   const double cap = kPi * 0.2 * 0.2 * (3 * kRadius - 0.2) / 3;
   const double ball = 4 * kPi / 3 * kRadius * kRadius * kRadius - 6 * cap;
   MeshingOptions options = closed();

@@ -127,7 +127,8 @@ ScalarGrid smoothed(const ScalarGrid& grid, const Vec3& sigma, int threads) {
   }
   Samples samples = visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& s) {
     // Floats also hide what rounding leaves of sums that are equal but for their order, as in masks with a symmetry.
-    using Out = std::conditional_t<std::is_same_v<Sample, double> || std::is_same_v<Sample, std::int32_t>, double, float>;
+    using Out =
+        std::conditional_t<std::is_same_v<Sample, double> || std::is_same_v<Sample, std::int32_t>, double, float>;
     return Samples(SampleArray<Out>(smoothed_samples<Out>(s, grid.dims(), sigma, threads)));
   });
   return {grid.dims(), std::move(samples), grid.spacing(), grid.origin()};

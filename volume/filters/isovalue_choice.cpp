@@ -30,8 +30,8 @@ struct Bins {
 Bins bins_of(const Samples& samples) {
   constexpr double kMost = 65536;
   const auto [low, high] = finite_range(samples);
-  const bool is_whole = visit_samples(
-      samples, []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
+  const bool is_whole =
+      visit_samples(samples, []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
   Bins bins;
   bins.low = low;
   bins.width = is_whole ? std::ceil((high - low + 1) / kMost) : high / kMost - low / kMost;

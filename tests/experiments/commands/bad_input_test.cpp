@@ -200,7 +200,8 @@ TEST_F(BadInput, IsovalueAtTheEndsOfTheRange) {
   const auto expect = [this](const std::string& isovalue, const std::string& end) {
     expect_bad_mesh_options({"--isovalue", isovalue, "-o", "@/m.ply"},
                             {"isovalue " + isovalue + " gives a surface with no point", "0 to 63" + end + "\n"});
-    expect_refusal({"topology", "@/v.nrrd", "--isovalue", isovalue}, {"isovalue " + isovalue + " ", "0 to 63" + end + "\n"});
+    expect_refusal({"topology", "@/v.nrrd", "--isovalue", isovalue},
+                   {"isovalue " + isovalue + " ", "0 to 63" + end + "\n"});
   };
   expect("63.0000001", "");
   expect("0", ", and an isovalue must lie above the minimum");

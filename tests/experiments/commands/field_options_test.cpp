@@ -26,7 +26,8 @@ void write_field(const std::string& path, Field field) {
   std::vector<Sample> samples;
   for (int k = 0; k < 16; ++k)
     for (int j = 0; j < 16; ++j)
-      for (int i = 0; i < 16; ++i) samples.push_back(static_cast<Sample>(field(i, std::hypot(i - 7.5, j - 7.5, k - 7.5))));
+      for (int i = 0; i < 16; ++i)
+        samples.push_back(static_cast<Sample>(field(i, std::hypot(i - 7.5, j - 7.5, k - 7.5))));
   write_volume(ScalarGrid({16, 16, 16}, std::move(samples)), path);
 }
 
@@ -115,8 +116,9 @@ TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
   // One of them is checked alone.
   EXPECT_EQ(run_deliso({"verify", mesh_, volume_, "--label", "-5"}).exit_code, 0);
   const std::string each = folder_ / "l_{label}.obj";
-  EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2,-5", "-o", each, "--report", folder_ / "l_{label}.json"}).exit_code,
-            0);
+  EXPECT_EQ(
+      run_deliso({"mesh", volume_, "--label", "2,-5", "-o", each, "--report", folder_ / "l_{label}.json"}).exit_code,
+      0);
   for (const char* label : {"2", "-5"}) {
     const std::string name = folder_ / ("l_" + std::string(label));
     EXPECT_EQ(run_deliso({"verify", name + ".obj", volume_}).exit_code, 0) << label;
@@ -132,8 +134,10 @@ std::string holed_volume() {
     for (int j = 0; j < 12; ++j)
       for (int i = 0; i < 12; ++i) {
         const bool middle = i == 5 && j == 5 && k == 5, corner = i + j + k == 0, inner = i == 5 && j == 5 && k == 7;
-        const float sample =
-            middle ? kNan : corner ? -kInf : inner ? kInf : static_cast<float>(4 - std::hypot(i - 5, j - 5, k - 5));
+        const float sample = middle   ? kNan
+                             : corner ? -kInf
+                             : inner  ? kInf
+                                      : static_cast<float>(4 - std::hypot(i - 5, j - 5, k - 5));
         for (const unsigned shift : {0u, 8u, 16u, 24u})
           bytes += static_cast<char>(std::bit_cast<std::uint32_t>(sample) >> shift & 255u);
       }

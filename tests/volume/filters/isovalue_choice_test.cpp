@@ -86,7 +86,7 @@ TEST(IsovalueChoice, TheMiddleLeavesTheSameSamplesAbove) {
   EXPECT_EQ(middle_of_gap(samples, 3.9), 3);
   EXPECT_EQ(middle_of_gap(samples, 4), 3);
   EXPECT_EQ(middle_of_gap(samples, 4.1), 6);
-  EXPECT_EQ(middle_of_gap(samples, 1), 1.5);    // all would lie above it
+  EXPECT_EQ(middle_of_gap(samples, 1), 1.5);  // all would lie above it
   EXPECT_EQ(middle_of_gap(samples, -5), 1.5);
   EXPECT_EQ(middle_of_gap(samples, 16.5), 12);  // none would
   EXPECT_EQ(mean_isovalue(samples), 6);         // the mean is 6.2
