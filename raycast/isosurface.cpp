@@ -60,6 +60,18 @@ double Isosurface::value(const Vec3& p) const {
   return relative_value(corners, uvw);
 }
 
+Vec3 Isosurface::settled(const Vec3& p) const {
+  if (!grid_.walls()) return p;
+  constexpr double kNear = 0x1p-20;  // of a spacing
+  Vec3 on_wall = p;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (const double wall : {step_[a], box_.high[a] - step_[a]}) {
+      if (std::abs(p[a] - wall) <= kNear * step_[a]) on_wall[a] = wall;
+    }
+  }
+  return on_wall;
+}
+
 Vec3 Isosurface::gradient(const Vec3& p) const {
   Vec3 uvw;
   const CellCorners corners = relative_corners(p, uvw);

@@ -12,7 +12,6 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/memory.h"
-#include "delaunay/base/shortest_text.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/final_certificate.h"
@@ -29,20 +28,15 @@
 #include "surface/restricted/poles.h"
 #include "surface/restricted/restricted_delaunay.h"
 #include "surface/shape/shape.h"
-#include "volume/isovalue_range.h"
+#include "volume/filters/meshed_field.h"
 
 namespace deliso {
 
 namespace {
 
-void check_isovalue(const ScalarGrid& grid, double isovalue) {
-  if (!std::isfinite(isovalue)) {
-    throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
-  }
-  if (!has_isosurface(grid, isovalue)) {
-    throw InputError("isovalue " + shortest_text(isovalue) +
-                     " gives a surface with no point: " + isovalue_range_text(grid, isovalue));
-  }
+// Triangles that face the other side.
+void reverse(TriangleMesh& mesh) {
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
 }
 
 bool needs_topology(const Parameters& parameters) {
@@ -297,14 +291,16 @@ void Pipeline::certify(SurfaceMesh mesh) {
 
 MeshingResult mesh_isosurface(const ScalarGrid& grid, double isovalue, const MeshingOptions& options) {
   const Stopwatch watch;
-  check_samples(grid);
-  check_isovalue(grid, isovalue);
+  const Parameters& parameters = options.parameters;
   MeshingResult result;
-  if (options.parameters.boundary == Boundary::kClosed) {
-    const ScalarGrid closed = timed(result.index, [&] { return padded(grid, grid.range().first); });
-    Pipeline(closed, options, result).run(isovalue);
-  } else {
-    Pipeline(grid, options, result).run(isovalue);
+  const MeshedField field = timed(result.index, [&] {
+    return meshed_field(grid, isovalue, parameters.field, parameters.boundary == Boundary::kClosed,
+                        spacing_to_use(parameters, grid.spacing()), options.threads);
+  });
+  Pipeline(field.grid, options, result).run(field.isovalue);
+  if (parameters.field.invert) {
+    reverse(result.mesh);
+    if (result.stage1_mesh) reverse(*result.stage1_mesh);
   }
   result.total_seconds = watch.seconds();
   return result;

@@ -7,6 +7,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
+#include "volume/not_finite.h"
 #include "volume/sample_sides.h"
 
 namespace deliso {
@@ -24,21 +25,7 @@ std::string text(const Vec3& v) {
 }
 
 template <class Sample>
-[[noreturn]] void fail_not_finite(const SampleArray<Sample>& samples, const Dims& dims) {
-  const auto first = std::find_if(samples.begin(), samples.end(), [](Sample s) { return !std::isfinite(s); });
-  const auto n = static_cast<std::size_t>(first - samples.begin());
-  const auto nx = static_cast<std::size_t>(dims[0]);
-  const auto ny = static_cast<std::size_t>(dims[1]);
-  throw InputError("sample (" + std::to_string(n % nx) + ", " + std::to_string(n / nx % ny) + ", " +
-                   std::to_string(n / nx / ny) + ") is " +
-                   (std::isnan(*first) ? "NaN"
-                    : *first > 0       ? "infinite"
-                                       : "minus infinity") +
-                   ": every sample must be a finite number");
-}
-
-template <class Sample>
-std::pair<double, double> finite_range(const SampleArray<Sample>& samples, const Dims& dims) {
+std::pair<double, double> range_of_finite(const SampleArray<Sample>& samples, const Dims& dims) {
   Sample low = samples.front();
   Sample high = samples.front();
   bool finite = true;
@@ -48,7 +35,7 @@ std::pair<double, double> finite_range(const SampleArray<Sample>& samples, const
     if constexpr (std::is_floating_point_v<Sample>) finite &= std::abs(s) <= std::numeric_limits<Sample>::max();
   }
   if constexpr (std::is_floating_point_v<Sample>)
-    if (!finite) fail_not_finite(samples, dims);
+    if (!finite) throw InputError(first_not_finite_text(samples, dims) + ": every sample must be a finite number");
   return {static_cast<double>(low), static_cast<double>(high)};
 }
 
@@ -122,7 +109,7 @@ ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
     throw InputError("the volume has " + std::to_string(found) + " samples, but its dimensions " + text(dims_) +
                      " need " + std::to_string(expected));
   check_places();
-  range_ = visit_samples(samples_, [this](const auto& s) { return finite_range(s, dims_); });
+  range_ = visit_samples(samples_, [this](const auto& s) { return range_of_finite(s, dims_); });
 }
 
 // Volumes, and the exact determinants of a mesh's vertices, are products of lengths: these must stay in range.

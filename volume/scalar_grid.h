@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -56,6 +57,10 @@ class ScalarGrid {
   [[nodiscard]] std::pair<double, double> range() const { return range_; }
   // The box of the samples in the world.
   [[nodiscard]] Box3 box() const;
+  // Where the isosurface has been closed along the faces of a box (filters/closing.h): that box, in the world. What is
+  // on a face of it within rounding is on it.
+  [[nodiscard]] const std::optional<Box3>& walls() const { return walls_; }
+  void set_walls(const Box3& walls) { walls_ = walls; }
 
  private:
   void check_places() const;
@@ -67,6 +72,7 @@ class ScalarGrid {
   Vec3 origin_;
   Samples samples_;
   std::pair<double, double> range_;
+  std::optional<Box3> walls_;
 };
 
 // The same samples with a layer of `value` around them (the origin moves out by one spacing): every isosurface with an

@@ -14,7 +14,6 @@
 #include "experiments/system/standard_input.h"
 #include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
-#include "volume/isovalue_range.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
@@ -141,25 +140,21 @@ Volume load_volume(const VolumeOptions& options) {
     if (extension == ".raw") throw InputError("--channel: a .raw file has one value a voxel, " + options.path);
   }
   read.array = options.array;
+  read.accepts_not_finite = true;
   if (is_stream) return volume_of_standard_input(read, options.format);
   end_where_input_shrinks(options.path);
   return read_placed_volume(options.path, read);
 }
 
-void check_isovalue(const ScalarGrid& grid, double isovalue) {
-  check_samples(grid);
-  if (has_isosurface(grid, isovalue)) return;
-  throw InputError("--isovalue: the isosurface at " + shortest_text(isovalue) +
-                   " has no point: " + isovalue_range_text(grid, isovalue));
-}
-
-void remark_isovalue(const ScalarGrid& grid, double isovalue, double used) {
+void remark_isovalue(const ScalarGrid* grid, double isovalue, double used) {
   if (used == isovalue) return;
-  const bool is_sample = regular_isovalue(grid, isovalue) != isovalue;
+  const std::string at = grid == nullptr                                 ? "a sample or a saddle of the interpolant"
+                         : regular_isovalue(*grid, isovalue) != isovalue ? "a sample"
+                                                                         : "a saddle of the interpolant";
   // Few digits, unless they would be those of the isovalue itself.
   const std::string used_text = short_text(used) == short_text(isovalue) ? shortest_text(used) : short_text(used);
-  std::cerr << "deliso: " << (is_sample ? "a sample" : "a saddle of the interpolant") << " equals the isovalue "
-            << shortest_text(isovalue) << ", so the isosurface is singular; used " << used_text << " instead\n";
+  std::cerr << "deliso: " << at << " equals the isovalue " << shortest_text(isovalue)
+            << ", so the isosurface is singular; used " << used_text << " instead\n";
 }
 
 }  // namespace deliso

@@ -25,14 +25,10 @@ struct VolumeOptions {
 
 void add_volume_options(Command& command, VolumeOptions& options);
 
-// Throws InputError when the file or the options are wrong.
+// Throws InputError when the file or the options are wrong. NaN and infinities are told by the volume.
 Volume load_volume(const VolumeOptions& options);
 
-// Throws InputError naming the range of the data unless the isosurface has a point (low < isovalue <= high), or when
-// samples are too large or too close to each other to compute with.
-void check_isovalue(const ScalarGrid& grid, double isovalue);
-
-// If another isovalue was used, says on stderr which one and why.
-void remark_isovalue(const ScalarGrid& grid, double isovalue, double used);
+// If another isovalue was used, says on stderr which one and why. `grid`: the one it is of, where it is at hand.
+void remark_isovalue(const ScalarGrid* grid, double isovalue, double used);
 
 }  // namespace deliso

@@ -12,6 +12,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
 #include "experiments/config/config.h"
 #include "experiments/lesson/lesson_figure.h"
 #include "experiments/lesson/lesson_page.h"
@@ -59,12 +60,14 @@ std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options) {
   if (options.volume.empty()) {
     runs.push_back(run_observed("torus", generate_field("torus", kTorusSize), kTorusIsovalue, meshing));
   } else {
-    const double isovalue = parse_number(options.isovalue, "--isovalue");
+    FieldOptions field;
+    field.isovalue = options.isovalue;
+    check_field_options(field);
     VolumeOptions volume;
     volume.path = options.volume;
-    const ScalarGrid grid = load_volume(volume).grid;
-    check_isovalue(grid, isovalue);
-    runs.push_back(run_observed(std::filesystem::path(options.volume).filename().string(), grid, isovalue, meshing));
+    const ChosenField chosen = choose_field(options.volume, load_volume(volume), field, meshing.parameters.field);
+    runs.push_back(
+        run_observed(std::filesystem::path(options.volume).filename().string(), chosen.grid, chosen.isovalue, meshing));
   }
   if (!options.output.empty())
     runs.push_back(run_observed("noise", generate_field("noise", kNoiseSize), kNoiseIsovalue, meshing));

@@ -5,11 +5,14 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
 #include "experiments/commands/mesh_info.h"
 #include "experiments/commands/sample_histogram.h"
 #include "experiments/commands/world.h"
@@ -18,6 +21,10 @@
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
+#include "volume/filters/gaussian.h"
+#include "volume/filters/isovalue_choice.h"
+#include "volume/filters/labels.h"
+#include "volume/not_finite.h"
 
 namespace deliso {
 namespace {
@@ -25,22 +32,67 @@ namespace {
 struct InfoCommandOptions {
   VolumeOptions volume;
   MeshFormatOptions mesh;
+  std::string smooth;
   std::string report;
   bool json = false;
 };
 
-Json info_report(const VolumeOptions& options, const Volume& volume, const SampleHistogram& histogram) {
-  Json described = volume_json(options.path, volume.grid);
-  described.update(source_json(volume));
-  Json suggestions = Json::array();
-  for (const IsovalueSuggestion& suggestion : suggested_isovalues(histogram)) {
-    suggestions.push_back(Json{{"isovalue", suggestion.isovalue}, {"reason", suggestion.reason}});
+// What is looked at: the finite samples, those of the field that is smoothed if so asked, and what they tell.
+struct Looked {
+  ScalarGrid grid;
+  Samples samples;  // as read, the finite ones: isovalues refer to them
+  SampleHistogram histogram;
+  SampleKinds kinds;
+};
+
+Looked look_at(const Volume& volume, const InfoCommandOptions& options) {
+  FieldOptions field;
+  field.smooth = options.smooth;
+  FieldParameters parameters;
+  apply_field_options(field, &volume, parameters);
+  ScalarGrid grid = volume.grid;
+  if (parameters.smooth) {
+    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    grid = smoothed(grid, sigma_in_spacings(*parameters.smooth, grid.spacing()), threads);
   }
+  Samples samples = volume.as_read ? finite_samples(*volume.as_read) : volume.grid.samples();
+  SampleHistogram histogram = sample_histogram(parameters.smooth ? grid.samples() : samples);
+  SampleKinds kinds = kind_of_samples(volume.grid);
+  return {std::move(grid), std::move(samples), std::move(histogram), std::move(kinds)};
+}
+
+std::string kind_name(SampleKind kind) {
+  if (kind == SampleKind::kMask) return "mask";
+  return kind == SampleKind::kLabels ? "labels" : "field";
+}
+
+Json info_report(const InfoCommandOptions& options, const Volume& volume, const Looked& looked) {
+  Json described = volume_json(options.volume.path, looked.grid, sha256_as_read(volume));
+  described.update(source_json(volume));
+  const NotFiniteCounts& counts = volume.not_finite;
+  described["not_finite"] =
+      Json{{"nan", counts.nan}, {"plus_infinite", counts.plus_infinite}, {"minus_infinite", counts.minus_infinite}};
+  described["kind"] = kind_name(looked.kinds.kind);
+  described["values"] = looked.kinds.values.empty() ? Json() : Json(looked.kinds.values);
+  Json suggestions = Json::array();
+  for (const IsovalueSuggestion& suggestion : suggested_isovalues(looked.samples, looked.histogram)) {
+    suggestions.push_back(Json{{"isovalue", suggestion.isovalue},
+                               {"reason", suggestion.reason},
+                               {"name", suggestion.name.empty() ? Json() : Json(suggestion.name)}});
+  }
+  Json named = Json::object();
+  for (const char* name : {"otsu", "mean", "median", "50%"}) {
+    named[name] = isovalue_of(looked.samples, *parse_isovalue_name(name));
+  }
+  const SampleHistogram& histogram = looked.histogram;
   return Json{{"schema", "deliso-info-1"},
               {"program", program_json()},
               {"volume", described},
+              {"smooth", options.smooth.empty() ? Json() : Json(options.smooth)},
               {"histogram", {{"low", histogram.low}, {"high", histogram.high}, {"counts", histogram.counts}}},
-              {"suggested_isovalues", suggestions}};
+              {"suggested_isovalues", suggestions},
+              {"named_isovalues", named},
+              {"advice", kinds_remark(looked.kinds)}};
 }
 
 // One line per row, at most sixteen: where its first bin begins, the number of samples, a bar.
@@ -63,6 +115,16 @@ void print_histogram(const SampleHistogram& histogram) {
     table.row({number_text(from), std::to_string(counts[r]), bar});
   }
   table.print(std::cout, true);
+}
+
+// "0, 255" with at most sixteen numbers.
+std::string list_text(const Json& numbers) {
+  constexpr std::size_t kShown = 16;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, numbers.size()); ++i) {
+    text += (i > 0 ? ", " : "") + number_text(numbers[i].get<double>());
+  }
+  return text + (numbers.size() > kShown ? ", ..." : "");
 }
 
 std::string triple(double a, double b, double c) {
@@ -91,43 +153,64 @@ void print_source(const Json& source, TextTable& table) {
       .row({"", numbers_text(source["index_to_world"][2])});
 }
 
-void print_info(const Json& report, const Volume& volume, const SampleHistogram& histogram) {
-  const ScalarGrid& grid = volume.grid;
+void print_isovalues(const Json& report) {
   TextTable table;
-  print_source(report["volume"], table);
+  table.row({"suggested isovalue", "because it", "by name"});
+  for (const Json& suggestion : report["suggested_isovalues"]) {
+    const Json& name = suggestion["name"];
+    table.row({number_text(suggestion["isovalue"].get<double>()), suggestion["reason"].get<std::string>(),
+               name.is_null() ? "" : name.get<std::string>()});
+  }
+  for (const auto& [name, isovalue] : report["named_isovalues"].items()) {
+    if (name != "otsu") table.row({number_text(isovalue.get<double>()), "", name});
+  }
+  std::cout << '\n';
+  table.print(std::cout, true);
+}
+
+void print_info(const Json& report, const Looked& looked) {
+  const ScalarGrid& grid = looked.grid;
+  const Json& volume = report["volume"];
+  const Json& counts = volume["not_finite"];
+  const std::string not_finite = std::to_string(counts["nan"].get<std::uint64_t>()) + " NaN, " +
+                                 std::to_string(counts["minus_infinite"].get<std::uint64_t>()) + " -inf, " +
+                                 std::to_string(counts["plus_infinite"].get<std::uint64_t>()) + " +inf";
+  TextTable table;
+  print_source(volume, table);
   table.row({"dims", triple(grid.dims()[0], grid.dims()[1], grid.dims()[2])})
       .row({"type", grid.type_name()})
       .row({"spacing", triple(grid.spacing().x, grid.spacing().y, grid.spacing().z)})
       .row({"origin", triple(grid.origin().x, grid.origin().y, grid.origin().z)})
-      .row({"range", number_text(grid.range().first) + " " + number_text(grid.range().second)})
-      .row({"sha256", report["volume"]["sha256"].get<std::string>()});
+      .row({"range", number_text(grid.range().first) + " " + number_text(grid.range().second)});
+  if (not_finite != "0 NaN, 0 -inf, 0 +inf") table.row({"not finite", not_finite});
+  if (!volume["values"].is_null()) {
+    table.row({"kind", volume["kind"].get<std::string>() + ": " + list_text(volume["values"])});
+  }
+  table.row({"sha256", volume["sha256"].get<std::string>()});
   table.print(std::cout);
   std::cout << '\n';
-  print_histogram(histogram);
-  if (report["suggested_isovalues"].empty()) return;
-  TextTable suggestions;
-  suggestions.row({"suggested isovalue", "because it"});
-  for (const Json& suggestion : report["suggested_isovalues"]) {
-    suggestions.row({number_text(suggestion["isovalue"].get<double>()), suggestion["reason"].get<std::string>()});
-  }
-  std::cout << '\n';
-  suggestions.print(std::cout, true);
+  print_histogram(looked.histogram);
+  if (!report["suggested_isovalues"].empty()) print_isovalues(report);
+  const std::string advice = report["advice"].get<std::string>();
+  if (!advice.empty()) std::cout << '\n' << advice << '\n';
 }
 
 ExitCode run_info(const InfoCommandOptions& options) {
+  FieldOptions field;
+  field.smooth = options.smooth;
+  check_field_options(field);
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
   if (is_mesh_input(options.volume.path, options.mesh) && options.volume.format.empty())
     return run_mesh_info(options.volume.path, options.mesh, options.report, options.json);
   const Volume volume = load_volume(options.volume);
-  const ScalarGrid& grid = volume.grid;
-  const SampleHistogram histogram = sample_histogram(grid);
-  const Json report = info_report(options.volume, volume, histogram);
+  const Looked looked = look_at(volume, options);
+  const Json report = info_report(options, volume, looked);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   if (options.json) {
     std::cout << json_text(report);
   } else if (!is_standard_stream(options.report)) {
-    print_info(report, volume, histogram);
+    print_info(report, looked);
   }
   return ExitCode::kDone;
 }
@@ -139,6 +222,9 @@ void add_info_command(CommandLine& line, ExitCode& exit_code) {
   Command command = line.add_command("info", "What a volume holds, with suggested isovalues, or what a mesh is");
   add_volume_options(command, options->volume);
   add_mesh_input_option(command, options->mesh);
+  command.add_option("--smooth", options->smooth, "The histogram of the field smoothed as by mesh --smooth")
+      .type_name("SIGMA")
+      .check(refuse_empty_value);
   command.add_flag("--json", options->json, "Print JSON");
   command.add_option("--report", options->report, "Write the JSON to a file")
       .type_name("FILE")

@@ -1,10 +1,13 @@
 // deliso mesh: a volume and an isovalue in, a certified Delaunay mesh out.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +16,8 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
+#include "experiments/commands/label_files.h"
 #include "experiments/commands/mesh_fields.h"
 #include "experiments/commands/mesh_output.h"
 #include "experiments/commands/world.h"
@@ -28,7 +33,7 @@
 #include "surface/deliso.h"
 #include "surface/mesh/mesh_frame.h"
 #include "surface/mesh/mesh_quality.h"
-#include "volume/io/sha256.h"
+#include "volume/filters/labels.h"
 
 namespace deliso {
 namespace {
@@ -36,7 +41,7 @@ namespace {
 struct MeshCommandOptions {
   VolumeOptions volume;
   WorldOptions world;
-  std::string isovalue;
+  FieldOptions field;
   std::string output;
   MeshFormatOptions format;
   std::string config;
@@ -55,67 +60,106 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   if (!options.config.empty()) parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments)
     set_parameter(with_length_in_voxels(assignment, volume), parameters);
+  apply_field_options(options.field, volume, parameters.field);
   return parameters;
 }
 
 // Finds everything that could prevent the results from being written before the work starts.
-void check_outputs(const MeshCommandOptions& options) {
-  check_mesh_output(options.output, "-o", options.format);
-  if (!options.stage1_output.empty())
-    check_mesh_output(options.stage1_output, "--stage1-out", {"", options.format.gmsh_version});
-  if (!options.report.empty()) check_writable(options.report, "--report");
-  check_one_standard_output(
-      {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
-  check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
-                 {{"-o", options.output}, {"--stage1-out", options.stage1_output}, {"--report", options.report}});
+void check_outputs(const MeshCommandOptions& options, const std::vector<std::int32_t>& labels) {
+  check_label_names(options.output, "-o", labels, true);
+  check_label_names(options.stage1_output, "--stage1-out", labels, true);
+  check_label_names(options.report, "--report", labels, false);
+  const Labels runs = runs_of(labels);
+  for (const std::optional<std::int32_t> label : runs) {
+    const std::string output = name_for(options.output, label), stage1 = name_for(options.stage1_output, label),
+                      report = name_for(options.report, label);
+    check_mesh_output(output, "-o", options.format);
+    if (!stage1.empty()) check_mesh_output(stage1, "--stage1-out", {"", options.format.gmsh_version});
+    if (!report.empty()) check_writable(report, "--report");
+    check_one_standard_output({{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
+    check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
+                   {{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
+  }
 }
 
-Json report_of(const MeshRun& run, const Volume& volume, const World& world, const MeshingResult& result) {
-  Json report = mesh_report(run, result);
-  report["surface"] = surface_json(transformed(result.mesh, world.from_grid), run.options.threads);
+// One surface: all of a run but for several labels.
+struct Meshed {
+  std::optional<std::int32_t> label;
+  ChosenField chosen;
+  MeshingOptions meshing;
+  MeshingResult result;
+};
+
+Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume, const std::string& sha256,
+               const World& world) {
+  const MeshRun run{options.volume.path, volume.grid, meshed.chosen.isovalue, meshed.meshing, sha256};
+  Json report = mesh_report(run, meshed.result);
+  report["surface"] = surface_json(transformed(meshed.result.mesh, world.from_grid), meshed.meshing.threads);
   report["volume"].update(source_json(volume));
   report["world"] = world_json(world);
+  report["field"] = field_json(options.field, meshed.chosen);
+  report["certificate"]["field"] = report["field"]["text"];
   return report;
 }
 
 bool holds_fields(MeshFormat format) { return format == MeshFormat::kLegacyVtk || format == MeshFormat::kVtp; }
 
 // What goes into the mesh's file beside it.
-MeshFileOptions file_options(const MeshCommandOptions& options, const MeshRun& run, const World& world,
-                             const MeshingResult& result) {
-  const Parameters& parameters = run.options.parameters;
+MeshFileOptions file_options(const MeshCommandOptions& options, const Meshed& meshed, const std::string& sha256,
+                             const World& world) {
+  const Parameters& parameters = meshed.meshing.parameters;
   MeshFileOptions file;
   file.format = output_format(options.output, "-o", options.format);
   file.ascii = options.ascii;
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
-  file.comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
-                                parameters.promise.max_distance, world);
-  if (holds_fields(*file.format))
-    file.attributes = mesh_fields(result, run.grid, parameters, world.from_grid, run.options.threads);
+  file.comments =
+      mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used, parameters.promise.max_distance, world);
+  append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, file.comments);
+  if (holds_fields(*file.format)) {
+    file.attributes = mesh_fields(meshed.result, meshed.chosen.grid, meshed.chosen.isovalue, parameters,
+                                  world.from_grid, meshed.meshing.threads);
+  }
   return file;
 }
 
-void write_outputs(const MeshCommandOptions& options, const MeshRun& run, const Volume& volume, const World& world,
-                   MeshingResult& result) {
-  // First the report is made in memory, or written where it cannot be taken back: if this fails, no mesh may be left
-  // behind.
-  const std::string report = options.report.empty() ? "" : json_text(report_of(run, volume, world, result));
-  const bool is_file = !is_special(options.report);
-  if (!is_file) write_text(report, options.report);
-  MeshFileOptions file = file_options(options, run, world, result);
-  write_mesh_output(transformed(result.mesh, world.from_grid), options.output, file);
-  if (!options.stage1_output.empty() && result.stage1_mesh) {
+// The meshes and reports of all labels, those of one name in one file.
+void write_outputs(const MeshCommandOptions& options, const std::vector<Meshed>& all, const Volume& volume,
+                   const std::string& sha256, const World& world) {
+  // First the reports are made in memory, or written where they cannot be taken back: if this fails, no mesh may be
+  // left behind.
+  std::map<std::string, Json> reports;
+  MeshFiles meshes;
+  for (const Meshed& meshed : all) {
+    const MeshingResult& result = meshed.result;
+    if (!options.report.empty()) {
+      reports[name_for(options.report, meshed.label)].push_back(report_of(options, meshed, volume, sha256, world));
+    }
+    MeshFileOptions file = file_options(options, meshed, sha256, world);
+    meshes.add(name_for(options.output, meshed.label), transformed(result.mesh, world.from_grid), meshed.label, file);
+    if (options.stage1_output.empty() || !result.stage1_mesh) continue;
     file.attributes = {};
     file.format = output_format(options.stage1_output, "--stage1-out", {});
-    write_mesh_output(transformed(*result.stage1_mesh, world.from_grid), options.stage1_output, file);
+    meshes.add(name_for(options.stage1_output, meshed.label), transformed(*result.stage1_mesh, world.from_grid),
+               meshed.label, file);
   }
-  if (is_file && !options.report.empty()) write_text(report, options.report);
+  for (auto& [name, list] : reports) {
+    list = one_or_all(std::move(list));
+    if (is_special(name)) write_text(json_text(list), name);
+  }
+  meshes.write();
+  for (const auto& [name, report] : reports) {
+    if (!is_special(name)) write_text(json_text(report), name);
+  }
 }
 
-void print_summary(const MeshingResult& result, const MeshingOptions& options, std::ostream& stream) {
+void print_summary(const Meshed& meshed, std::ostream& stream) {
+  const MeshingResult& result = meshed.result;
+  const MeshingOptions& options = meshed.meshing;
   const TopologySum topology = sum_of(mesh_topology(result));
+  const std::string field = field_text(meshed.chosen.parameters);
   TextTable table;
+  if (!field.empty()) table.row({"field", field});
   table.row({"vertices", std::to_string(result.mesh.points.size())})
       .row({"triangles", std::to_string(result.mesh.triangles.size())})
       .row({"components", std::to_string(topology.components)})
@@ -127,10 +171,11 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options, s
   table.print(stream);
   if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
   stream << '\n'
-         << (is_proven(result.certificate) ? "proven" : "not proven")
+         << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
          << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-         << number_text(options.parameters.promise.max_distance) << " voxel)\n";
+         << number_text(options.parameters.promise.max_distance) << " voxel"
+         << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }
 
 // The triangles that could not be brought to the angle asked for, and where the worst of them is.
@@ -144,11 +189,25 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
             << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
 }
 
-// What a reader of stderr must know beyond the table.
-void print_remarks(const MeshRun& run, const World& world, const MeshingResult& result) {
+// What a reader of stderr must know of the volume.
+void print_volume_remarks(const MeshCommandOptions& options, const Volume& volume, const World& world,
+                          const ChosenField& chosen) {
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
-  remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
-  remark_shape(result.shape, run.options.parameters);
+  for (const std::string& remark : field_remarks(volume, options.field, chosen)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen);
+  if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
+}
+
+// What a reader of stderr must know of a mesh beyond the table.
+void print_remarks(const MeshCommandOptions& options, const Meshed& meshed) {
+  const MeshingResult& result = meshed.result;
+  const ChosenField& chosen = meshed.chosen;
+  const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
+  remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
+  remark_shape(result.shape, meshed.meshing.parameters);
+  const MeshRun run{options.volume.path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;
@@ -167,43 +226,64 @@ ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result
   return proven || !options.parameters.certify ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
+// Meshes one surface, with a progress bar on a terminal.
+Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const World& world, MeshingOptions meshing,
+                std::optional<std::int32_t> label) {
+  if (label) meshing.parameters.field.label = label;
+  ChosenField chosen = choose_field(options.volume.path, volume, options.field, meshing.parameters.field);
+  MeshingResult result = [&] {
+    ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
+    MeshingOptions watched = meshing;
+    watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
+    return mesh_isosurface(chosen.grid, chosen.isovalue, watched);
+  }();
+  if (meshing.parameters.certify) {
+    const Vec3& s = volume.grid.spacing();
+    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output,
+                   output_format(options.output, "-o", options.format), metres_in_unit(world.units),
+                   result.certificate);
+  }
+  return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result)};
+}
+
 ExitCode run_mesh(const MeshCommandOptions& options) {
   // Every option is checked before the volume is read, and the volume before the work starts.
-  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  check_field_options(options.field);
   MeshingOptions meshing;
   meshing.parameters = resolved_parameters(options, nullptr);
   check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
-  check_outputs(options);
   const MeshFormat format = output_format(options.output, "-o", options.format);
   meshing.keep_stage1_mesh = !options.stage1_output.empty() || holds_fields(format);
+  std::vector<std::int32_t> labels = parse_labels(options.field.label);
+  if (labels.empty() && meshing.parameters.field.label) labels.push_back(*meshing.parameters.field.label);
+  check_outputs(options, labels);
   meshing.stop = &catch_stop_signals();
   const Volume volume = load_volume(options.volume);
-  const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
   meshing.parameters = resolved_parameters(options, &volume);
+  const std::string sha256 = sha256_as_read(volume);
 
-  // Mesh, with a progress bar on a terminal.
-  const MeshRun run{options.volume.path, grid, isovalue, meshing, sample_sha256(grid)};
-  MeshingResult result = [&] {
-    ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
-    MeshingOptions watched = meshing;
-    watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
-    return mesh_isosurface(grid, isovalue, watched);
-  }();
-  if (meshing.parameters.certify) {
-    const Vec3& s = grid.spacing();
-    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output, format,
-                   metres_in_unit(world.units), result.certificate);
+  std::vector<Meshed> all;
+  for (const std::optional<std::int32_t> label : runs_of(labels)) {
+    all.push_back(mesh_one(options, volume, world, meshing, label));
+    if (all.back().result.stopped_early()) break;
   }
-
-  write_outputs(options, run, volume, world, result);
+  write_outputs(options, all, volume, sha256, world);
   // Where a result goes to standard output, nothing else does.
   const bool is_taken = is_standard_stream(options.output) || is_standard_stream(options.report);
-  print_summary(result, meshing, is_taken ? std::cerr : std::cout);
-  if (!options.quiet) print_remarks(run, world, result);
-  return exit_code_of(meshing, result);
+  std::ostream& out = is_taken ? std::cerr : std::cout;
+  ExitCode worst = ExitCode::kDone;
+  for (const Meshed& meshed : all) {
+    if (&meshed != &all.front()) out << '\n';
+    worst = std::max(worst, exit_code_of(meshed.meshing, meshed.result));
+    print_summary(meshed, out);
+    if (options.quiet) continue;
+    if (&meshed == &all.front()) print_volume_remarks(options, volume, world, meshed.chosen);
+    print_remarks(options, meshed);
+  }
+  return worst;
 }
 
 }  // namespace
@@ -212,10 +292,13 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<MeshCommandOptions>();
   Command command = line.add_command("mesh", "Mesh an isosurface and certify the mesh");
   add_volume_options(command, options->volume);
-  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K").required();
+  add_isovalue_option(command, options->field);
+  add_field_options(command, options->field);
   command
       .add_option("-o,--output", options->output,
-                  "The mesh: " + std::string(kMeshExtensions) + "; - is standard output")
+                  "The mesh: " + std::string(kMeshExtensions) +
+                      "; - is standard output; {label} in the name stands for the label, without it several share one "
+                      ".ply with a label per triangle")
       .type_name("MESH")
       .required();
   command.add_option("--config", options->config, "Parameters in a JSON file")

@@ -13,6 +13,7 @@
 #include "raycast/isosurface.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
+#include "volume/filters/meshed_field.h"
 
 namespace deliso {
 namespace {
@@ -120,12 +121,17 @@ std::pair<MeshAttribute, MeshAttribute> shape_fields(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshAttributes mesh_fields(const MeshingResult& result, const ScalarGrid& grid, const Parameters& parameters,
-                           const Affine& from_grid, int threads) {
-  const ScalarGrid meshed = parameters.boundary == Boundary::kClosed ? padded(grid, grid.range().first) : grid;
-  const Isosurface isosurface(meshed, result.isovalue_used, parameters.search,
-                              spacing_to_use(parameters, meshed.spacing()), threads);
-  const FieldMeasurer measurer(result.mesh, isosurface, from_grid, threads);
+MeshAttributes mesh_fields(const MeshingResult& result, const ScalarGrid& grid, double isovalue,
+                           const Parameters& parameters, const Affine& from_grid, int threads) {
+  const MeshedField field = meshed_field(grid, isovalue, parameters.field, parameters.boundary == Boundary::kClosed,
+                                         spacing_to_use(parameters, grid.spacing()), threads);
+  const Isosurface isosurface(field.grid, result.isovalue_used, parameters.search,
+                              spacing_to_use(parameters, field.grid.spacing()), threads);
+  TriangleMesh falling = result.mesh;  // facing lower values
+  if (parameters.field.invert) {
+    for (auto& [a, b, c] : falling.triangles) std::swap(b, c);
+  }
+  const FieldMeasurer measurer(falling, isosurface, from_grid, threads);
   MeshAttributes fields;
   fields.vertices.push_back(component_field(result.mesh, threads));
   if (result.stage1_mesh) fields.vertices.push_back(stage_field(result.mesh, *result.stage1_mesh));

@@ -19,8 +19,8 @@ namespace deliso {
 //   h          from the circumcenter along the normal to the isosurface, in voxels (the paper's h); -1 where there is
 //   none quality    4 sqrt(3) area / (sum of the squared edges): 1 of an equilateral triangle, 0 of a flat one
 //   min_angle  in degrees
-// `grid` and `from_grid` are those of the run; the mesh is in the grid's own coordinates.
-MeshAttributes mesh_fields(const MeshingResult& result, const ScalarGrid& grid, const Parameters& parameters,
-                           const Affine& from_grid, int threads);
+// `grid`, `isovalue` and `from_grid` are those of the run; the mesh is in the grid's own coordinates.
+MeshAttributes mesh_fields(const MeshingResult& result, const ScalarGrid& grid, double isovalue,
+                           const Parameters& parameters, const Affine& from_grid, int threads);
 
 }  // namespace deliso

@@ -13,6 +13,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
 #include "experiments/pictures/isosurface_shape.h"
 #include "experiments/pictures/mesh_shape.h"
 #include "experiments/pictures/picture.h"
@@ -30,7 +31,7 @@ namespace {
 
 struct RenderCommandOptions {
   VolumeOptions volume;
-  std::string isovalue;
+  FieldOptions field;
   std::string output;
   std::vector<std::string> meshes;
   bool surface = false;
@@ -165,7 +166,7 @@ void print_panels(const std::string& output, const Image& image, const std::vect
 
 ExitCode run_render(const RenderCommandOptions& options) {
   // Every option is checked before anything is read.
-  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  check_field_options(options.field);
   const View view = parse_view(options);
   PictureOptions picture = parse_picture_options(options);
   std::vector<ClipPlane> clips;
@@ -177,10 +178,9 @@ ExitCode run_render(const RenderCommandOptions& options) {
   check_png_output(options.output, "-o");
 
   const Volume volume = load_volume(options.volume);
-  const ScalarGrid& read = volume.grid;
-  check_isovalue(read, isovalue);
-  const double used = regular_isovalue(read, isovalue);
-  const ScalarGrid grid = options.closed ? padded(read, read.range().first) : read;
+  const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
+  const ScalarGrid& grid = field.meshed.grid;
+  const double used = regular_isovalue(grid, field.meshed.isovalue);
   const Stopwatch stopwatch;
   auto surface = std::make_unique<IsosurfaceShape>(grid, used);
   const std::vector<Vec3> framed = surface->outermost_points();
@@ -205,7 +205,10 @@ ExitCode run_render(const RenderCommandOptions& options) {
   }
   write_png(image, options.output);
   print_panels(options.output, image, panels, stopwatch.seconds());
-  remark_isovalue(read, isovalue, used);
+  for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  remark_isovalue(&grid, field.chosen.isovalue, used);
   return ExitCode::kDone;
 }
 
@@ -220,7 +223,8 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
   };
   const auto add_many = [&add](const std::string& name, auto& values, const std::string& help,
                                const std::string& type) { add(name, values, help, type).repeatable(); };
-  add("--isovalue", options->isovalue, "The value of the isosurface", "K").required();
+  add_isovalue_option(command, options->field);
+  add_field_options(command, options->field);
   add("-o,--output", options->output, "The picture: .png", "PNG").required();
   add_many("--mesh", options->meshes, "Draw this mesh with its edges (repeatable: side by side)", "MESH");
   command.add_flag("--surface", options->surface, "Draw the isosurface itself beside the meshes");
@@ -234,7 +238,7 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
   add("--samples", options->samples, "N x N rays per pixel", "N").show_default();
   add("--line-width", options->line_width, "Of the edges, in pixels; 0: none", "W").show_default();
   add("--threads", options->threads, "Threads to use (default: all)", "N");
-  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");
   command.examples(
       "deliso render head.nrrd --isovalue 50 -o head.png\n"
       "deliso render head.nrrd --isovalue 50 --mesh head.ply --surface --clip x=80 -o cut.png");

@@ -6,6 +6,9 @@
 #include <tuple>
 #include <type_traits>
 
+#include "volume/filters/isovalue_choice.h"
+#include "volume/not_finite.h"
+
 namespace deliso {
 namespace {
 
@@ -32,14 +35,14 @@ double class_score(const CumulativeSums& cumulative, std::size_t first, std::siz
   return count > 0 ? sum * sum / count : 0;
 }
 
-// The bin edges that split the bins into `classes` (2 or 3) classes with the largest variance between them.
-std::vector<std::size_t> best_edges(const SampleHistogram& histogram, int classes) {
+// The two bin edges that split the bins into three classes with the largest variance between them.
+std::vector<std::size_t> best_two_edges(const SampleHistogram& histogram) {
   const CumulativeSums cumulative = cumulative_sums(histogram);
   const std::size_t bins = histogram.counts.size();
   std::vector<std::size_t> best;
   double best_score = -1;
   for (std::size_t a = 1; a < bins; ++a) {
-    for (std::size_t b = classes == 3 ? a + 1 : bins; b < bins + (classes == 3 ? 0 : 1); ++b) {
+    for (std::size_t b = a + 1; b < bins; ++b) {
       const double score =
           class_score(cumulative, 0, a) + class_score(cumulative, a, b) + class_score(cumulative, b, bins);
       if (score <= best_score) continue;
@@ -47,18 +50,16 @@ std::vector<std::size_t> best_edges(const SampleHistogram& histogram, int classe
       best = {a, b};
     }
   }
-  if (classes == 2 && !best.empty()) best.pop_back();
   return best;
 }
 
 }  // namespace
 
-SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
+SampleHistogram sample_histogram(const Samples& samples, std::int32_t bins) {
   SampleHistogram histogram;
-  std::tie(histogram.low, histogram.high) = grid.range();
-  const bool integers = visit_samples(grid.samples(), [](const auto& samples) {
-    return std::is_integral_v<typename std::decay_t<decltype(samples)>::value_type>;
-  });
+  std::tie(histogram.low, histogram.high) = finite_range(samples);
+  const bool integers = visit_samples(
+      samples, [](const auto& all) { return std::is_integral_v<typename std::decay_t<decltype(all)>::value_type>; });
   if (integers) {
     // As few bins as possible, each with a whole number of integers.
     const double values = histogram.high - histogram.low + 1;
@@ -71,8 +72,8 @@ SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
   }
   // Halves, because the difference of two doubles may overflow.
   const double half_range = histogram.high / 2 - histogram.low / 2;
-  visit_samples(grid.samples(), [&](const auto& samples) {
-    for (const auto sample : samples) {
+  visit_samples(samples, [&](const auto& all) {
+    for (const auto sample : all) {
       const double share = half_range > 0 ? (static_cast<double>(sample) / 2 - histogram.low / 2) / half_range : 0;
       const auto bin = static_cast<std::size_t>(share * static_cast<double>(histogram.counts.size()));
       ++histogram.counts[std::min(bin, histogram.counts.size() - 1)];
@@ -81,17 +82,15 @@ SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins) {
   return histogram;
 }
 
-std::vector<IsovalueSuggestion> suggested_isovalues(const SampleHistogram& histogram) {
-  std::vector<IsovalueSuggestion> suggestions;
-  const auto add = [&](const std::vector<std::size_t>& edges, const std::string& reason) {
-    for (const std::size_t edge : edges) {
-      const double isovalue = histogram.low + static_cast<double>(edge) * histogram.bin_width();
-      suggestions.push_back({isovalue, reason});
-    }
-  };
+std::vector<IsovalueSuggestion> suggested_isovalues(const Samples& samples, const SampleHistogram& histogram) {
   const auto filled = std::count_if(histogram.counts.begin(), histogram.counts.end(), [](auto n) { return n > 0; });
-  add(best_edges(histogram, 2), "separates two classes (Otsu)");
-  if (filled > 2) add(best_edges(histogram, 3), "separates three classes (Otsu)");
+  if (filled < 2) return {};
+  std::vector<IsovalueSuggestion> suggestions = {{otsu_isovalue(samples), "separates two classes (Otsu)", "otsu"}};
+  if (filled == 2) return suggestions;
+  for (const std::size_t edge : best_two_edges(histogram)) {
+    const double isovalue = middle_of_gap(samples, histogram.low + static_cast<double>(edge) * histogram.bin_width());
+    suggestions.push_back({isovalue, "separates three classes (Otsu)", ""});
+  }
   return suggestions;
 }
 

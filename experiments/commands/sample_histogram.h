@@ -19,17 +19,18 @@ struct SampleHistogram {
   [[nodiscard]] double bin_width() const { return (high - low) / static_cast<double>(counts.size()); }
 };
 
-// At most `bins` bins (fewer when there are fewer distinct integers). Precondition: bins >= 1.
-SampleHistogram sample_histogram(const ScalarGrid& grid, std::int32_t bins = 256);
+// At most `bins` bins (fewer when there are fewer distinct integers). Preconditions: bins >= 1; finite samples.
+SampleHistogram sample_histogram(const Samples& samples, std::int32_t bins = 256);
 
 struct IsovalueSuggestion {
   double isovalue = 0;
   std::string reason;
+  std::string name;  // that --isovalue takes for it; may be empty
 };
 
 // Thresholds that separate two and three classes of samples with the largest variance between the classes (Otsu: A
-// threshold selection method from gray-level histograms, 1979). They lie on bin edges, so no integer sample equals one.
-// Empty when all samples are equal.
-std::vector<IsovalueSuggestion> suggested_isovalues(const SampleHistogram& histogram);
+// threshold selection method from gray-level histograms, 1979; three by the bins alone). They lie in the middle between
+// two sample values. Empty when all samples are equal.
+std::vector<IsovalueSuggestion> suggested_isovalues(const Samples& samples, const SampleHistogram& histogram);
 
 }  // namespace deliso

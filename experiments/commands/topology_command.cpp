@@ -8,6 +8,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct TopologyCommandOptions {
   VolumeOptions volume;
-  std::string isovalue;
+  FieldOptions field;
   std::string report;
   bool closed = false;
 };
@@ -50,13 +51,13 @@ void print_counts(const std::vector<TopologyCount>& counts, std::ostream& stream
 }
 
 ExitCode run_topology(const TopologyCommandOptions& options) {
-  const double isovalue = parse_number(options.isovalue, "--isovalue");
+  check_field_options(options.field);
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
-  const ScalarGrid grid = load_volume(options.volume).grid;
-  check_isovalue(grid, isovalue);
+  const Volume volume = load_volume(options.volume);
   const Stopwatch stopwatch;
-  const RegularTopology regular = regular_topology(options.closed ? padded(grid, grid.range().first) : grid, isovalue);
+  const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
+  const RegularTopology regular = regular_topology(field.meshed.grid, field.meshed.isovalue);
   const double used = regular.isovalue;
   const IsosurfaceTopology& topology = regular.topology;
   const double seconds = stopwatch.seconds();
@@ -67,8 +68,9 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
     const TopologySum sum = sum_of(counts);
     const Json report = {{"schema", "deliso-topology-1"},
                          {"program", program_json()},
-                         {"volume", volume_json(options.volume.path, grid)},
-                         {"isovalue", isovalue},
+                         {"volume", volume_json(options.volume.path, volume.grid, sha256_as_read(volume))},
+                         {"field", field_json(options.field, field.chosen)},
+                         {"isovalue", field.chosen.isovalue},
                          {"isovalue_used", used},
                          {"closed", options.closed},
                          {"components", sum.components},
@@ -82,7 +84,10 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   }
   // Where the report goes to standard output, nothing else does.
   print_counts(counts, is_standard_stream(options.report) ? std::cerr : std::cout);
-  remark_isovalue(grid, isovalue, used);
+  for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  remark_isovalue(&field.meshed.grid, field.chosen.isovalue, used);
   return ExitCode::kDone;
 }
 
@@ -92,11 +97,12 @@ void add_topology_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<TopologyCommandOptions>();
   Command command = line.add_command("topology", "Exact topology of an isosurface, without a mesh");
   add_volume_options(command, options->volume);
-  command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
+  add_isovalue_option(command, options->field);
+  add_field_options(command, options->field);
   command.add_option("--report", options->report, "Write the result as JSON")
       .type_name("FILE")
       .check(refuse_empty_name);
-  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");
   command.examples("deliso topology head.nrrd --isovalue 50 --report -");
   command.callback(exit_code, [options] { return run_topology(*options); });
 }

@@ -1,15 +1,21 @@
 // deliso verify: checks any mesh as an image of an isosurface, ours or another tool's.
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/field_options.h"
+#include "experiments/commands/label_files.h"
 #include "experiments/commands/mesh_output.h"
 #include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
@@ -29,7 +35,7 @@ struct VerifyCommandOptions {
   MeshFormatOptions format;
   VolumeOptions volume;
   WorldOptions world;
-  std::string isovalue;
+  FieldOptions field;
   std::string report;
   std::string max_distance;  // empty: what the mesh file promises, or else the default
   bool closed = false;
@@ -110,18 +116,27 @@ Json checks_json(const Verification& v) {
                 {"without_hit", v.delaunay_balls.without_hit}}}};
 }
 
+// One mesh, or the triangles of one label, beside its field.
+struct Judged {
+  ChosenField chosen;
+  MeshedField field;
+  Verification verification;
+};
+
 Json verify_report(const VerifyCommandOptions& options, const Volume& volume, const World& world,
-                   const Promise& promise, const Verification& v) {
-  Json volume_part = volume_json(options.volume.path, volume.grid);
+                   const Promise& promise, const Judged& judged) {
+  const Verification& v = judged.verification;
+  Json volume_part = volume_json(options.volume.path, volume.grid, sha256_as_read(volume));
   volume_part.update(source_json(volume));
   return Json{{"schema", "deliso-verification-1"},
               {"program", program_json()},
               {"mesh", options.mesh},
               {"volume", volume_part},
               {"world", world_json(world)},
+              {"field", field_json(options.field, judged.chosen)},
               {"closed", options.closed},
               {"spacing", options.ignore_spacing ? "ignore" : "use"},
-              {"isovalue", v.isovalue},
+              {"isovalue", judged.chosen.isovalue},
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
               {"triangles", v.triangles},
@@ -179,8 +194,48 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
   grid = ScalarGrid(grid.dims(), grid.samples());
 }
 
-ExitCode run_verify(const VerifyCommandOptions& options) {
-  const double isovalue = parse_number(options.isovalue, "--isovalue");
+// Everything is measured in the grid's own coordinates: the map to the world is undone, but for rounding.
+Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volume& volume, const World& world,
+             const FieldParameters& parameters, const Promise& promise) {
+  ChosenField chosen = choose_field(options.volume.path, volume, options.field, parameters);
+  if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
+  ScalarGrid grid = chosen.grid;
+  if (options.ignore_spacing) forget_spacing(mesh, grid);
+  if (parameters.invert) {
+    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  }
+  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  MeshedField field = meshed_field(grid, chosen.isovalue, parameters, options.closed, grid.spacing(), threads);
+  Verification verification = [&] {
+    ProgressBar bar(std::cerr, stderr_is_terminal());
+    return verify_mesh(mesh, field.grid, field.isovalue, promise,
+                       [&bar](double share, std::string_view step) { bar.show(share, step); });
+  }();
+  if (!options.ignore_spacing) to_world(verification, world.from_grid);
+  return {std::move(chosen), std::move(field), std::move(verification)};
+}
+
+void print_judged(const Json& report, const Volume& volume, const VerifyCommandOptions& options, const Judged& judged) {
+  const Verification& v = judged.verification;
+  // Where the report goes to standard output, nothing else does.
+  std::ostream& out = is_standard_stream(options.report) ? std::cerr : std::cout;
+  print_checks(report, out);
+  for (const std::string& remark : field_remarks(volume, options.field, judged.chosen)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
+  remark_isovalue(&judged.field.grid, judged.chosen.isovalue, v.isovalue_used);
+  const std::string field = field_text(judged.chosen.parameters);
+  out << '\n' << (v.proven ? "proven" : "not proven") << (field.empty() ? "" : ": " + field) << '\n';
+  for (const std::string& failure : v.failures) out << "  " << failure << '\n';
+  constexpr std::size_t kMostDifferences = 10;
+  const std::vector<std::string>& differences = v.topology.differences;
+  for (std::size_t i = 0; i < std::min(kMostDifferences, differences.size()); ++i) {
+    out << "  " << differences[i] << '\n';
+  }
+}
+
+ExitCode run_verify(VerifyCommandOptions options) {
+  check_field_options(options.field);
   const bool is_given = !options.max_distance.empty();
   if (is_given && parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
     throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
@@ -189,42 +244,36 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   check_space(options.world.space);
   check_one_standard_input({{"MESH", options.mesh}, {"VOLUME", options.volume.path}});
-  MeshFile file = read_mesh_input(options.mesh, options.format);
-  TriangleMesh mesh = std::move(file.mesh);
+  const MeshFile file = read_mesh_input(options.mesh, options.format);
+  const TriangleMesh& mesh = file.mesh;
+  // What is not given is taken from the mesh's file.
+  if (take_field_notes(file.comments, options.field)) options.closed = true;
+  check_field_options(options.field);
   const Volume volume = load_volume(options.volume);
-  const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
   const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
                                        : promised_distance(file.comments).value_or(PromiseParameters().max_distance);
-  check_isovalue(grid, isovalue);
-  // Everything is measured in the grid's own coordinates: the map to the world is undone, but for rounding.
-  if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
-  ScalarGrid judged = grid;
-  if (options.ignore_spacing) forget_spacing(mesh, judged);
-  if (options.closed) judged = padded(judged, judged.range().first);
   const Promise promise{.max_distance = max_distance};
-  Verification verification = [&] {
-    ProgressBar bar(std::cerr, stderr_is_terminal());
-    return verify_mesh(mesh, judged, isovalue, promise,
-                       [&bar](double share, std::string_view step) { bar.show(share, step); });
-  }();
-  if (!options.ignore_spacing) to_world(verification, world.from_grid);
 
-  const Json report = verify_report(options, volume, world, promise, verification);
-  if (!options.report.empty()) write_text(json_text(report), options.report);
-  // Where the report goes to standard output, nothing else does.
-  std::ostream& out = is_standard_stream(options.report) ? std::cerr : std::cout;
-  print_checks(report, out);
-  if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
-  remark_isovalue(judged, isovalue, verification.isovalue_used);
-  out << '\n' << (verification.proven ? "proven" : "not proven") << '\n';
-  for (const std::string& failure : verification.failures) out << "  " << failure << '\n';
-  constexpr std::size_t kMostDifferences = 10;
-  const std::vector<std::string>& differences = verification.topology.differences;
-  for (std::size_t i = 0; i < std::min(kMostDifferences, differences.size()); ++i) {
-    out << "  " << differences[i] << '\n';
+  FieldParameters parameters;
+  apply_field_options(options.field, &volume, parameters);
+  const Labels labels = runs_of(parse_labels(options.field.label));
+  if (labels.size() > 1 && mesh.labels.empty()) {
+    throw InputError("--label: the triangles of " + options.mesh + " have no labels, expected one of " +
+                     options.field.label);
   }
-  return verification.proven ? ExitCode::kDone : ExitCode::kNotProven;
+  Json reports = Json::array();
+  bool is_proven = true;
+  for (const std::optional<std::int32_t> label : labels) {
+    parameters.label = label;
+    const Judged judged = judge(options, part_with_label(mesh, label), volume, world, parameters, promise);
+    reports.push_back(verify_report(options, volume, world, promise, judged));
+    print_judged(reports.back(), volume, options, judged);
+    is_proven = is_proven && judged.verification.proven;
+  }
+  if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
+  if (!options.report.empty()) write_text(json_text(one_or_all(std::move(reports))), options.report);
+  return is_proven ? ExitCode::kDone : ExitCode::kNotProven;
 }
 
 }  // namespace
@@ -238,7 +287,8 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   add_mesh_input_option(command, options->format);
   add_volume_options(command, options->volume);
-  command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
+  add_isovalue_option(command, options->field);
+  add_field_options(command, options->field);
   command.add_option("--report", options->report, "Write every figure as JSON")
       .type_name("FILE")
       .check(refuse_empty_name);
@@ -250,7 +300,7 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("D")
       .check(refuse_empty_value);
   add_world_options(command, options->world);
-  command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
+  command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");
   command.add_flag("--ignore-spacing", options->ignore_spacing,
                    "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
   command.examples(

@@ -82,8 +82,8 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 }
 
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {
-  constexpr std::array<std::string_view, 3> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
-                                                     "promise.max_distance"};
+  constexpr std::array<std::string_view, 4> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
+                                                     "promise.max_distance", "field.smooth"};
   const std::size_t equals = assignment.find('=');
   const std::string key = assignment.substr(0, equals);
   if (equals == std::string::npos || std::find(kLengths.begin(), kLengths.end(), key) == kLengths.end())
@@ -94,14 +94,14 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
 }
 
 namespace {
-constexpr std::string_view kPromise = "promise.max_distance ";
+constexpr std::string_view kPromise = "promise.max_distance";
 }
 
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
-  lines.push_back(std::string(kPromise) + shortest_text(promised));
+  lines.push_back(std::string(kPromise) + " " + shortest_text(promised));
   lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
@@ -114,14 +114,19 @@ std::vector<std::string> mesh_comments(const std::string& volume_path, const std
   return lines;
 }
 
-std::optional<double> promised_distance(const std::vector<std::string>& comments) {
+std::optional<std::string> note_in(const std::vector<std::string>& comments, std::string_view key) {
   for (const std::string& comment : comments) {
-    if (!comment.starts_with(kPromise)) continue;
-    double value = 0;
-    const char* const number = comment.data() + kPromise.size();
-    const auto [end, error] = std::from_chars(number, comment.data() + comment.size(), value);
-    if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
+    if (comment.starts_with(key) && comment.size() > key.size() && comment[key.size()] == ' ')
+      return comment.substr(key.size() + 1);
   }
+  return std::nullopt;
+}
+
+std::optional<double> promised_distance(const std::vector<std::string>& comments) {
+  const std::string text = note_in(comments, kPromise).value_or("");
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && value > 0 && std::isfinite(value)) return value;
   return std::nullopt;
 }
 

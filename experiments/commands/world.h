@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/commands/command.h"
@@ -47,6 +48,8 @@ std::optional<double> metres_in_unit(const std::string& units);
 // `promised`: promise.max_distance, in voxels.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world);
+// The text after a key in lines that are a key and a value, if there is such a line.
+std::optional<std::string> note_in(const std::vector<std::string>& comments, std::string_view key);
 // The promise.max_distance that one of such lines of a mesh file names, if any does.
 std::optional<double> promised_distance(const std::vector<std::string>& comments);
 

@@ -126,6 +126,7 @@ constexpr ParameterRange kNotNegative{0, false};
 constexpr ParameterRange kAtLeastOne{1, false};
 constexpr ParameterRange kAtLeastFour{4, false};
 constexpr ParameterRange kAngle{0, true, 35};
+constexpr ParameterRange kAnyInteger{std::numeric_limits<std::int32_t>::min(), false};
 
 // What both stages do.
 constexpr std::string_view kTooHigh = "refine a triangle whose height over its circumradius is above this";
@@ -177,9 +178,18 @@ constexpr std::array kTable = {
                                                     "which of a vertex's two poles gives its pole height; nearer is "
                                                     "the paper's, the others need repair.max_rounds = 0"),
     row<&P::queue_order>("queue_order", kAny, "", "which violation of the same kind is mended first"),
+    row<&P::field, &FieldParameters::label>("field.label", kAnyInteger, "",
+                                            "mesh the surface of the samples with this value, half-way between them "
+                                            "and all others, whatever the isovalue; null: the samples as they are"),
+    row<&P::field, &FieldParameters::smooth>("field.smooth", kPositive, "voxels",
+                                             "mesh the field smoothed by a Gaussian of this standard deviation; null: "
+                                             "the samples as they are"),
+    row<&P::field, &FieldParameters::invert>("field.invert", kAny, "",
+                                             "inside is below the isovalue: triangles face higher values, and closed "
+                                             "closes that side"),
     row<&P::boundary>("boundary", kAny, "",
-                      "open: the surface ends where it meets the box; closed: the volume is padded so that the "
-                      "surface closes"),
+                      "open: the surface ends where it meets the box; closed: it goes on along the faces of the box, "
+                      "around all that is inside"),
     row<&P::search, &SearchOptions::solver>("search.solver", kAny, "",
                                             "how the cubic of a ray in a voxel cell is solved; schwarze is the "
                                             "paper's"),

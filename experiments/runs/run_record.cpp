@@ -67,22 +67,21 @@ Json topology_report(const RunInput& input, double isovalue) {
               {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-// The volume whose isosurface is meshed. If the surface is to be closed, it is padded and stored in `closed`.
-const ScalarGrid& meshed_grid(const RunInput& input, const Parameters& parameters, std::optional<ScalarGrid>& closed) {
-  if (parameters.boundary == Boundary::kOpen) return input.grid;
-  return closed.emplace(padded(input.grid, input.grid.range().first));
+// The field whose isosurface is meshed.
+MeshedField meshed_field_of(const RunInput& input, double isovalue, const Parameters& parameters) {
+  return meshed_field(input.grid, isovalue, parameters.field, parameters.boundary == Boundary::kClosed,
+                      spacing_to_use(parameters, input.grid.spacing()), input.threads);
 }
 
 // The part of the mesher's report that also applies to marching cubes.
 Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
   const Stopwatch stopwatch;
-  std::optional<ScalarGrid> closed;
-  const ScalarGrid& grid = meshed_grid(input, parameters, closed);
-  const double used = regular_isovalue(grid, isovalue);
-  MarchingCubesMesh cubes = marching_cubes(grid, used, &kExactTests);
+  const MeshedField field = meshed_field_of(input, isovalue, parameters);
+  const double used = regular_isovalue(field.grid, field.isovalue);
+  MarchingCubesMesh cubes = marching_cubes(field.grid, used, &kExactTests);
   mesh = {std::move(cubes.points), std::move(cubes.triangles)};
   Certificate certificate;
-  if (parameters.certify) certificate = certify(mesh, exact_topology(grid, used));
+  if (parameters.certify) certificate = certify(mesh, exact_topology(field.grid, used));
   const double seconds = stopwatch.seconds();
   const TopologySum sum = sum_of(certify(mesh, std::vector<ComponentTopology>()).mesh);
   return Json{{"mesher", "marching_cubes"},
@@ -175,8 +174,8 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
     mesh = std::move(result.mesh);
   }
   if (experiment.distances) {
-    std::optional<ScalarGrid> closed;
-    record["distances"] = measured_distances(mesh, meshed_grid(input, variant.parameters, closed), isovalue);
+    const MeshedField field = meshed_field_of(input, isovalue, variant.parameters);
+    record["distances"] = measured_distances(mesh, field.grid, field.isovalue);
   }
   return record;
 }

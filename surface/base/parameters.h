@@ -7,6 +7,7 @@
 
 #include "delaunay/base/vec3.h"
 #include "raycast/search_options.h"
+#include "volume/filters/meshed_field.h"
 
 namespace deliso {
 
@@ -71,6 +72,7 @@ struct Parameters {
   Stage1Parameters stage1;
   Stage2Parameters stage2;
   QueueOrder queue_order = QueueOrder::kWorstFirst;
+  FieldParameters field;
   Boundary boundary = Boundary::kOpen;
   SearchOptions search;
   SpacingUse spacing = SpacingUse::kUse;

@@ -23,7 +23,7 @@ Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology
 
 bool is_exact_in_world(const Isosurface& isosurface) {
   const ScalarGrid& grid = isosurface.grid();
-  bool is_exact = grid.origin() == Vec3();
+  bool is_exact = grid.origin() == Vec3() && !grid.walls();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     int exponent = 0;
     is_exact = is_exact && std::frexp(grid.spacing()[axis] / isosurface.step()[axis], &exponent) == 0.5;

@@ -1,6 +1,7 @@
 #include "surface/mesh/surface_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -12,6 +13,20 @@ namespace {
 template <class Element>
 void make_room(std::vector<Element>& array, std::size_t count) {
   if (count > array.capacity()) array.reserve(std::max(count, array.size() + array.size() / 4));
+}
+
+// Where a surface has been closed along the faces of a box, puts the points there onto them: none lies outside, and
+// those inside by next to nothing are on them but for rounding.
+void settle_on_walls(std::vector<Vec3>& points, const Box3& walls, const Vec3& spacing) {
+  constexpr double kOfSpacing = 0x1p-20, kOfCoordinate = 0x1p-50;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = walls.low[axis], high = walls.high[axis];
+    const double near = kOfSpacing * spacing[axis] + kOfCoordinate * std::max(std::abs(low), std::abs(high));
+    for (Vec3& p : points) {
+      if (p[axis] <= low + near) p[axis] = low;
+      if (p[axis] >= high - near) p[axis] = high;
+    }
+  }
 }
 
 }  // namespace
@@ -93,6 +108,7 @@ TriangleMesh to_world(SurfaceMesh mesh, const Isosurface& isosurface) {
   const Vec3& step = isosurface.step();
   const Vec3 scale{grid.spacing().x / step.x, grid.spacing().y / step.y, grid.spacing().z / step.z};
   for (Vec3& p : mesh.points) p = grid.origin() + scaled(scale, p);
+  if (grid.walls()) settle_on_walls(mesh.points, *grid.walls(), grid.spacing());
   return {std::move(mesh.points), std::move(mesh.triangles)};
 }
 

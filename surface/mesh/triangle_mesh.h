@@ -13,6 +13,7 @@ namespace deliso {
 struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::int32_t> labels{};  // of each triangle; empty: none
 };
 
 }  // namespace deliso

@@ -150,7 +150,7 @@ bool RefineLoop::treat(std::uint32_t triangle) {
 
 // Tries one insertion. When the point lies beyond the box or in the diametral ball of a boundary edge, that edge is
 // reported and nothing is inserted.
-std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSide* encroached_edge) {
+std::optional<Refusal> RefineLoop::insert(Candidate candidate, TriangleSide* encroached_edge) {
   disk_.grow(candidate, [this](std::uint32_t t) {
     // If balls are not stored, the balls of E's triangles are not searched again where they are not needed.
     return options_.store_hits || !disk_.holds(t) ? ball_of(t) : SurfaceDelaunayBall{};
@@ -169,7 +169,9 @@ std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSi
   const RefinementDisk::Shape shape = disk_.order_rim(candidate);
   if (shape == RefinementDisk::Shape::kNotADisk) return Refusal::kNotADisk;
   if (shape == RefinementDisk::Shape::kRepeatedVertex) return Refusal::kRepeatedVertex;
-  if (const auto failed = plan_star(candidate)) return failed;
+  const Vec3 gradient = upwards(candidate);  // at a wall it is that of the wall, which is crossed a little beyond it
+  candidate.point = isosurface_.settled(candidate.point);
+  if (const auto failed = plan_star(candidate, gradient)) return failed;
   if (options_.observer != nullptr) options_.observer->disk(mesh_, disk_, candidate);
   replace_disk(candidate);
   return std::nullopt;
@@ -177,10 +179,9 @@ std::optional<Refusal> RefineLoop::insert(const Candidate& candidate, TriangleSi
 
 // Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
 // gradient, or a vertex is too near.
-std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate) {
+std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const Vec3& gradient) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
-  const Vec3 gradient = upwards(candidate);
   for (const RimEdge& edge : disk_.rim()) {
     const Vec3& a = mesh_.vertices[edge.from].point;
     const Vec3& b = mesh_.vertices[edge.to].point;

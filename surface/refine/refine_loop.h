@@ -65,8 +65,8 @@ class RefineLoop {
   void refine_queued(Controls& controls);
   bool insert_coverage_targets(Controls& controls, int threads);
   bool treat(std::uint32_t triangle);
-  std::optional<Refusal> insert(const Candidate& candidate, TriangleSide* encroached_edge);
-  [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate);
+  std::optional<Refusal> insert(Candidate candidate, TriangleSide* encroached_edge);
+  [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate, const Vec3& gradient);
   [[nodiscard]] Vec3 upwards(const Candidate& candidate) const;
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();

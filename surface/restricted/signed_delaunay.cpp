@@ -56,8 +56,9 @@ Vec3 clamped_limit(const Box3& box, const Vec3& origin, const Vec3& direction) {
 
 }  // namespace
 
-Vec3 SignedDelaunay::snapped(const Vec3& p) {
+Vec3 SignedDelaunay::snapped(const Vec3& given) const {
   const auto snap = [](double x) { return std::abs(x) < kSmallestCoordinate ? 0 : x; };
+  const Vec3 p = isosurface_.settled(given);
   return {snap(p.x), snap(p.y), snap(p.z)};
 }
 

@@ -113,8 +113,8 @@ class SignedDelaunay {
   }
   void flip_sign(TetId t) { sign_[t.index()] = is_above(t) ? Sign::kBelow : Sign::kAbove; }
 
-  // A point as the triangulation stores it: coordinates below 2^-100 count as zero.
-  static Vec3 snapped(const Vec3& p);
+  // A point as the triangulation stores it: settled on the volume's walls; coordinates below 2^-100 count as zero.
+  [[nodiscard]] Vec3 snapped(const Vec3& p) const;
   // Whether a point lies on the surface of the box, exactly.
   static bool on_box(const Box3& box, const Vec3& p);
 

@@ -23,7 +23,7 @@ std::optional<Vec3> PlaceSearch::on_isosurface(const Vec3& p, const Vec3& normal
   const Line line{p, normal};
   const auto hit = isosurface_.nearest_falling_hit(line, reach, counters_);
   if (!hit || !isosurface_.box().contains(line.at(*hit))) return std::nullopt;
-  return line.at(*hit);
+  return isosurface_.settled(line.at(*hit));
 }
 
 unsigned faces_at(const Box3& box, const Vec3& p) {

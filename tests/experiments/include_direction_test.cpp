@@ -32,7 +32,7 @@ using Floors = std::vector<std::set<std::string>>;
 const std::map<std::string, Floors> kFloors = {
     {"volume",
      {{"volume"},
-      {"volume/io/base", "volume/topology", "volume/fields"},
+      {"volume/io/base", "volume/topology", "volume/fields", "volume/filters"},
       {"volume/io/nrrd", "volume/io/nifti", "volume/io/metaimage", "volume/io/vtk", "volume/io/numpy", "volume/io/mrc",
        "volume/io/inr", "volume/io/pvm", "volume/io/raw", "volume/io/itk"},
       {"volume/io"},

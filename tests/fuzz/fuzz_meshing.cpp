@@ -151,10 +151,10 @@ void judge(const MeshingCase& c, const MeshingResult& result) {
     return;
   }
   if (!is_proven(result.certificate)) return;
-  ScalarGrid judged = c.grid;
-  if (c.options.parameters.boundary == Boundary::kClosed) judged = padded(judged, judged.range().first);
+  const bool is_closed = c.options.parameters.boundary == Boundary::kClosed;
+  const MeshedField field = meshed_field(c.grid, c.isovalue, {}, is_closed, c.grid.spacing(), 1);
   const Promise promise{.max_distance = c.options.parameters.promise.max_distance};
-  const Verification v = verify_mesh(result.mesh, judged, c.isovalue, promise);
+  const Verification v = verify_mesh(result.mesh, field.grid, field.isovalue, promise);
   const char* const kWhat = "what the mesher proves, the verifier proves";
   if (!v.proven && std::getenv("DELISO_FUZZ_NOTE") != nullptr) {
     std::fprintf(stderr, "noted: not so: %s\n%s", kWhat, joined(v.failures).c_str());

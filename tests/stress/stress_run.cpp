@@ -45,9 +45,8 @@ StressResult run_stress_case(const StressCase& stress_case, double most_seconds,
     result.seconds = processor_seconds() - start;
     result.vertices = static_cast<std::int64_t>(made.mesh.points.size());
     const ScalarGrid& grid = stress_case.grid;
-    const Verification verified =
-        verify_mesh(read_back(made.mesh, directory), stress_case.is_closed ? padded(grid, grid.range().first) : grid,
-                    stress_case.isovalue);
+    const MeshedField field = meshed_field(grid, stress_case.isovalue, {}, stress_case.is_closed, grid.spacing(), 1);
+    const Verification verified = verify_mesh(read_back(made.mesh, directory), field.grid, field.isovalue);
     const bool says_proven = is_proven(made.certificate);
     if (made.stopped_early()) {
       result.outcome = Outcome::kStopped;

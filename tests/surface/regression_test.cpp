@@ -131,12 +131,14 @@ TEST(Regression, SheetsThatRoundingMakesCrossAreNotCalledProven) {
 class ProvenInput : public ::testing::TestWithParam<Input> {};
 
 TEST_P(ProvenInput, StaysSo) {
-  ScalarGrid grid = read_volume(kInputs / GetParam().name);
+  const auto& [name, isovalue, boundary] = GetParam();
+  const ScalarGrid grid = read_volume(kInputs / name);
   MeshingOptions options;
-  options.parameters.boundary = GetParam().boundary;
-  const MeshingResult result = mesh_isosurface(grid, GetParam().isovalue, options);
-  if (GetParam().boundary == Boundary::kClosed) grid = padded(grid, grid.range().first);
-  const Verification verification = verify_mesh(result.mesh, grid, GetParam().isovalue);
+  options.parameters.boundary = boundary;
+  const MeshingResult result = mesh_isosurface(grid, isovalue, options);
+  const MeshedField field =
+      meshed_field(grid, isovalue, {}, boundary == Boundary::kClosed, grid.spacing(), 1);
+  const Verification verification = verify_mesh(result.mesh, field.grid, field.isovalue);
   EXPECT_TRUE(verification.proven);
   for (const std::string& failure : verification.failures) ADD_FAILURE() << failure;
 }

@@ -50,8 +50,8 @@ TEST_P(FoundByStress, IsProvenByBoth) {
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
   EXPECT_TRUE(is_proven(result.certificate));
   for (const std::string& broken : result.certificate.broken) ADD_FAILURE() << broken;
-  const Verification verification =
-      verify_mesh(result.mesh, is_closed ? padded(grid, grid.range().first) : grid, isovalue);
+  const MeshedField field = meshed_field(grid, isovalue, {}, is_closed, grid.spacing(), 1);
+  const Verification verification = verify_mesh(result.mesh, field.grid, field.isovalue);
   EXPECT_TRUE(verification.proven);
   for (const std::string& failure : verification.failures) ADD_FAILURE() << failure;
 }

@@ -98,11 +98,13 @@ std::string Sha256::finish() {
   return hex;
 }
 
-std::string sample_sha256(const ScalarGrid& grid) {
+std::string sample_sha256(const Samples& samples) {
   Sha256 hash;
-  const Samples samples = little_endian(grid.samples());
-  hash.update(sample_bytes(samples));
+  const Samples in_order = little_endian(samples);
+  hash.update(sample_bytes(in_order));
   return hash.finish();
 }
+
+std::string sample_sha256(const ScalarGrid& grid) { return sample_sha256(grid.samples()); }
 
 }  // namespace deliso

@@ -29,6 +29,7 @@ class Sha256 {
 };
 
 // The hash of a volume's samples: their raw bytes, little endian, x fastest. Dimensions and spacing have no part in it.
+std::string sample_sha256(const Samples& samples);
 std::string sample_sha256(const ScalarGrid& grid);
 
 }  // namespace deliso

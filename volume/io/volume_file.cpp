@@ -103,9 +103,7 @@ Volume read_as(VolumeFormat format, UnpackedFile& file, const ReadOptions& optio
   return read_raw(file.file().path(), options.raw);
 }
 
-}  // namespace
-
-Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options) {
+Volume read_any(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string extension = options.format.empty() ? lower_case_extension(path) : "." + options.format;
   std::optional<VolumeFormat> format = format_of_extension(extension);
   if (!format && reads_by_itk(path)) return read_by_itk(path, {options.channel});
@@ -117,6 +115,17 @@ Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& 
   const std::string found = extension.empty() ? "has no extension" : "has the extension \"" + extension + "\"";
   throw InputError(path.string() + ": " + found + ", a volume is read from " + std::string(kVolumeExtensions) +
                    converter_hint(path));
+}
+
+}  // namespace
+
+Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options) {
+  Volume volume = read_any(path, options);
+  if (volume.as_read && !options.accepts_not_finite) {
+    throw InputError(path.string() + ": " + first_not_finite_text(*volume.as_read, volume.grid.dims()) +
+                     ": every sample must be a finite number");
+  }
+  return volume;
 }
 
 ScalarGrid read_volume(const std::filesystem::path& path, const ReadOptions& options) {

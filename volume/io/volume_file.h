@@ -27,6 +27,7 @@ struct ReadOptions {
   std::optional<std::uint64_t> channel;  // of files with several values a voxel or several volumes
   std::string array;                     // of files with named arrays (.vtk, .vti)
   std::string format;                    // an extension without its dot, to be taken for the file's own; or empty
+  bool accepts_not_finite = false;       // NaN and infinities are counted and replaced (volume.h); else refused
 };
 
 // Reads a volume with its place in the world. Files that begin as gzip does are unpacked, whatever their names. Throws

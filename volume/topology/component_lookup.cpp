@@ -50,6 +50,7 @@ class PointLookup {
     for (std::size_t a = 0; a < 3; ++a) {
       const double limit = grid.dims()[a] - 1;
       point_[a] = std::clamp(point[a], 0.0, limit);
+      if (grid.walls()) point_[a] = beyond_wall(point_[a], limit);
       const double nearest = std::nearbyint(point_[a]);
       on_plane_[a] = std::abs(point_[a] - nearest) <= kNear;
       plane_[a] = static_cast<std::int32_t>(nearest);
@@ -66,6 +67,13 @@ class PointLookup {
   }
 
  private:
+  // A point on a wall (filters/closing.h) stands for one of the surface that closes the volume just outside it. On the
+  // wall itself it would be looked up in the cells within, where another component may pass.
+  static double beyond_wall(double x, double limit) {
+    constexpr double kOnWall = 0x1p-19, kBeyond = 0x1p-31;
+    if (std::abs(x - 1) <= kOnWall) return 1 - kBeyond;
+    return std::abs(x - (limit - 1)) <= kOnWall ? limit - 1 + kBeyond : x;
+  }
   [[nodiscard]] double distance_to(std::uint32_t crossing) const {
     return squared_distance(crossing_position(grid_, topology_.crossings[crossing]), point_);
   }

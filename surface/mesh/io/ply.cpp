@@ -1,6 +1,6 @@
 // PLY (Turk): a header that declares elements and their properties, then the data as text or binary in either byte
-// order. Reading takes x, y, z of `vertex` and the list vertex_indices (or vertex_index) of `face`; all else is
-// skipped.
+// order. Reading takes x, y, z of `vertex`, the list vertex_indices (or vertex_index) of `face` and its label; all else
+// is skipped.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -135,12 +135,17 @@ class BodyParser {
         case PlyRole::kCorners:
           parse_face(property);
           break;
+        case PlyRole::kLabel:
+          label_ = values_.number(property.type, "a label");
+          has_labels_ = true;
+          break;
         case PlyRole::kSkipped:
           values_.skip(property.type,
                        property.is_list ? values_.integer(property.count_type, "the length of a list") : 1);
       }
     }
     if (element.is_vertex) mesh_.points.push_back(p);
+    if (has_labels_) mesh_.labels.resize(mesh_.triangles.size(), whole_label());
   }
 
   void parse_face(const PlyProperty& property) {
@@ -155,8 +160,16 @@ class BodyParser {
     append_fan(mesh_, polygon_);
   }
 
+  // What is no label of ours becomes 0.
+  [[nodiscard]] std::int32_t whole_label() const {
+    const bool fits = std::abs(label_) < static_cast<double>(std::numeric_limits<std::int32_t>::max());
+    return fits ? static_cast<std::int32_t>(label_) : 0;
+  }
+
   const PlyHeader& header_;
   Values values_;
+  double label_ = 0;
+  bool has_labels_ = false;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> polygon_;
   std::int64_t vertex_count_ = 0;
@@ -173,26 +186,28 @@ std::string ply_bytes(const TriangleMesh& mesh, bool ascii, const MeshComments& 
   bytes += "\nelement vertex " + std::to_string(mesh.points.size()) +
            "\nproperty double x\nproperty double y\nproperty double z" + "\nelement face " +
            std::to_string(mesh.triangles.size()) + "\nproperty list uchar " + (is_small ? "int" : "uint") +
-           " vertex_indices\nend_header\n";
+           " vertex_indices\n" + (mesh.labels.empty() ? "" : "property int label\n") + "end_header\n";
   if (ascii) {
     for (const Vec3& p : mesh.points) append_point(bytes, p);
-    for (const auto& [a, b, c] : mesh.triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       bytes += '3';
-      for (const std::uint32_t v : {a, b, c}) {
+      for (const std::uint32_t v : mesh.triangles[t]) {
         bytes += ' ';
         append_number(bytes, v);
       }
+      if (!mesh.labels.empty()) bytes += ' ' + std::to_string(mesh.labels[t]);
       bytes += '\n';
     }
     return bytes;
   }
-  bytes.reserve(bytes.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size());
+  bytes.reserve(bytes.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size() + 4 * mesh.labels.size());
   for (const Vec3& p : mesh.points) {
     for (const double c : {p.x, p.y, p.z}) append_little_endian(bytes, c);
   }
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     bytes += '\3';
-    for (const std::uint32_t v : {a, b, c}) append_little_endian(bytes, v);
+    for (const std::uint32_t v : mesh.triangles[t]) append_little_endian(bytes, v);
+    if (!mesh.labels.empty()) append_little_endian(bytes, static_cast<std::uint32_t>(mesh.labels[t]));
   }
   return bytes;
 }

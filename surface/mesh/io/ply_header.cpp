@@ -40,6 +40,7 @@ PlyProperty parse_property(TextScanner& in, const PlyElement& element) {
   if (element.is_face && property.is_list && (name == "vertex_indices" || name == "vertex_index")) {
     property.role = PlyRole::kCorners;
   }
+  if (element.is_face && !property.is_list && name == "label") property.role = PlyRole::kLabel;
   return property;
 }
 
@@ -58,7 +59,7 @@ PlyElement parse_element(TextScanner& in) {
 void check_roles(const TextScanner& in, const PlyHeader& header) {
   std::int64_t vertex_elements = 0;
   for (const PlyElement& element : header.elements) {
-    std::array<int, 5> seen{};
+    std::array<int, 6> seen{};
     for (const PlyProperty& property : element.properties) ++seen[static_cast<std::size_t>(property.role)];
     if (element.is_vertex) {
       ++vertex_elements;

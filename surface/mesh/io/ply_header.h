@@ -11,7 +11,7 @@ namespace deliso {
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
-enum class PlyRole { kSkipped, kX, kY, kZ, kCorners };
+enum class PlyRole { kSkipped, kX, kY, kZ, kCorners, kLabel };
 
 struct PlyProperty {
   PlyType type = PlyType::kInt8;  // of the value, or of the members of the list

@@ -123,7 +123,10 @@ TEST_F(BadInput, SamplesThatAreNoNumbers) {
     samples[21] = bad;
     std::string bytes(sizeof(float) * samples.size(), '\0');
     std::memcpy(bytes.data(), samples.data(), bytes.size());
-    expect_bad_volume(nrrd("type: float\nendian: little\nsizes: 4 4 4\nencoding: raw", bytes), {"v.nrrd"});
+    write_file(folder_ / "v.nrrd", nrrd("type: float\nendian: little\nsizes: 4 4 4\nencoding: raw", bytes));
+    const std::vector<std::string> parts = {"v.nrrd", "sample (1, 1, 1)", "--nan outside"};
+    expect_refusal({"mesh", "@/v.nrrd", "--isovalue", "30.5", "-o", "@/m.ply", "--report", "@/r.json"}, parts);
+    expect_refusal({"topology", "@/v.nrrd", "--isovalue", "30.5", "--report", "@/r.json"}, parts);
   }
 }
 
@@ -197,7 +200,8 @@ TEST_F(BadInput, IsovalueAtTheEndsOfTheRange) {
   const auto expect = [this](const std::string& isovalue, const std::string& end) {
     expect_bad_mesh_options({"--isovalue", isovalue, "-o", "@/m.ply"},
                             {"isovalue " + isovalue + " gives a surface with no point", "0 to 63" + end + "\n"});
-    expect_refusal({"topology", "@/v.nrrd", "--isovalue", isovalue}, {" at " + isovalue + " ", "0 to 63" + end + "\n"});
+    expect_refusal({"topology", "@/v.nrrd", "--isovalue", isovalue},
+                   {"isovalue " + isovalue + " ", "0 to 63" + end + "\n"});
   };
   expect("63.0000001", "");
   expect("0", ", and an isovalue must lie above the minimum");

@@ -224,7 +224,7 @@ TEST(Usage, TopologyOfKnownFieldsIsTheKnownOne) {
 // Otsu's threshold by its definition: the largest variance between the classes, by trying all.
 TEST(Histogram, SuggestedIsovalueHasTheLargestVarianceBetweenClasses) {
   const ScalarGrid grid = generate_field("shells", 24);
-  const SampleHistogram histogram = sample_histogram(grid);
+  const SampleHistogram histogram = sample_histogram(grid.samples());
   const auto variance_between = [&](double threshold) {
     double count[2] = {0, 0};
     double sum[2] = {0, 0};
@@ -241,7 +241,7 @@ TEST(Histogram, SuggestedIsovalueHasTheLargestVarianceBetweenClasses) {
   };
   double best = 0;
   for (double threshold = 0.5; threshold < 255; ++threshold) best = std::max(best, variance_between(threshold));
-  const auto suggestions = suggested_isovalues(histogram);
+  const auto suggestions = suggested_isovalues(grid.samples(), histogram);
   ASSERT_EQ(suggestions.size(), 3u);
   EXPECT_NEAR(variance_between(suggestions[0].isovalue) / best, 1, 1e-9);
   EXPECT_LT(suggestions[1].isovalue, suggestions[2].isovalue);
@@ -254,12 +254,12 @@ TEST(Histogram, CountsEverySampleAtTheEndsOfTheDoubles) {
     const ScalarGrid grid({2, 2, 2},
                           std::vector<double>{ends[0], ends[1], ends[0], ends[0], ends[1], ends[1], ends[1], ends[1]});
     std::uint64_t count = 0;
-    for (const std::uint64_t bin : sample_histogram(grid).counts) count += bin;
+    for (const std::uint64_t bin : sample_histogram(grid.samples()).counts) count += bin;
     EXPECT_EQ(count, 8u);
   }
   const ScalarGrid wide({2, 2, 2}, std::vector<std::int32_t>{std::numeric_limits<std::int32_t>::min(), 0, 0, 0, 0, 0, 0,
                                                              std::numeric_limits<std::int32_t>::max()});
-  const SampleHistogram histogram = sample_histogram(wide);
+  const SampleHistogram histogram = sample_histogram(wide.samples());
   EXPECT_LE(histogram.counts.size(), 256u);
   EXPECT_EQ(histogram.counts.front(), 1u);
   EXPECT_EQ(histogram.counts.back(), 1u);

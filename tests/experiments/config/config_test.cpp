@@ -46,6 +46,7 @@ constexpr const char* kDocumentedDefaults = R"({
   "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
              "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
   "queue_order": "worst_first",
+  "field": {"label": null, "smooth": null, "invert": false},
   "boundary": "open",
   "search": {"solver": "bracketed", "min_max_pruning": true, "leaf_cells": 1, "incremental": true,
              "traversal": "cell_walk"},

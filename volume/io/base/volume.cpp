@@ -54,12 +54,21 @@ void turn_forwards(VolumeDescription& description) {
 Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples) {
   try {
     const SampleFrame frame = frame_of(description.index_to_world);
+    const NotFiniteCounts not_finite = count_not_finite(samples);
+    std::optional<Samples> as_read;
+    if (not_finite.count() > 0) {
+      as_read = samples;
+      const auto [low, high] = finite_range(samples);
+      samples = with_finite_samples(samples, low, low, high);
+    }
     return {ScalarGrid(description.layout.dims, std::move(samples), frame.spacing, frame.origin),
             {frame.to_world, description.space, description.units},
             description.format,
             short_type_name(description.layout.type),
             description.layout.components * description.layout.volumes,
-            description.layout.channel};
+            description.layout.channel,
+            not_finite,
+            std::move(as_read)};
   } catch (const InputError& error) {
     file.fail(error.what());
   }

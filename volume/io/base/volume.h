@@ -9,6 +9,7 @@
 #include "volume/affine.h"
 #include "volume/io/base/byte_stream.h"
 #include "volume/io/base/sample_reader.h"
+#include "volume/not_finite.h"
 #include "volume/placement.h"
 #include "volume/scalar_grid.h"
 
@@ -30,6 +31,10 @@ struct Volume {
   std::string stored_type;     // short_type_name of the samples in the file; scaled ones are doubles in memory
   std::uint64_t channels = 1;  // values of each place in the file, and volumes after each other
   std::uint64_t channel = 0;   // the one that was read
+  // Where some samples are NaN or infinite: how many, and all samples as they were read. In the grid the lowest finite
+  // one stands for NaN and -infinity, and the highest for +infinity.
+  NotFiniteCounts not_finite{};
+  std::optional<Samples> as_read{};
 };
 
 // Which of several values to read where a file has more than one.
@@ -45,7 +50,8 @@ void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleL
 // volume is axis-parallel. To be called before the samples are read.
 void turn_forwards(VolumeDescription& description);
 
-// The volume. Throws InputError naming the file when the samples or the geometry are none that can be computed with.
+// The volume, with finite samples. Throws InputError naming the file when the geometry is none that can be computed
+// with, or no sample is finite.
 Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples);
 
 // choose_channel, turn_forwards, read_samples and make_volume. `mappable`: see UnpackedFile.

@@ -50,7 +50,7 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
       const auto& vertices = restricted->delaunay().points();
       ASSERT_EQ(samples.size(), vertices.size());
       const std::vector<Vec3> now = samples.points();
-      for (std::size_t i = 0; i < vertices.size(); ++i) ASSERT_EQ(SignedDelaunay::snapped(now[i]), vertices[i]) << i;
+      for (std::size_t i = 0; i < vertices.size(); ++i) ASSERT_EQ(restricted->snapped(now[i]), vertices[i]) << i;
     }
   }
   EXPECT_GT(exchanges, 10);

@@ -160,7 +160,8 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
     }
     left.insert(left.end(), coming.begin(), coming.end());
     for (std::size_t i = 0; i < coming.size(); ++i) {
-      ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]), SignedDelaunay::snapped(coming[i]));
+      ASSERT_EQ(continued.restricted().delaunay().point(exchanged.vertex_of[i]),
+                continued.restricted().snapped(coming[i]));
     }
     RepairRound fresh(scene.surface(), cell_levels, triangulation(scene, left));
     compare(continued, fresh, where);

@@ -1,0 +1,89 @@
+#include "experiments/commands/label_files.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+#include "delaunay/base/check.h"
+#include "experiments/commands/field_options.h"
+#include "experiments/commands/mesh_output.h"
+#include "volume/io/base/input_file.h"
+
+namespace deliso {
+namespace {
+
+constexpr std::string_view kLabelInName = "{label}";
+
+void append(const TriangleMesh& from, std::optional<std::int32_t> label, TriangleMesh& to) {
+  const auto first = static_cast<std::uint32_t>(to.points.size());
+  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+  for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({first + a, first + b, first + c});
+  if (label) to.labels.resize(to.triangles.size(), *label);
+}
+
+}  // namespace
+
+Labels runs_of(const std::vector<std::int32_t>& labels) {
+  if (labels.empty()) return {std::nullopt};
+  return {labels.begin(), labels.end()};
+}
+
+std::string name_for(const std::string& pattern, std::optional<std::int32_t> label) {
+  std::string name = pattern;
+  const std::size_t at = name.find(kLabelInName);
+  if (label && at != std::string::npos) name.replace(at, kLabelInName.size(), std::to_string(*label));
+  return name;
+}
+
+void check_label_names(const std::string& pattern, const std::string& option, const std::vector<std::int32_t>& labels,
+                       bool is_mesh) {
+  if (pattern.find(kLabelInName) != std::string::npos) {
+    if (!labels.empty()) return;
+    throw InputError(option + ": {label} stands for a label, but none is meshed, expected --label N or another name");
+  }
+  if (!is_mesh || pattern.empty() || labels.size() < 2 || lower_case_extension(pattern) == ".ply") return;
+  throw InputError(option +
+                   ": several labels in one file need a .ply, which holds a label per triangle, or {label} in "
+                   "the name for a file each, found '" +
+                   pattern + "'");
+}
+
+void MeshFiles::add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
+                    const MeshFileOptions& options) {
+  auto file = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.name == name; });
+  if (file == files_.end()) file = files_.insert(file, File{name, {}, {}, options});
+  append(mesh, label, file->mesh);
+  if (label) file->labels.push_back(*label);
+}
+
+void MeshFiles::write() const {
+  for (const File& file : files_) {
+    MeshFileOptions options = file.options;
+    if (!file.labels.empty()) options.comments.push_back(label_note(file.labels));
+    // A file of one label needs none at its triangles.
+    TriangleMesh mesh = file.mesh;
+    if (file.labels.size() < 2) mesh.labels.clear();
+    write_mesh_output(mesh, file.name, options);
+  }
+}
+
+TriangleMesh part_with_label(const TriangleMesh& mesh, std::optional<std::int32_t> label) {
+  if (!label || mesh.labels.empty()) return mesh;
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
+  TriangleMesh part;
+  std::vector<std::uint32_t> name(mesh.points.size(), kUnused);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.labels[t] != *label) continue;
+    part.triangles.push_back(mesh.triangles[t]);
+    for (std::uint32_t& v : part.triangles.back()) {
+      if (name[v] == kUnused) {
+        name[v] = static_cast<std::uint32_t>(part.points.size());
+        part.points.push_back(mesh.points[v]);
+      }
+      v = name[v];
+    }
+  }
+  return part;
+}
+
+}  // namespace deliso

@@ -1,0 +1,48 @@
+// The meshes of several labels in files: one each, where {label} stands in the name, or all in one with a label per
+// triangle.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/triangle_mesh.h"
+
+namespace deliso {
+
+// The runs: one for each label, or one of the whole volume.
+using Labels = std::vector<std::optional<std::int32_t>>;
+Labels runs_of(const std::vector<std::int32_t>& labels);
+
+// The name with the label in place of {label}.
+std::string name_for(const std::string& pattern, std::optional<std::int32_t> label);
+
+// Throws InputError when {label} stands in a name and no label is meshed, or several meshes shall be in one file of a
+// format that holds no label per triangle.
+void check_label_names(const std::string& pattern, const std::string& option, const std::vector<std::int32_t>& labels,
+                       bool is_mesh);
+
+// Meshes by the names of their files; those of one name come into one file.
+class MeshFiles {
+ public:
+  // The options, with the lines of comments, are those of the first mesh of a file.
+  void add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
+           const MeshFileOptions& options);
+  void write() const;
+
+ private:
+  struct File {
+    std::string name;
+    TriangleMesh mesh;
+    std::vector<std::int32_t> labels;  // of the meshes in it
+    MeshFileOptions options;
+  };
+  std::vector<File> files_;
+};
+
+// The triangles with a label, and their vertices; all of a mesh whose triangles have none.
+TriangleMesh part_with_label(const TriangleMesh& mesh, std::optional<std::int32_t> label);
+
+}  // namespace deliso
