@@ -131,8 +131,8 @@
       const far = [center[0] + 20 * Math.cos(angle), center[1] + 20 * Math.sin(angle)];
       return field.hits(far, center)[0].point;
     };
-    const edge = Lesson.Polyline.measure(field, [on(0), on(1.9)], 0, 1);
-    const other = Lesson.Polyline.measure(field, [on(0), on(1.9)], 1, 0);
+    const edge = Lesson.Polyline.measure(field, [on(0), on(1.6)], 0, 1);
+    const other = Lesson.Polyline.measure(field, [on(0), on(1.6)], 1, 0);
     check(Lesson.distance(edge.x, center) > 8, `the outer circle: ${edge.x}`);
     check(Lesson.distance(other.x, center) < 6, `turned around, the inner one: ${other.x}`);
   });
