@@ -123,8 +123,7 @@ Lesson.planeStory = (() => {
           title: capital(edgeText(edge)),
           remark,
           rows: [
-            row("hits", edge.hits.length, ">", 1),
-            row("distance of the farthest (nearest)", action.measure, ">", edge.h), ...kept
+            row("hits", edge.hits.length, ">", 1), row("farthest hit, nearest", action.measure, ">", edge.h), ...kept
           ]
         };
       case "extract":
