@@ -14,9 +14,10 @@ Lesson.keyboard = (() => {
     {key: "?", command: "help", help: "?", does: "this list"},
   ];
 
-  // Keys that an element under the focus needs for itself.
-  const isTyping = (target) => /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName ?? "");
-  const isPressable = (target) => /^(BUTTON|A|SUMMARY)$/.test(target.tagName ?? "");
+  // Keys that an element under the focus needs for itself. A box to tick needs no arrows.
+  const isBox = (target) => target.tagName === "INPUT" && target.type === "checkbox";
+  const isTyping = (target) => /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName ?? "") && !isBox(target);
+  const isPressable = (target) => /^(BUTTON|A|SUMMARY)$/.test(target.tagName ?? "") || isBox(target);
 
   // {command} or {digit} or {letter} for a key event, null when it is none of ours.
   const commandOf = (event) => {

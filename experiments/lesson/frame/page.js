@@ -9,7 +9,10 @@ Lesson.Page = class {
     this.timeline = new Lesson.Timeline((step) => this.player?.goTo(step));
     this.build(root);
     window.addEventListener("hashchange", () => this.showAddress());
-    window.addEventListener("resize", () => this.draw());
+    window.addEventListener("resize", () => {
+      this.showTab();
+      this.draw();
+    });
     document.addEventListener("keydown", (event) => this.key(event));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redress());
     this.showAddress();
@@ -38,8 +41,9 @@ Lesson.Page = class {
     this.stepped = element(
         "main", {class: "stepped"},
         element(
-            "div", {class: "left"}, element("div", {class: "zooms"}, ...zooms), this.stage.canvas, this.timeline.canvas,
-            this.legend, this.controls),
+            "div", {class: "left"},
+            element("div", {class: "picture"}, this.stage.canvas, element("div", {class: "zooms"}, ...zooms)),
+            this.timeline.canvas, this.legend, this.controls),
         element("div", {class: "right"}, ...Object.values(this.cards), this.panel));
     this.plain = element("main", {class: "plain"});
     this.help = this.buildHelp();
@@ -83,6 +87,7 @@ Lesson.Page = class {
     this.tabs.replaceChildren(...Lesson.chapters.map(
         (other) => Lesson.element(
             "a", {href: `#${other.name}`, "aria-current": other === chapter ? "page" : null}, other.title)));
+    this.showTab();
     this.player = null;
     this.stepped.hidden = Boolean(chapter.page);
     this.plain.hidden = !chapter.page;
@@ -98,6 +103,12 @@ Lesson.Page = class {
     }
     this.player = this.players.get(chapter);
     this.panel.replaceChildren(...(chapter.panel ? [chapter.panel()] : []));
+  }
+
+  // On a narrow screen the tabs are a strip; the current one stands in its middle.
+  showTab() {
+    const tab = this.tabs.querySelector("[aria-current]");
+    this.tabs.scrollLeft = tab.offsetLeft - this.tabs.offsetLeft - (this.tabs.clientWidth - tab.offsetWidth) / 2;
   }
 
   draw() {

@@ -10,8 +10,9 @@ Lesson.certify = (levelSet, points, edges) => {
     degree[b] += 1;
   }
   const complaints = [];
-  const broken = degree.filter((d) => d !== 2).length;
-  if (broken) complaints.push(`${Lesson.countText(broken, "vertex has", "vertices have")} not two edges`);
+  const brokenVertices = points.map((_, k) => k).filter((k) => degree[k] !== 2);
+  const broken = brokenVertices.length;
+  if (broken) complaints.push(`${Lesson.countText(broken, "vertex does", "vertices do")} not have two edges`);
 
   const loopsOf = new Map();  // piece -> the loops that its vertices lie on
   points.forEach((p, k) => {
@@ -38,7 +39,14 @@ Lesson.certify = (levelSet, points, edges) => {
   if (doubled) complaints.push(`${Lesson.countText(doubled, "loop has", "loops have")} several pieces`);
   const crossings = Lesson.countCrossings(points, edges);
   if (crossings) complaints.push(`${Lesson.countText(crossings, "pair of edges crosses", "pairs of edges cross")}`);
-  return {isRight: complaints.length === 0, complaints, missedLoops, pieces: loopsOf.size, loops: levelSet.loopCount};
+  return {
+    isRight: complaints.length === 0,
+    complaints,
+    missedLoops,
+    brokenVertices,
+    pieces: loopsOf.size,
+    loops: levelSet.loopCount
+  };
 };
 
 Lesson.countCrossings = (points, edges) => {

@@ -36,6 +36,7 @@ Lesson.Laboratory = class {
     this.failure = run.failure ?? null;
     // Where nothing can be run, as without a curve, the last run stays in sight.
     if (!run.failure) this.run = run;
+    this.exerciseBox?.replaceChildren(...this.exercises().map(Lesson.exercise));
     this.context.rerun();
   }
 
@@ -83,6 +84,7 @@ Lesson.Laboratory = class {
   status(step) {
     const frame = this.frame(step);
     const {isRight, complaints, pieces, loops} = this.run.certificate(frame);
+    if (frame.kind === "end") return "";  // the sentence is the verdict
     if (!isRight) return `Mesh so far: ${complaints.join("; ")}.`;
     return `Mesh so far ✓: ${Lesson.countText(pieces, "piece")} for ${Lesson.countText(loops, "loop")}.`;
   }
@@ -95,6 +97,8 @@ Lesson.Laboratory = class {
   why(step) { return Lesson.planeStory.why(this.run, this.frame(step)); }
 
   line(step) { return this.code.lineOf(this.frame(step).next?.kind ?? "end"); }
+
+  exercises() { return Lesson.planeExercises(this.run); }
 
   panel() { return Lesson.planePanel(this); }
 };

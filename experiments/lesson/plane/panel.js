@@ -74,8 +74,9 @@ Lesson.planePanel = (() => {
         laboratory.context.redraw();
       }
     });
+    laboratory.exerciseBox = element("div", {}, ...laboratory.exercises().map(Lesson.exercise));
     return element(
-        "div", {}, element("h2", {}, "The run"),
+        "div", {}, laboratory.exerciseBox, element("h2", {}, "The run"),
         element(
             "div", {class: "settings"}, labelled("field", select(laboratory)),
             labelled("seed", number(String(laboratory.seed), {min: 0, step: 1}, (seed) => laboratory.setSeed(seed))),

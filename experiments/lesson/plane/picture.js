@@ -131,15 +131,18 @@ Lesson.planePicture = (() => {
     for (const {u, v} of delaunay.allEdges()) scene.line([delaunay.points[u], delaunay.points[v]], "forgotten");
   };
 
-  // At the end, loops that the mesh does not have.
-  const drawMissed = (scene, run, frame) => {
+  // At the end, loops that the mesh does not have, and vertices at which it is no curve.
+  const drawFaults = (scene, run, frame) => {
     if (frame.kind !== "end") return;
+    const {missedLoops, brokenVertices} = run.certificate(frame);
     scene.onLayer(0);
-    for (const loop of run.certificate(frame).missedLoops) {
+    for (const loop of missedLoops) {
       const curves = run.curves.filter((_, k) => run.levelSet.arcs[k].loop === loop);
       for (const curve of curves) scene.line(curve, "wrong");
       scene.label(curves[0][0], "missed", "label", 8);
     }
+    const {points} = run.mesh(frame);
+    for (const q of brokenVertices) scene.circle(points[q], 0.35, "wrong");
   };
 
   const drawAction = (scene, frame) => {
@@ -160,13 +163,13 @@ Lesson.planePicture = (() => {
       picture.onLayer(5);
       if (frame.kind === "build") drawForgotten(picture, frame.restricted);
       for (const edge of edges) picture.line([points[edge.a], points[edge.b]], "mesh");
-      drawMissed(picture, run, frame);
+      drawFaults(picture, run, frame);
       if (preview) drawAction(picture, frame);
       drawVertices(picture, points, frame.kind === "refine");
       return picture;
     }
     drawTriangulation(picture, field, frame.restricted);
-    drawMissed(picture, run, frame);
+    drawFaults(picture, run, frame);
     if (frame.poles) drawPoles(picture, frame.restricted, frame.poles);
     if (preview) drawAction(picture, frame);
     drawVertices(picture, frame.restricted.delaunay.points, frame.action?.point);

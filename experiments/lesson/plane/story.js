@@ -86,15 +86,25 @@ Lesson.planeStory = (() => {
     }
   };
 
+  // What the reader can do about a wrong mesh, as far as the algorithm itself would not.
+  const remedy = ({missedLoops}, left) => {
+    if (missedLoops.length)
+      return " No Voronoi edge hits what is missed, so nothing asks for a point there: seed every loop.";
+    return left ? " A smaller size bound lets it go on." : "";
+  };
+
   const verdict = (run, frame) => {
-    const {isRight, complaints, pieces, loops} = run.certificate(frame);
+    const certificate = run.certificate(frame);
+    const {isRight, complaints, pieces, loops} = certificate;
     const left = frame.left?.length ?? 0;
     const forbidden = left ? ` The size bound forbids to mend ${Lesson.countText(left, "violation")}.` : "";
-    if (isRight)
-      return `The end: ${Lesson.countText(pieces, "piece")} for ${Lesson.countText(loops, "loop")}, each in its ` +
-          `place. The mesh is right.${forbidden}`;
+    if (isRight) {
+      return `The end: ${Lesson.countText(pieces, "piece")} for ${
+                 Lesson.countText(loops, "loop")}, each in its place. ` +
+          `The mesh is right.${forbidden}`;
+    }
     const cut = frame.kind === "end" ? "" : " The run was cut.";
-    return `The end, and the mesh is wrong: ${complaints.join("; ")}.${forbidden}${cut}`;
+    return `The end, and the mesh is wrong: ${complaints.join("; ")}.${forbidden}${cut}${remedy(certificate, left)}`;
   };
 
   const row = (name, value, sign, limit) => ({
@@ -123,8 +133,7 @@ Lesson.planeStory = (() => {
           title: capital(edgeText(edge)),
           remark,
           rows: [
-            row("hits", edge.hits.length, ">", 1),
-            row("distance of the farthest (nearest)", action.measure, ">", edge.h), ...kept
+            row("hits", edge.hits.length, ">", 1), row("farthest hit, nearest", action.measure, ">", edge.h), ...kept
           ]
         };
       case "extract":

@@ -51,6 +51,16 @@
     }
   });
 
+  // Neighbours in the sequence of Fibonacci span an area of one step of the lattice: far below what doubles see.
+  test("orient sees a single step of the lattice", () => {
+    const step = 2 ** -30;
+    for (let n = 3, a = 1, b = 2; b < 2 ** 34; ++n, [a, b] = [b, a + b]) {
+      const points = [[b * step, a * step], [(a + b) * step, b * step], [0, 0]];
+      equal(Lesson.predicates.orient(...points), orientOracle(points), `Fibonacci number ${n}`);
+      check(orientOracle(points) !== 0, `Fibonacci number ${n} spans nothing`);
+    }
+  });
+
   const checkDelaunay = (delaunay, what) => {
     const {points, triangles} = delaunay;
     const real = triangles.filter((triangle) => !delaunay.isGhost(triangle));
@@ -109,6 +119,16 @@
     for (let seed = 0; seed < 1500; ++seed) {
       const field = Lesson.fields.named(seed % 3 ? "noise" : "bumps", seed);
       equal(new Lesson.LevelSet(field).loopCount, Lesson.countLoopsByRegions(field), `seed ${seed}`);
+    }
+  });
+
+  test("a point of a curve lies on the loop of its arc", () => {
+    for (let seed = 0; seed < 40; ++seed) {
+      const levelSet = new Lesson.LevelSet(Lesson.fields.named("noise", seed));
+      levelSet.curves().forEach((curve, k) => {
+        const {cell, loop} = levelSet.arcs[k];
+        for (const p of curve.slice(1, -1)) equal(levelSet.loopAt(p), loop, `seed ${seed}, cell ${cell}`);
+      });
     }
   });
 

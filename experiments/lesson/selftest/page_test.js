@@ -113,6 +113,15 @@
       press("t");
       const isHandled = !press("ArrowRight");
       check(isHandled, "arrows do not scroll the page");
+      goTo(`#${chapter.name}/0`);
+      const pressIn = (element, key) => element.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true}));
+      pressIn(page.cards.layers.querySelector("input"), "ArrowRight");
+      equal(player.step, 1, "arrows work while a layer's box has the focus");
+      const number = Lesson.element("input", {type: "number"});
+      page.panel.append(number);
+      pressIn(number, "ArrowRight");
+      equal(player.step, 1, "a number keeps its keys");
+      number.remove();
       press(" ");
       player.pause();
     }

@@ -11,6 +11,9 @@ Lesson.SpaceChapter = class {
     this.pointer = this.turning();
   }
 
+  // The kinds of one stage: refusals of both have the same mark and the same key.
+  keepKinds(names) { this.kinds = Object.fromEntries(names.map((name) => [name, Lesson.spaceStory.kinds[name]])); }
+
   open(context) { this.context = context; }
 
   steps() { return this.list; }
