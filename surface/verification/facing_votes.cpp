@@ -31,10 +31,20 @@ std::optional<double> pass_of(const std::array<Vec3, 3>& corners, const Vec3& on
   return (weight[0] * corners[0][axis] + weight[1] * corners[1][axis] + weight[2] * corners[2][axis]) / sum;
 }
 
-// Passes of a component: towards lower values, and towards higher ones.
+// Passes of a component: towards lower values, and towards higher ones. And the area that faces down the gradient, less
+// that which faces up: where sheets are thin passes alone would call right components reversed, and across bends of
+// thin tubes areas alone would.
 struct Votes {
   std::int64_t down = 0, up = 0;
+  double area_down = 0;
 };
+
+double area_down(const std::array<Vec3, 3>& corners, const IsosurfaceProbe& probe) {
+  const Vec3 gradient = probe.gradient((corners[0] + corners[1] + corners[2]) / 3);
+  const double steepness = norm_of_any_size(gradient);
+  if (!(steepness > 0)) return 0;
+  return -dot(cross(corners[1] - corners[0], corners[2] - corners[0]), gradient / steepness);
+}
 
 // The vote of a triangle at its pass of a line beside a grid edge. The line's ends have to lie on the sides that the
 // edge's samples lie on: else the isosurface runs along the edge, and not across it.
@@ -100,10 +110,13 @@ std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
     for (std::size_t axis = 0; axis < 3; ++axis) add_votes(corners, axis, probe, votes[component_of_vertex[a]]);
+    votes[component_of_vertex[a]].area_down += area_down(corners, probe);
   }
   std::vector<std::int64_t> sums;
-  for (const auto& [down, up] : votes)
-    sums.push_back(up > kMostAgainst * down ? down - up : std::max<std::int64_t>(0, down - up));
+  for (const auto& [down, up, area] : votes) {
+    const bool is_against = up > kMostAgainst * down && area < 0;
+    sums.push_back(is_against ? down - up : std::max<std::int64_t>(0, down - up));
+  }
   return sums;
 }
 
