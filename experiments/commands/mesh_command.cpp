@@ -322,7 +322,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   command.add_help("--help-parameters", "The parameters of --config and --set, with their defaults", parameters_help);
   command.examples(
       "deliso mesh head.nrrd --isovalue 50 -o head.ply\n"
-      "deliso mesh head.nii.gz --isovalue 50 --set boundary=closed -o head.smesh && tetgen -pqA head.smesh\n"
+      "deliso mesh head.nii.gz --isovalue 50 --set boundary=closed -o head.smesh && tetgen -pqAT1e-14 head.smesh\n"
       "deliso mesh engine_256x256x256_uint8.raw --isovalue 100 --set promise.max_distance=0.5 --threads 2 -o e.vtp\n"
       "deliso mesh - --isovalue 50 -o - < head.nrrd | deliso info -");
   command.callback(exit_code, [options] { return run_mesh(*options); });

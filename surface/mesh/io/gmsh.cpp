@@ -62,6 +62,8 @@ void append_script(std::string& text, const std::string& name, const EnclosedPar
   const std::vector<std::vector<std::size_t>> walls = solid_walls(enclosed);
   if (walls.empty() || walls.size() > kMostSolids) return;
   const std::size_t slash = name.rfind('/');
+  // Gmsh would take triangles that meet at less than a tenth of a degree for overlapping ones.
+  text += "geo Mesh.AngleToleranceFacetOverlap = 1e-9;\n";
   text += "geo Merge \"" + name.substr(slash == std::string::npos ? 0 : slash + 1) + "\";\n";
   for (const EnclosedPart& part : enclosed.parts) {
     const std::string tag = std::to_string(part.component + 1);

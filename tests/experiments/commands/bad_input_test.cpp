@@ -145,7 +145,7 @@ TEST_F(BadInput, MissingFileOrFolderInstead) {
 TEST_F(BadInput, UnknownExtension) {
   write_file(folder_ / "v.xyz", "no volume");
   expect_refusal({"info", "@/v.xyz"}, {"v.xyz", ".vtk"});
-  expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.vtk"}, {"m.vtk", ".ply"});
+  expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.xyz"}, {"m.xyz", ".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m"}, {".ply"});
   expect_bad_mesh_options({"--isovalue", "3", "-o", "@/m.ply", "--stage1-out", "@/s.xyz"}, {"s.xyz", ".ply"});
   expect_refusal({"generate", "sphere", "--size", "8", "-o", "@/g.txt"}, {".nrrd"});

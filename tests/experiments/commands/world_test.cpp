@@ -228,7 +228,8 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
   const std::string text = read_file(folder_ / "m.stl");
   EXPECT_NE(text.substr(0, text.find('\n')).find("space left-posterior-superior"), std::string::npos);
   mesh("a.nrrd", "b.stl", {}, false);
-  EXPECT_TRUE(read_file(folder_ / "b.stl").starts_with("DelIso 0.1.0, isovalue 40; space left-posterior-superior"));
+  EXPECT_TRUE(
+      read_file(folder_ / "b.stl").starts_with("DelIso 0.1.0, isovalue 40; promise.max_distance 1; space left"));
 }
 
 TEST_F(WorldTest, LengthsMayBeOfTheWorld) {
