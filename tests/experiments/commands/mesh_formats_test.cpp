@@ -18,7 +18,7 @@
 namespace deliso::testing {
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has_text(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 class MeshFormats : public ::testing::Test {
  protected:
@@ -58,7 +58,7 @@ TEST_F(MeshFormats, VerifyTakesItsBoundFromEveryFormatThatIsRead) {
 TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtp", {"--report", folder_ / "r.json"}).exit_code, 0);
   const ProgramResult text = run_deliso({"info", folder_ / "m.vtp"});
-  EXPECT_TRUE(has(text.out, "enclosed volume") && has(text.out, "volume v.nrrd") && has(text.out, "closed"))
+  EXPECT_TRUE(has_text(text.out, "enclosed volume") && has_text(text.out, "volume v.nrrd") && has_text(text.out, "closed"))
       << text.out;
   const Json info = parse_json(run_deliso({"info", folder_ / "m.vtp", "--json"}).out, "info");
   const Json report = read_json(folder_ / "r.json");
@@ -78,7 +78,7 @@ TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   EXPECT_EQ(cavities, 1);
   // A .vtk file is a volume or a mesh, as its content says.
   ASSERT_EQ(mesh(folder_ / "m.vtk").exit_code, 0);
-  EXPECT_TRUE(has(run_deliso({"info", folder_ / "m.vtk"}).out, "triangles"));
+  EXPECT_TRUE(has_text(run_deliso({"info", folder_ / "m.vtk"}).out, "triangles"));
   EXPECT_EQ(run_deliso({"info", folder_ / "m.msh"}).exit_code, 2);
 }
 
@@ -91,21 +91,21 @@ TEST_F(MeshFormats, StandardInputAndOutputAreVolumesMeshesAndReports) {
   EXPECT_EQ(read_mesh(folder_ / "out.vtp").points, read_mesh(folder_ / "m.ply").points);
   const ProgramResult verified = shell("cat $F/m.ply | $D verify - $F/v.nrrd --isovalue 100.5 --closed");
   EXPECT_EQ(verified.exit_code, 0) << verified.err;
-  EXPECT_TRUE(has(shell("cat $F/out.vtp | $D info -").out, "VTP"));
-  EXPECT_TRUE(has(shell("cat $F/v.nrrd | $D info -").out, "NRRD"));
+  EXPECT_TRUE(has_text(shell("cat $F/out.vtp | $D info -").out, "VTP"));
+  EXPECT_TRUE(has_text(shell("cat $F/v.nrrd | $D info -").out, "NRRD"));
   const ProgramResult raw = shell("tail -c 13824 $F/raw | $D info - --volume-format raw --dims 24,24,24 --type u8");
   EXPECT_EQ(raw.exit_code, 2);  // there is no such file: nothing comes
   const ProgramResult report = mesh(folder_ / "x.ply", {"--report", "-"});
   EXPECT_EQ(parse_json(report.out, "report")["components"], 4);
-  EXPECT_TRUE(has(report.err, "proven"));
+  EXPECT_TRUE(has_text(report.err, "proven"));
   EXPECT_EQ(shell("$D generate torus --size 12 -o - | $D topology - --isovalue 0.7").exit_code, 0);
   // One stream, one use; and what is no volume is named.
-  EXPECT_TRUE(has(mesh("-", {"--report", "-"}).err, "--report: standard output is that of -o already"));
-  EXPECT_TRUE(has(shell("$D verify - - --isovalue 1").err, "standard input is that of MESH already"));
-  EXPECT_TRUE(has(shell("echo hello | $D info -").err, "standard input: its beginning tells no format"));
-  EXPECT_TRUE(has(shell("echo hello | $D verify - $F/v.nrrd --isovalue 1").err, "expected --format"));
-  EXPECT_TRUE(has(mesh(folder_ / "x.foo").err, ".vtp or .glb, found"));
-  EXPECT_TRUE(has(mesh(folder_ / "x.ply", {"--msh-version", "3"}).err, "expected 4.1 or 2.2, found '3'"));
+  EXPECT_TRUE(has_text(mesh("-", {"--report", "-"}).err, "--report: standard output is that of -o already"));
+  EXPECT_TRUE(has_text(shell("$D verify - - --isovalue 1").err, "standard input is that of MESH already"));
+  EXPECT_TRUE(has_text(shell("echo hello | $D info -").err, "standard input: its beginning tells no format"));
+  EXPECT_TRUE(has_text(shell("echo hello | $D verify - $F/v.nrrd --isovalue 1").err, "expected --format"));
+  EXPECT_TRUE(has_text(mesh(folder_ / "x.foo").err, ".vtp or .glb, found"));
+  EXPECT_TRUE(has_text(mesh(folder_ / "x.ply", {"--msh-version", "3"}).err, "expected 4.1 or 2.2, found '3'"));
 }
 
 // The numbers of an array of a legacy VTK file as text.
