@@ -15,6 +15,7 @@
 #include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
 #include "volume/isovalue_range.h"
+#include "volume/region.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
@@ -121,7 +122,14 @@ void add_volume_options(Command& command, VolumeOptions& options) {
       .check(refuse_empty_value);
 }
 
+void add_region_option(Command& command, VolumeOptions& options) {
+  command.add_option("--region", options.region, "The samples i0:i1,j0:j1,k0:k1 alone, the last ones included")
+      .type_name("R")
+      .check(refuse_empty_value);
+}
+
 Volume load_volume(const VolumeOptions& options) {
+  const SampleRegion region = options.region.empty() ? SampleRegion() : parse_region(options.region, "--region");
   const bool described = !options.dims.empty() || !options.type.empty() || !options.endian.empty() ||
                          !options.spacing.empty() || !options.skip.empty();
   const bool is_stream = is_standard_stream(options.path);
@@ -143,7 +151,9 @@ Volume load_volume(const VolumeOptions& options) {
   read.array = options.array;
   if (is_stream) return volume_of_standard_input(read, options.format);
   end_where_input_shrinks(options.path);
-  return read_placed_volume(options.path, read);
+  Volume volume = read_placed_volume(options.path, read);
+  if (!region.is_all()) volume.grid = cropped(volume.grid, region);
+  return volume;
 }
 
 void check_isovalue(const ScalarGrid& grid, double isovalue) {

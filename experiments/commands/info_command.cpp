@@ -139,6 +139,7 @@ void add_info_command(CommandLine& line, ExitCode& exit_code) {
   Command command = line.add_command("info", "What a volume holds, with suggested isovalues, or what a mesh is");
   add_volume_options(command, options->volume);
   add_mesh_input_option(command, options->mesh);
+  add_region_option(command, options->volume);
   command.add_flag("--json", options->json, "Print JSON");
   command.add_option("--report", options->report, "Write the JSON to a file")
       .type_name("FILE")

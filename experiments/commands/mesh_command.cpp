@@ -15,6 +15,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/commands/mesh_fields.h"
 #include "experiments/commands/mesh_output.h"
+#include "experiments/commands/size_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
@@ -36,6 +37,7 @@ namespace {
 struct MeshCommandOptions {
   VolumeOptions volume;
   WorldOptions world;
+  SizeOptions sizes;
   std::string isovalue;
   std::string output;
   MeshFormatOptions format;
@@ -55,6 +57,7 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   if (!options.config.empty()) parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments)
     set_parameter(with_length_in_voxels(assignment, volume), parameters);
+  apply_size_options(options.sizes, volume, parameters);
   return parameters;
 }
 
@@ -90,7 +93,7 @@ MeshFileOptions file_options(const MeshCommandOptions& options, const MeshRun& r
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
   file.comments = mesh_comments(options.volume.path, run.volume_sha256, result.isovalue_used,
-                                parameters.promise.max_distance, world);
+                                result.promised_distance, world, kept_comments(parameters, result));
   if (holds_fields(*file.format))
     file.attributes = mesh_fields(result, run.grid, parameters, world.from_grid, run.options.threads);
   return file;
@@ -130,7 +133,7 @@ void print_summary(const MeshingResult& result, const MeshingOptions& options, s
          << (is_proven(result.certificate) ? "proven" : "not proven")
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
          << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-         << number_text(options.parameters.promise.max_distance) << " voxel)\n";
+         << number_text(result.promised_distance) << " voxel)\n";
 }
 
 // The triangles that could not be brought to the angle asked for, and where the worst of them is.
@@ -149,6 +152,9 @@ void print_remarks(const MeshRun& run, const World& world, const MeshingResult& 
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
   remark_isovalue(run.grid, run.isovalue, result.isovalue_used);
   remark_shape(result.shape, run.options.parameters);
+  for (const std::string& remark : size_remarks(run.options.parameters, result)) {
+    std::cerr << "deliso: " << remark << '\n';
+  }
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;
@@ -174,7 +180,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   meshing.parameters = resolved_parameters(options, nullptr);
   check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
-  meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  meshing.threads = parse_threads(options.threads);
   check_outputs(options);
   const MeshFormat format = output_format(options.output, "-o", options.format);
   meshing.keep_stage1_mesh = !options.stage1_output.empty() || holds_fields(format);
@@ -189,6 +195,12 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
+    if (!options.quiet) {
+      watched.before_refine = [&parameters = meshing.parameters](double expected, double crossings) {
+        const std::string remark = many_vertices_remark(parameters, expected, crossings);
+        if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
+      };
+    }
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
     return mesh_isosurface(grid, isovalue, watched);
   }();
@@ -231,7 +243,10 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
       .type_name("MESH")
       .check(refuse_empty_name);
-  command.add_option("--threads", options->threads, "Threads to use").type_name("N").show_default();
+  command.add_option("--threads", options->threads, "Threads to use, or auto: as many as the machine has")
+      .type_name("N")
+      .show_default();
+  add_size_options(command, options->sizes);
   add_world_options(command, options->world);
   add_mesh_output_options(command, options->format);
   command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");

@@ -92,6 +92,7 @@ void add_topology_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<TopologyCommandOptions>();
   Command command = line.add_command("topology", "Exact topology of an isosurface, without a mesh");
   add_volume_options(command, options->volume);
+  add_region_option(command, options->volume);
   command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
   command.add_option("--report", options->report, "Write the result as JSON")
       .type_name("FILE")

@@ -11,6 +11,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/mesh_output.h"
+#include "experiments/commands/size_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
@@ -31,6 +32,7 @@ struct VerifyCommandOptions {
   WorldOptions world;
   std::string isovalue;
   std::string report;
+  std::string dropped;       // empty: what the mesh file says, or else none
   std::string max_distance;  // empty: what the mesh file promises, or else the default
   bool closed = false;
   bool ignore_spacing = false;
@@ -125,7 +127,7 @@ Json verify_report(const VerifyCommandOptions& options, const Volume& volume, co
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
               {"triangles", v.triangles},
-              {"promise", {{"max_distance", promise.max_distance}}},
+              {"promise", {{"max_distance", promise.max_distance}, {"dropped_components", promise.dropped_components}}},
               {"proven", v.proven},
               {"failures", v.failures},
               {"checks", checks_json(v)},
@@ -179,19 +181,27 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
   grid = ScalarGrid(grid.dims(), grid.samples());
 }
 
+std::int64_t parse_dropped(const std::string& text) {
+  return static_cast<std::int64_t>(parse_count(text, "--dropped", 0, std::uint64_t{1} << 53));
+}
+
 ExitCode run_verify(const VerifyCommandOptions& options) {
   const double isovalue = parse_number(options.isovalue, "--isovalue");
   const bool is_given = !options.max_distance.empty();
   if (is_given && parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
     throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
   }
+  if (!options.dropped.empty()) parse_dropped(options.dropped);
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   check_space(options.world.space);
   check_one_standard_input({{"MESH", options.mesh}, {"VOLUME", options.volume.path}});
   MeshFile file = read_mesh_input(options.mesh, options.format);
   TriangleMesh mesh = std::move(file.mesh);
-  const Volume volume = load_volume(options.volume);
+  const KeptInFile kept = kept_in_file(file.comments);
+  VolumeOptions volume_options = options.volume;
+  if (volume_options.region.empty()) volume_options.region = kept.region;
+  const Volume volume = load_volume(volume_options);
   const ScalarGrid& grid = volume.grid;
   const World world = world_of(volume, options.world);
   const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
@@ -202,7 +212,8 @@ ExitCode run_verify(const VerifyCommandOptions& options) {
   ScalarGrid judged = grid;
   if (options.ignore_spacing) forget_spacing(mesh, judged);
   if (options.closed) judged = padded(judged, judged.range().first);
-  const Promise promise{.max_distance = max_distance};
+  const Promise promise{.max_distance = max_distance,
+                        .dropped_components = options.dropped.empty() ? kept.dropped : parse_dropped(options.dropped)};
   Verification verification = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal());
     return verify_mesh(mesh, judged, isovalue, promise,
@@ -238,6 +249,7 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   add_mesh_input_option(command, options->format);
   add_volume_options(command, options->volume);
+  add_region_option(command, options->volume);
   command.add_option("--isovalue", options->isovalue, "The value of the isosurface").type_name("K").required();
   command.add_option("--report", options->report, "Write every figure as JSON")
       .type_name("FILE")
@@ -248,6 +260,12 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
           "How far mesh and isosurface may be off each other: voxels, or like 0.5mm (default: what the mesh file "
           "promises, or 1)")
       .type_name("D")
+      .check(refuse_empty_value);
+  command
+      .add_option(
+          "--dropped", options->dropped,
+          "So many components of the isosurface were left out on purpose (default: what the mesh file says, or 0)")
+      .type_name("N")
       .check(refuse_empty_value);
   add_world_options(command, options->world);
   command.add_flag("--closed", options->closed, "Pad the volume so that the surface closes (boundary = closed)");
