@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "surface/base/controls.h"
 #include "surface/base/observer.h"
@@ -16,6 +17,8 @@
 #include "surface/recover/recover_options.h"
 #include "surface/refine/refine_options.h"
 #include "surface/shape/shape_options.h"
+#include "surface/sizes/component_filter.h"
+#include "surface/sizes/decimation_options.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -25,7 +28,10 @@ struct MeshingOptions {
   std::uint64_t seed = 1;
   std::int32_t threads = 1;
   std::function<void(const Progress&)> progress;  // may be empty
-  const std::atomic<bool>* stop = nullptr;        // set to true from outside: finish early with a valid partial mesh
+  // Called once before stage 2, with about how many vertices it is going to make, and how many edges of the grid the
+  // isosurface crosses; may be empty.
+  std::function<void(double expected, double crossings)> before_refine;
+  const std::atomic<bool>* stop = nullptr;  // set to true from outside: finish early with a valid partial mesh
   bool keep_stage1_mesh = false;
   Observer* observer = nullptr;  // told of every step, see there
 };
@@ -49,7 +55,12 @@ struct MeshingResult {
   RepairStats repair;
   RefineStats refine;
   ShapeStats shape;
+  DecimationStats decimation;
+  std::vector<DroppedPiece> dropped;  // components left out, the largest first; their places are in the world
   Certificate certificate;
+  double longest_edge = 0;       // of the mesh, in smallest spacings
+  double promised_distance = 1;  // of mesh and isosurface, in smallest spacings: that of the parameters, or a larger
+                                 // one that size.target_vertices took
   double total_seconds = 0;
 
   [[nodiscard]] bool stopped_early() const { return !stopped_in.empty(); }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <limits>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
@@ -14,6 +15,7 @@
 #include "experiments/system/standard_input.h"
 #include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
+#include "volume/region.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
@@ -120,7 +122,29 @@ void add_volume_options(Command& command, VolumeOptions& options) {
       .check(refuse_empty_value);
 }
 
+void add_region_option(Command& command, VolumeOptions& options) {
+  command.add_option("--region", options.region, "The samples i0:i1,j0:j1,k0:k1 alone, the last ones included")
+      .type_name("R")
+      .check(refuse_empty_value);
+}
+
+namespace {
+
+// The samples of a region alone, those that are not finite among them counted anew.
+void crop(Volume& volume, const SampleRegion& region) {
+  if (volume.as_read) {
+    Samples kept = cropped(*volume.as_read, volume.grid.dims(), region);
+    volume.not_finite = count_not_finite(kept);
+    volume.as_read.reset();
+    if (volume.not_finite.count() > 0) volume.as_read = std::move(kept);
+  }
+  volume.grid = cropped(volume.grid, region);
+}
+
+}  // namespace
+
 Volume load_volume(const VolumeOptions& options) {
+  const SampleRegion region = options.region.empty() ? SampleRegion() : parse_region(options.region, "--region");
   const bool described = !options.dims.empty() || !options.type.empty() || !options.endian.empty() ||
                          !options.spacing.empty() || !options.skip.empty();
   const bool is_stream = is_standard_stream(options.path);
@@ -141,9 +165,10 @@ Volume load_volume(const VolumeOptions& options) {
   }
   read.array = options.array;
   read.accepts_not_finite = true;
-  if (is_stream) return volume_of_standard_input(read, options.format);
-  end_where_input_shrinks(options.path);
-  return read_placed_volume(options.path, read);
+  if (!is_stream) end_where_input_shrinks(options.path);
+  Volume volume = is_stream ? volume_of_standard_input(read, options.format) : read_placed_volume(options.path, read);
+  if (!region.is_all()) crop(volume, region);
+  return volume;
 }
 
 void remark_isovalue(const ScalarGrid* grid, double isovalue, double used) {

@@ -21,9 +21,12 @@ struct VolumeOptions {
   std::string channel;
   std::string array;
   std::string format;  // of standard input
+  std::string region;  // of samples; empty: all
 };
 
 void add_volume_options(Command& command, VolumeOptions& options);
+// --region; `mesh` has one of its own, which is a parameter.
+void add_region_option(Command& command, VolumeOptions& options);
 
 // Throws InputError when the file or the options are wrong. NaN and infinities are told by the volume.
 Volume load_volume(const VolumeOptions& options);

@@ -225,6 +225,7 @@ void add_info_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--smooth", options->smooth, "The histogram of the field smoothed as by mesh --smooth")
       .type_name("SIGMA")
       .check(refuse_empty_value);
+  add_region_option(command, options->volume);
   command.add_flag("--json", options->json, "Print JSON");
   command.add_option("--report", options->report, "Write the JSON to a file")
       .type_name("FILE")

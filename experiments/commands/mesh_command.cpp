@@ -20,6 +20,7 @@
 #include "experiments/commands/label_files.h"
 #include "experiments/commands/mesh_fields.h"
 #include "experiments/commands/mesh_output.h"
+#include "experiments/commands/size_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
 #include "experiments/runs/record.h"
@@ -42,6 +43,7 @@ struct MeshCommandOptions {
   VolumeOptions volume;
   WorldOptions world;
   FieldOptions field;
+  SizeOptions sizes;
   std::string output;
   MeshFormatOptions format;
   std::string config;
@@ -61,6 +63,7 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   for (const std::string& assignment : options.assignments)
     set_parameter(with_length_in_voxels(assignment, volume), parameters);
   apply_field_options(options.field, volume, parameters.field);
+  apply_size_options(options.sizes, volume, parameters);
   return parameters;
 }
 
@@ -113,12 +116,14 @@ MeshFileOptions file_options(const MeshCommandOptions& options, const Meshed& me
   file.ascii = options.ascii;
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
-  file.comments =
-      mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used, parameters.promise.max_distance, world);
+  file.comments = mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used,
+                                meshed.result.promised_distance, world, kept_comments(parameters, meshed.result));
   append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, file.comments);
   if (holds_fields(*file.format)) {
-    file.attributes = mesh_fields(meshed.result, meshed.chosen.grid, meshed.chosen.isovalue, parameters,
-                                  world.from_grid, meshed.meshing.threads);
+    const SampleRegion region = region_of(parameters.region);
+    const ScalarGrid& grid = meshed.chosen.grid;
+    file.attributes = mesh_fields(meshed.result, region.is_all() ? grid : cropped(grid, region), meshed.chosen.isovalue,
+                                  parameters, world.from_grid, meshed.meshing.threads);
   }
   return file;
 }
@@ -174,7 +179,7 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
          << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
          << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-         << number_text(options.parameters.promise.max_distance) << " voxel"
+         << number_text(result.promised_distance) << " voxel"
          << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }
 
@@ -204,9 +209,11 @@ void print_volume_remarks(const MeshCommandOptions& options, const Volume& volum
 void print_remarks(const MeshCommandOptions& options, const Meshed& meshed) {
   const MeshingResult& result = meshed.result;
   const ChosenField& chosen = meshed.chosen;
+  const Parameters& parameters = meshed.meshing.parameters;
   const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
   remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
-  remark_shape(result.shape, meshed.meshing.parameters);
+  remark_shape(result.shape, parameters);
+  for (const std::string& remark : size_remarks(parameters, result)) std::cerr << "deliso: " << remark << '\n';
   const MeshRun run{options.volume.path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
   for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
@@ -234,6 +241,12 @@ Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const W
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
+    if (!options.quiet) {
+      watched.before_refine = [&parameters = meshing.parameters](double expected, double crossings) {
+        const std::string remark = many_vertices_remark(parameters, expected, crossings);
+        if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
+      };
+    }
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
     return mesh_isosurface(chosen.grid, chosen.isovalue, watched);
   }();
@@ -253,7 +266,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   meshing.parameters = resolved_parameters(options, nullptr);
   check_space(options.world.space);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
-  meshing.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  meshing.threads = parse_threads(options.threads);
   const MeshFormat format = output_format(options.output, "-o", options.format);
   meshing.keep_stage1_mesh = !options.stage1_output.empty() || holds_fields(format);
   std::vector<std::int32_t> labels = parse_labels(options.field.label);
@@ -314,7 +327,10 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--stage1-out", options->stage1_output, "Write the mesh as it is after stage 1 (Recover)")
       .type_name("MESH")
       .check(refuse_empty_name);
-  command.add_option("--threads", options->threads, "Threads to use").type_name("N").show_default();
+  command.add_option("--threads", options->threads, "Threads to use, or auto: as many as the machine has")
+      .type_name("N")
+      .show_default();
+  add_size_options(command, options->sizes);
   add_world_options(command, options->world);
   add_mesh_output_options(command, options->format);
   command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");

@@ -121,7 +121,7 @@ PictureOptions parse_picture_options(const RenderCommandOptions& options) {
   picture.line_width = number_in(options.line_width, "--line-width", 0, 100);
   picture.threads = options.threads.empty()
                         ? static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency()))
-                        : static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+                        : parse_threads(options.threads);
   return picture;
 }
 
@@ -218,6 +218,7 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<RenderCommandOptions>();
   Command command = line.add_command("render", "A picture of an isosurface by ray casting, or of meshes of it");
   add_volume_options(command, options->volume);
+  add_region_option(command, options->volume);
   const auto add = [&command](const std::string& name, auto& value, const std::string& help, const std::string& type) {
     return command.add_option(name, value, help).type_name(type);
   };

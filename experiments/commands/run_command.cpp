@@ -82,7 +82,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   runner.data_folder = data_folder(options);
   runner.out_folder = options.out.empty() ? fs::path("out") / experiment.name : fs::path(options.out);
   runner.shard = parse_shard(options.shard);
-  runner.threads = static_cast<std::int32_t>(parse_count(options.threads, "--threads", 1, 1024));
+  runner.threads = parse_threads(options.threads);
   runner.resume = options.resume;
   if (options.dry_run) {
     print_plan(experiment, runner);

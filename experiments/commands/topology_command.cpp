@@ -97,6 +97,7 @@ void add_topology_command(CommandLine& line, ExitCode& exit_code) {
   const auto options = std::make_shared<TopologyCommandOptions>();
   Command command = line.add_command("topology", "Exact topology of an isosurface, without a mesh");
   add_volume_options(command, options->volume);
+  add_region_option(command, options->volume);
   add_isovalue_option(command, options->field);
   add_field_options(command, options->field);
   command.add_option("--report", options->report, "Write the result as JSON")

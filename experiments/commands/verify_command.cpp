@@ -17,6 +17,7 @@
 #include "experiments/commands/field_options.h"
 #include "experiments/commands/label_files.h"
 #include "experiments/commands/mesh_output.h"
+#include "experiments/commands/size_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
@@ -37,6 +38,7 @@ struct VerifyCommandOptions {
   WorldOptions world;
   FieldOptions field;
   std::string report;
+  std::string dropped;       // empty: what the mesh file says, or else none
   std::string max_distance;  // empty: what the mesh file promises, or else the default
   bool closed = false;
   bool ignore_spacing = false;
@@ -140,7 +142,7 @@ Json verify_report(const VerifyCommandOptions& options, const Volume& volume, co
               {"isovalue_used", v.isovalue_used},
               {"vertices", v.vertices},
               {"triangles", v.triangles},
-              {"promise", {{"max_distance", promise.max_distance}}},
+              {"promise", {{"max_distance", promise.max_distance}, {"dropped_components", promise.dropped_components}}},
               {"proven", v.proven},
               {"failures", v.failures},
               {"checks", checks_json(v)},
@@ -234,12 +236,17 @@ void print_judged(const Json& report, const Volume& volume, const VerifyCommandO
   }
 }
 
+std::int64_t parse_dropped(const std::string& text) {
+  return static_cast<std::int64_t>(parse_count(text, "--dropped", 0, std::uint64_t{1} << 53));
+}
+
 ExitCode run_verify(VerifyCommandOptions options) {
   check_field_options(options.field);
   const bool is_given = !options.max_distance.empty();
   if (is_given && parse_length(options.max_distance, "--max-distance", nullptr) <= 0) {
     throw InputError("--max-distance: expected a number > 0, found '" + options.max_distance + "'");
   }
+  if (!options.dropped.empty()) parse_dropped(options.dropped);
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   check_space(options.world.space);
@@ -249,11 +256,14 @@ ExitCode run_verify(VerifyCommandOptions options) {
   // What is not given is taken from the mesh's file.
   if (take_field_notes(file.comments, options.field)) options.closed = true;
   check_field_options(options.field);
+  const KeptInFile kept = kept_in_file(file.comments);
+  if (options.volume.region.empty()) options.volume.region = kept.region;
   const Volume volume = load_volume(options.volume);
   const World world = world_of(volume, options.world);
   const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
                                        : promised_distance(file.comments).value_or(PromiseParameters().max_distance);
-  const Promise promise{.max_distance = max_distance};
+  const Promise promise{.max_distance = max_distance,
+                        .dropped_components = options.dropped.empty() ? kept.dropped : parse_dropped(options.dropped)};
 
   FieldParameters parameters;
   apply_field_options(options.field, &volume, parameters);
@@ -287,6 +297,7 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   add_mesh_input_option(command, options->format);
   add_volume_options(command, options->volume);
+  add_region_option(command, options->volume);
   add_isovalue_option(command, options->field);
   add_field_options(command, options->field);
   command.add_option("--report", options->report, "Write every figure as JSON")
@@ -298,6 +309,12 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
           "How far mesh and isosurface may be off each other: voxels, or like 0.5mm (default: what the mesh file "
           "promises, or 1)")
       .type_name("D")
+      .check(refuse_empty_value);
+  command
+      .add_option(
+          "--dropped", options->dropped,
+          "So many components of the isosurface were left out on purpose (default: what the mesh file says, or 0)")
+      .type_name("N")
       .check(refuse_empty_value);
   add_world_options(command, options->world);
   command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");

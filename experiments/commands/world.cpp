@@ -82,8 +82,9 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 }
 
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {
-  constexpr std::array<std::string_view, 4> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
-                                                     "promise.max_distance", "field.smooth"};
+  constexpr std::array<std::string_view, 6> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
+                                                     "promise.max_distance",     "field.smooth",
+                                                     "size.max_error",           "size.max_edge"};
   const std::size_t equals = assignment.find('=');
   const std::string key = assignment.substr(0, equals);
   if (equals == std::string::npos || std::find(kLengths.begin(), kLengths.end(), key) == kLengths.end())
@@ -98,10 +99,11 @@ constexpr std::string_view kPromise = "promise.max_distance";
 }
 
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
-                                       double promised, const World& world) {
+                                       double promised, const World& world, const std::vector<std::string>& more) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
   lines.push_back(std::string(kPromise) + " " + shortest_text(promised));
+  lines.insert(lines.end(), more.begin(), more.end());
   lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;

@@ -15,6 +15,7 @@ constexpr std::array<std::string_view, 2> kAlgorithmNames = {"two_stage", "full3
 constexpr std::array<std::string_view, 2> kSeedingNames = {"components", "random"};
 constexpr std::array<std::string_view, 2> kBoundaryNames = {"open", "closed"};
 constexpr std::array<std::string_view, 2> kSpacingNames = {"use", "ignore"};
+constexpr std::array<std::string_view, 2> kRMinOfNames = {"surface", "box"};
 constexpr std::array<std::string_view, 3> kQueueOrderNames = {"worst_first", "fifo", "largest_radius"};
 constexpr std::array<std::string_view, 2> kCriterion2Names = {"circumradius", "shortest_edge"};
 constexpr std::array<std::string_view, 2> kNewPoleNames = {"mean", "nearest"};
@@ -26,6 +27,7 @@ constexpr std::span<const std::string_view> names_of(Algorithm) { return kAlgori
 constexpr std::span<const std::string_view> names_of(Seeding) { return kSeedingNames; }
 constexpr std::span<const std::string_view> names_of(Boundary) { return kBoundaryNames; }
 constexpr std::span<const std::string_view> names_of(SpacingUse) { return kSpacingNames; }
+constexpr std::span<const std::string_view> names_of(RMinOf) { return kRMinOfNames; }
 constexpr std::span<const std::string_view> names_of(QueueOrder) { return kQueueOrderNames; }
 constexpr std::span<const std::string_view> names_of(Criterion2) { return kCriterion2Names; }
 constexpr std::span<const std::string_view> names_of(NewPole) { return kNewPoleNames; }
@@ -124,6 +126,7 @@ constexpr ParameterRange kAny{};
 constexpr ParameterRange kPositive{0, true};
 constexpr ParameterRange kNotNegative{0, false};
 constexpr ParameterRange kAtLeastOne{1, false};
+constexpr ParameterRange kAtLeastThree{3, false};
 constexpr ParameterRange kAtLeastFour{4, false};
 constexpr ParameterRange kAngle{0, true, 35};
 constexpr ParameterRange kAnyInteger{std::numeric_limits<std::int32_t>::min(), false};
@@ -131,6 +134,9 @@ constexpr ParameterRange kAnyInteger{std::numeric_limits<std::int32_t>::min(), f
 // What both stages do.
 constexpr std::string_view kTooHigh = "refine a triangle whose height over its circumradius is above this";
 constexpr std::string_view kTooThin = "refine a triangle whose circumradius over its shortest edge is above this";
+
+constexpr std::string_view kFirst = "the first sample along this axis; null: that of the volume";
+constexpr std::string_view kLast = "the last sample along this axis, included; null: that of the volume";
 
 using P = Parameters;
 constexpr std::array kTable = {
@@ -177,6 +183,9 @@ constexpr std::array kTable = {
     row<&P::stage2, &Stage2Parameters::pole_height>("stage2.pole_height", kAny, "",
                                                     "which of a vertex's two poles gives its pole height; nearer is "
                                                     "the paper's, the others need repair.max_rounds = 0"),
+    row<&P::r_min_of>("r_min_of", kAny, "",
+                      "what r_min is a fraction of: the smallest side of the box of the cells that the isosurface "
+                      "passes, or of the volume's box, as in the paper"),
     row<&P::queue_order>("queue_order", kAny, "", "which violation of the same kind is mended first"),
     row<&P::field, &FieldParameters::label>("field.label", kAnyInteger, "",
                                             "mesh the surface of the samples with this value, half-way between them "
@@ -215,6 +224,39 @@ constexpr std::array kTable = {
         "promise.max_distance", kPositive, "voxels",
         "a proven mesh and its isosurface are within this of each other; where they are not, refinement goes on "
         "(unless repair.max_rounds is 0)"),
+    row<&P::size, &SizeParameters::max_error>("size.max_error", kPositive, "voxels",
+                                              "mesh and isosurface are within this of each other: promised in place of "
+                                              "promise.max_distance; the mesh gets as "
+                                              "few vertices as that allows, without criteria 1 and 2 of stage 2"),
+    row<&P::size, &SizeParameters::max_edge>("size.max_edge", kPositive, "voxels", "no edge is longer"),
+    row<&P::size, &SizeParameters::min_angle>("size.min_angle", kAngle, "degrees",
+                                              "no angle is smaller, as far as that can be: sets both rho and "
+                                              "shape.min_angle"),
+    row<&P::size, &SizeParameters::max_aspect>("size.max_aspect", kAtLeastThree, "-",
+                                               "no triangle's longest edge over its smallest height is larger, as far "
+                                               "as that can be: a size.min_angle"),
+    row<&P::size, &SizeParameters::target_vertices>(
+        "size.target_vertices", kAtLeastFour, "vertices",
+        "so many vertices within 2 %, the least error first; what is promised grows to the distance that takes, unless "
+        "size.max_error is given"),
+    row<&P::components, &ComponentParameters::fill_cavities>(
+        "components.fill_cavities", kAny, "",
+        "leave out closed components that bound a hole in what is above the isovalue, and all within them"),
+    row<&P::components, &ComponentParameters::min_vertices>("components.min_vertices", kAtLeastOne, "vertices",
+                                                            "leave out components with fewer vertices in the mesh"),
+    row<&P::components, &ComponentParameters::min_area>("components.min_area", kPositive, "voxels^2",
+                                                        "leave out components of a smaller area"),
+    row<&P::components, &ComponentParameters::min_volume>(
+        "components.min_volume", kPositive, "voxels^3",
+        "leave out closed components that enclose less; open ones stay"),
+    row<&P::components, &ComponentParameters::keep_largest>("components.keep_largest", kAtLeastOne, "components",
+                                                            "keep so many components, those of the largest area"),
+    row<&P::region, &RegionParameters::i0>("region.i0", kNotNegative, "samples", kFirst),
+    row<&P::region, &RegionParameters::i1>("region.i1", kNotNegative, "samples", kLast),
+    row<&P::region, &RegionParameters::j0>("region.j0", kNotNegative, "samples", kFirst),
+    row<&P::region, &RegionParameters::j1>("region.j1", kNotNegative, "samples", kLast),
+    row<&P::region, &RegionParameters::k0>("region.k0", kNotNegative, "samples", kFirst),
+    row<&P::region, &RegionParameters::k1>("region.k1", kNotNegative, "samples", kLast),
     row<&P::repair, &RepairParameters::max_rounds>("repair.max_rounds", kNotNegative, "rounds",
                                                    "mend at most this often where the topology differs; 0: never"),
     row<&P::budget, &BudgetParameters::seconds>("budget.seconds", kPositive, "seconds",

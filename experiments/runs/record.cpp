@@ -80,6 +80,28 @@ Json repair_json(const RepairStats& repair) {
               {"vertices_after", repair.vertices_after}};
 }
 
+Json decimation_json(const DecimationStats& decimation) {
+  return Json{{"seconds", decimation.seconds},
+              {"vertices_before", decimation.vertices_before},
+              {"vertices_after", decimation.vertices_after},
+              {"largest_error_voxels", decimation.largest_error}};
+}
+
+// Components left out on purpose. Positions in the world, measures in voxels.
+Json dropped_json(const std::vector<DroppedPiece>& dropped) {
+  Json list = Json::array();
+  for (const auto& [piece, cause] : dropped) {
+    list.push_back(Json{{"cause", cause == DropCause::kCavity  ? "cavity"
+                                  : cause == DropCause::kSmall ? "small"
+                                                               : "not_largest"},
+                        {"vertices", piece.vertices},
+                        {"area", piece.area},
+                        {"volume", piece.volume ? Json(*piece.volume) : Json()},
+                        {"position", vector_json(piece.at)}});
+  }
+  return list;
+}
+
 // Finding the exact topology is part of certifying (the seeds use it too), so its time is counted there.
 Json certify_json(const MeshingResult& result) {
   return Json{{"seconds", result.certify_stage.seconds + result.topology.seconds},
@@ -98,10 +120,15 @@ Json initial_json(const MeshingResult& result) {
 
 // In the order of the pipeline.
 Json stages_json(const MeshingResult& result) {
-  return Json{{"index", stage_json(result.index)},       {"initial", initial_json(result)},
-              {"recover", recover_json(result.recover)}, {"repair", repair_json(result.repair)},
-              {"poles", stage_json(result.poles)},       {"build", build_json(result.build)},
-              {"refine", refine_json(result.refine)},    {"shape", shape_json(result)},
+  return Json{{"index", stage_json(result.index)},
+              {"initial", initial_json(result)},
+              {"recover", recover_json(result.recover)},
+              {"repair", repair_json(result.repair)},
+              {"poles", stage_json(result.poles)},
+              {"build", build_json(result.build)},
+              {"refine", refine_json(result.refine)},
+              {"shape", shape_json(result)},
+              {"decimate", decimation_json(result.decimation)},
               {"certify", certify_json(result)}};
 }
 
@@ -233,6 +260,9 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
               {"components", topology.components},
               {"euler_characteristic", topology.euler_characteristic},
               {"boundary_loops", topology.boundary_loops},
+              {"promised_distance_voxels", result.promised_distance},
+              {"longest_edge_voxels", result.longest_edge},
+              {"dropped", dropped_json(result.dropped)},
               {"total_seconds", result.total_seconds},
               {"peak_memory_bytes", peak_memory_bytes()},
               {"stages", stages_json(result)},

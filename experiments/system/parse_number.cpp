@@ -1,8 +1,10 @@
 #include "experiments/system/parse_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <thread>
 
 #include "delaunay/base/check.h"
 
@@ -29,6 +31,14 @@ std::uint64_t parse_count(const std::string& text, const std::string& option, st
                      ", found '" + text + "'");
   }
   return value;
+}
+
+std::int32_t parse_threads(const std::string& text) {
+  constexpr std::uint64_t kMost = 1024;
+  if (text == "auto") {
+    return static_cast<std::int32_t>(std::clamp<std::uint64_t>(std::thread::hardware_concurrency(), 1, kMost));
+  }
+  return static_cast<std::int32_t>(parse_count(text, "--threads", 1, kMost));
 }
 
 std::string refuse_empty_name(const std::string& name) {

@@ -12,6 +12,9 @@ double parse_number(const std::string& text, const std::string& option);
 // A whole number from `low` to `high`. Throws InputError naming the option and the range.
 std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high);
 
+// A number of threads, or "auto": as many as the machine has. Throws InputError naming --threads.
+std::int32_t parse_threads(const std::string& text);
+
 // For CommandOption::check of an option that names a file or folder: an error text when the name is empty, else
 // nothing. An empty name would be treated like a missing option.
 std::string refuse_empty_name(const std::string& name);

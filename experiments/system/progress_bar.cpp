@@ -14,8 +14,8 @@
 namespace deliso {
 namespace {
 
-constexpr std::array<std::string_view, 7> kStages = {"index",  "initial", "recover", "repair",
-                                                     "refine", "shape",   "certify"};
+constexpr std::array<std::string_view, 8> kStages = {"index",  "initial", "recover",  "repair",
+                                                     "refine", "shape",   "decimate", "certify"};
 
 // The stages share the bar evenly. Within a stage, the fraction is vertices done over vertices done plus violations
 // waiting. The number of violations still to come is unknown, so the bar may slow down, but it shows which stage is

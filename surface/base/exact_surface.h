@@ -1,6 +1,9 @@
 // The isosurface as all stages use it: its ray search, and its exact topology.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
 #include "volume/scalar_grid.h"
@@ -13,7 +16,12 @@ struct ExactSurface {
   const Isosurface& isosurface;
   const IsosurfaceTopology& topology;  // empty if the run does not use it
   int threads = 1;                     // only the time depends on it
+  // Whether each component is left out on purpose, so that the mesh need not come near it; empty: none is.
+  std::vector<std::uint8_t> is_dropped = {};
 
+  [[nodiscard]] bool wants(const EdgeCrossing& crossing) const {
+    return is_dropped.empty() || is_dropped[crossing.component] == 0;
+  }
   [[nodiscard]] const ScalarGrid& grid() const { return isosurface.grid(); }
   // Where a crossing lies, in mesh space.
   [[nodiscard]] Vec3 position(const EdgeCrossing& crossing) const {

@@ -8,6 +8,7 @@
 #include "delaunay/base/vec3.h"
 #include "raycast/search_options.h"
 #include "volume/filters/meshed_field.h"
+#include "volume/region.h"
 
 namespace deliso {
 
@@ -18,6 +19,7 @@ enum class SpacingUse { kUse, kIgnore };
 enum class PoleHeight { kNearer, kFarther, kMean };
 enum class Criterion2 { kCircumradius, kShortestEdge };
 enum class NewPole { kMean, kNearest };
+enum class RMinOf { kSurface, kBox };
 enum class QueueOrder { kWorstFirst, kFirstInFirstOut, kLargestRadius };
 
 struct InitialParameters {
@@ -61,6 +63,32 @@ struct PromiseParameters {
   double max_distance = 1;
 };
 
+// Sizes as people state them (surface/base/sizes.h has what follows from them for the stages).
+struct SizeParameters {
+  // Mesh and isosurface are within this of each other, in smallest spacings; > 0. It is promised, and takes the place
+  // of criteria 1 and 2, and the mesh gets as few vertices as that allows.
+  std::optional<double> max_error;
+  std::optional<double> max_edge;    // no longer edge, in smallest spacings; > 0
+  std::optional<double> min_angle;   // no smaller angle, in degrees; > 0, <= 35: sets rho and shape.min_angle
+  std::optional<double> max_aspect;  // no larger longest edge over smallest height; >= 3
+  std::optional<std::int64_t> target_vertices;  // so many vertices, within 2 %; >= 4
+};
+
+// Which components of the isosurface are kept; lengths in smallest spacings. Cavities go first, then small ones, then
+// all but the largest.
+struct ComponentParameters {
+  bool fill_cavities = false;  // leave out closed components that bound a hole in what is above the isovalue
+  std::optional<std::int64_t> min_vertices;  // leave out those whose mesh has fewer vertices; >= 1
+  std::optional<double> min_area;            // or less area; > 0
+  std::optional<double> min_volume;  // or encloses less; > 0. One that ends at the box encloses nothing, and stays.
+  std::optional<std::int64_t> keep_largest;  // keep so many, by area; >= 1
+};
+
+// The samples that are meshed, along each axis from the first to the last, both included.
+struct RegionParameters {
+  std::optional<std::int32_t> i0, i1, j0, j1, k0, k1;  // null: the first, or the last, of the volume
+};
+
 struct BudgetParameters {
   std::optional<double> seconds;             // stop refining after this wall-clock time; > 0
   std::optional<std::int64_t> max_vertices;  // stop refining at this many vertices; >= 4
@@ -71,6 +99,8 @@ struct Parameters {
   InitialParameters initial;
   Stage1Parameters stage1;
   Stage2Parameters stage2;
+  RMinOf r_min_of = RMinOf::kSurface;  // r_min is a fraction of the smallest side of the box of the cells that the
+                                       // isosurface passes, or of the volume's box, as in the paper
   QueueOrder queue_order = QueueOrder::kWorstFirst;
   FieldParameters field;
   Boundary boundary = Boundary::kOpen;
@@ -80,6 +110,9 @@ struct Parameters {
   RepairParameters repair;
   ShapeParameters shape;
   PromiseParameters promise;
+  SizeParameters size;
+  ComponentParameters components;
+  RegionParameters region;
   BudgetParameters budget;
 };
 
@@ -93,6 +126,12 @@ inline bool improves_shape(const Parameters& parameters) {
 
 // Throws InputError when some parameters contradict each other.
 void check_parameters(const Parameters& parameters);
+
+// The region as the grid takes it.
+SampleRegion region_of(const RegionParameters& region);
+
+// Whether any component may be left out.
+bool drops_components(const ComponentParameters& components);
 
 // The sample spacing to mesh with: that of the volume, or 1. Throws InputError when its components differ by a factor
 // above 1000: a mesh adapted to the smallest one grows with the square of that factor.

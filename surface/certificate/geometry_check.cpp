@@ -12,6 +12,7 @@
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/boundary_check.h"
 #include "surface/certificate/other_side.h"
+#include "surface/certificate/triangle_samples.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/occupied_blocks.h"
 #include "surface/search/point_grid.h"
@@ -48,6 +49,10 @@ bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& falling, d
   return is_found || has_other_side_within(isosurface, p, reach);
 }
 
+double squared_longest_of(const std::array<Vec3, 3>& p) {
+  return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
+}
+
 struct Corners {
   std::array<Vec3, 3> p;
   Vec3 normal;  // not of unit length
@@ -55,9 +60,6 @@ struct Corners {
   Corners(const SurfaceMesh& mesh, std::size_t triangle) {
     for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.points[mesh.triangles[triangle][i]];
     normal = cross(p[1] - p[0], p[2] - p[0]);
-  }
-  [[nodiscard]] double squared_longest() const {
-    return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
   }
   // Whether every point of the triangle is within `reach` of a corner: so it is where the longest edge is at most the
   // square root of 3 times that, and where the circumradius is no more.
@@ -69,36 +71,16 @@ struct Corners {
     return std::max({a, b, c}) <= 3 * squared_reach ||
            (std::isfinite(product) && product <= 4 * squared_reach * dot(normal, normal));
   }
+  [[nodiscard]] double squared_longest() const { return squared_longest_of(p); }
 };
 
-// Calls visit(point) for points about a voxel apart on a triangle, the corners left out.
-template <class Visit>
-void for_each_sample(const Corners& corners, double longest, const Visit& visit) {
-  const auto& [a, b, c] = corners.p;
-  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
-  visit((a + b + c) / 3);
-  for (int i = 0; i <= order; ++i) {
-    for (int j = 0; i + j <= order; ++j) {
-      if (std::max({i, j, order - i - j}) == order) continue;
-      visit((double(i) * a + double(j) * b + double(order - i - j) * c) / double(order));
-    }
-  }
-}
-
-// Corners lie on the isosurface, so what is near them needs no look.
 void check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                      GeometryCheck& check) {
-  const double squared_near = promise.max_distance * promise.max_distance;
   std::atomic<std::int64_t> off = 0;
   const auto append_if_far = [&](std::size_t t, std::vector<std::uint32_t>& far) {
     const Corners corners(mesh, t);
     if (corners.all_within(promise.max_distance)) return;
-    std::int64_t count = 0;
-    for_each_sample(corners, std::sqrt(corners.squared_longest()), [&](const Vec3& p) {
-      const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= squared_near; };
-      if (std::any_of(corners.p.begin(), corners.p.end(), is_beside)) return;
-      if (!is_near(surface.isosurface, p, corners.normal, promise.max_distance)) ++count;
-    });
+    const std::int64_t count = count_far_samples(surface.isosurface, corners.p, promise.max_distance);
     if (count == 0) return;
     off += count;
     far.push_back(static_cast<std::uint32_t>(t));
@@ -134,6 +116,7 @@ std::vector<Vec3> crossings_to_ask_for(const SurfaceMesh& mesh, const ExactSurfa
   const PointGrid vertices(mesh.points, 2 * reach), triangles(centroids, kBlock * reach);
   const auto& crossings = surface.topology.crossings;
   return collect_in_blocks<Vec3>(crossings.size(), surface.threads, [&](std::size_t i, std::vector<Vec3>& left) {
+    if (!surface.wants(crossings[i])) return;
     const Vec3 p = surface.position(crossings[i]);
     const auto is_vertex_near = [&](std::uint32_t v) { return squared_distance(p, mesh.points[v]) <= reach * reach; };
     const auto is_centroid_near = [&](std::uint32_t t) { return squared_distance(p, centroids[t]) <= reach * reach; };
@@ -228,6 +211,21 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
 }
 
 }  // namespace
+
+// Corners lie on the isosurface, so what is near them needs no look; and every point of a triangle is within its
+// longest edge over the square root of 3 of a corner.
+std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most) {
+  const double squared_longest = squared_longest_of(corners);
+  if (squared_longest <= 3 * most * most) return 0;
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  std::int64_t count = 0;
+  for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
+    const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= most * most; };
+    if (std::any_of(corners.begin(), corners.end(), is_beside)) return;
+    if (!is_near(isosurface, p, normal, most)) ++count;
+  });
+  return count;
+}
 
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise) {
   GeometryCheck check;

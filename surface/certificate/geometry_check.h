@@ -5,6 +5,7 @@
 // one against it, lie on different sides of the isosurface. That costs two values of the field.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct GeometryCheck {
 
   [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
 };
+
+// How many samples of a triangle are farther than `most` from the isosurface, by the check below.
+std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most);
 
 // Of a mesh in mesh space with the exact topology's crossings. Triangles are sampled where the distances of their
 // corners do not tell, at points one voxel apart. The same for any number of threads.

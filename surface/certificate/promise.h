@@ -17,6 +17,8 @@ struct Promise {
   double max_distance = 1;     // of any point of the mesh from the isosurface, and the other way
   double max_residual = 1e-3;  // of a vertex from the isosurface
   double on_box = 1e-3;        // of a boundary edge from the face of the box that it lies on
+  // So many components of the isosurface are left out on purpose: they have no piece of the mesh, and all others one.
+  std::int64_t dropped_components = 0;
 };
 
 // Distances are sampled at the same points of a triangle by both: at its centroid, and at the points of a lattice about

@@ -19,7 +19,7 @@ struct RecoverOptions {
   int threads = 1;  // the result is the same for any number
 };
 
-// The options of Recover from a run's parameters. Lengths become absolute by the volume's box (in mesh space).
+// The options of Recover from a run's parameters. r_min becomes absolute by a box in mesh space.
 RecoverOptions recover_options(const Parameters& parameters, const Box3& box, int threads);
 // The same for Recover to the thresholds of stage 2, without a stage 2 (the "3D" column of the paper's Table 2).
 RecoverOptions full3d_options(const Parameters& parameters, const Box3& box);

@@ -14,11 +14,12 @@ namespace deliso {
 bool RefineLoop::insert_coverage_targets(Controls& controls, int threads) {
   if (part_.coverage_targets.empty() || controls.poll()) return false;
   const bool is_bounded = std::isfinite(options_.max_distance);
-  const double least = std::max(options_.r_min, is_bounded ? options_.max_distance : 0);
+  const bool is_all = options_.target_reach > 0;
+  const double usual = std::max(options_.r_min, is_bounded ? options_.max_distance : 0);
   // Balls that are not stored are searched again, and these searches are counted.
   const std::vector<MissedTarget> missed = missed_targets(
-      part_.coverage_targets, mesh_, [this](std::uint32_t t) { return ball_of(t); }, least,
-      options_.store_hits ? threads : 1);
+      part_.coverage_targets, mesh_, [this](std::uint32_t t) { return ball_of(t); },
+      is_all ? options_.target_reach : usual, options_.store_hits ? threads : 1, is_all);
   if (missed.empty()) return false;
   if (!guard_) guard_.emplace(mesh_, threads);
   const auto generation = [&](const MissedTarget& m) {

@@ -1,16 +1,19 @@
 #include "surface/refine/refine_options.h"
 
+#include "surface/base/sizes.h"
+
 namespace deliso {
 
 RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
                              int threads) {
   const Stage2Parameters& stage2 = parameters.stage2;
   RefineOptions options;
-  options.epsilon1 = stage2.epsilon1;
-  options.epsilon2 = stage2.epsilon2;
-  options.rho = stage2.rho;
+  constexpr double kOff = std::numeric_limits<double>::infinity();
+  options.epsilon1 = is_sized(parameters) ? kOff : stage2.epsilon1;
+  options.epsilon2 = is_sized(parameters) ? kOff : stage2.epsilon2;
+  options.rho = effective_rho(stage2.rho, parameters.size);
   options.r_min = absolute_r_min(stage2.r_min, box);
-  if (stage2.max_distance) options.max_distance = *stage2.max_distance;
+  options.max_distance = refined_height(parameters);
   options.order = parameters.queue_order;
   options.restart_at_crossings = repairs(parameters);
   options.criterion2 = stage2.criterion2;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -33,12 +34,16 @@ struct RefineOptions {
   // Also keep pole heights; otherwise the refined mesh has only points and triangles.
   bool keep_neighbours = true;
   std::span<const Vec3> coverage_targets;  // points of the surface that the mesh is to come near (coverage_targets.h)
-  int threads = 1;                         // the result is the same for any number
-  Observer* observer = nullptr;            // of a mesh that is one slab
-  std::size_t slab_triangles = 6144;       // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
+  // If above 0, targets farther than this from all triangles are missed, in mesh-space units; else those at about a
+  // voxel.
+  double target_reach = 0;
+  std::function<void(double)> announce;  // if set: called once with about how many insertions are to come
+  int threads = 1;                       // the result is the same for any number
+  Observer* observer = nullptr;          // of a mesh that is one slab
+  std::size_t slab_triangles = 6144;     // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
 };
 
-// The options of RefineGeom from a run's parameters. Lengths become absolute by the volume's box (in mesh space).
+// The options of RefineGeom from a run's parameters. r_min becomes absolute by a box in mesh space.
 RefineOptions refine_options(const Parameters& parameters, const Box3& box, std::span<const Vec3> coverage_targets,
                              int threads);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "surface/base/sizes.h"
 
 namespace deliso {
 
@@ -22,11 +25,12 @@ ShapeOptions shape_options(const Parameters& parameters) {
   // Of the distance promised: heights are measured at centroids alone, and crossings stay within it.
   constexpr double kHeightShare = 0.5, kDistanceShare = 0.75;
   ShapeOptions options;
-  options.min_angle = parameters.shape.min_angle ? *parameters.shape.min_angle * std::numbers::pi / 180
-                                                 : usual_angle(parameters.stage2.rho);
+  const std::optional<double> angle = effective_min_angle(parameters);
+  options.min_angle = angle ? *angle * std::numbers::pi / 180 : usual_angle(parameters.stage2.rho);
   options.rounds = parameters.shape.rounds;
-  options.max_height = kHeightShare * parameters.promise.max_distance;
-  options.max_distance = kDistanceShare * parameters.promise.max_distance;
+  options.max_height = kHeightShare * promised_distance(parameters);
+  options.max_distance = kDistanceShare * promised_distance(parameters);
+  options.max_edge = longest_edge_allowed(parameters);
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ struct ShapeOptions {
   int rounds = 0;            // 0: none are
   double max_height = 0.25;  // mesh-space units: no new triangle's centroid is farther from the isosurface, unless one
                              // of the triangles that it replaces was
+  double max_edge = std::numeric_limits<double>::infinity();  // mesh-space units: no new edge is longer, unless one
+                                                              // that it replaces was
   double max_distance = 0.75;  // mesh-space units: crossings of the isosurface that the mesh is so near stay so
 };
 

@@ -57,6 +57,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
     : patch_(patch),
       isosurface_(isosurface),
       max_height_(options.max_height),
+      max_edge_(options.max_edge),
       counters_(counters),
       vertices_(thinned(patch.points()), options.max_height),
       crossings_(crossings, options.max_distance) {}
@@ -67,13 +68,16 @@ bool StepGuard::apply(const PatchStep& step) {
   const std::optional<double> old_volume = volume_around(step.removed.front());
   patch_.apply(step);
   limits_.clear();
+  double longest_added = 0;
   for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
     const double longest = longest_edge(patch_.corner_points(static_cast<std::uint32_t>(t)));
+    longest_added = std::max(longest_added, longest);
     limits_.push_back(
         std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
   }
-  if (keeps_disks(step) && lies_near(first_added) && keeps_volume(old_volume, first_added) &&
-      keeps_sides(first_added) && crosses_nothing(first_added) && covers_witnesses(first_added)) {
+  if (longest_added <= std::max(max_edge_, old_longest_) && keeps_disks(step) && lies_near(first_added) &&
+      keeps_volume(old_volume, first_added) && keeps_sides(first_added) && crosses_nothing(first_added) &&
+      covers_witnesses(first_added)) {
     return true;
   }
   patch_.undo();
@@ -95,10 +99,12 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
     was_closed_.push_back(link_.is_closed ? 1 : 0);
   }
   old_normal_ = {};
+  old_longest_ = 0;
   old_triangles_.clear();
   for (const std::uint32_t t : removed) {
     const auto [a, b, c] = old_triangles_.emplace_back(patch_.corner_points(t));
     old_normal_ += cross(b - a, c - a);
+    old_longest_ = std::max(old_longest_, longest_edge({a, b, c}));
   }
   old_height_ = 0;
   for (const std::uint32_t t : removed) {

@@ -54,7 +54,7 @@ class StepGuard {
 
   Patch& patch_;
   const Isosurface& isosurface_;
-  double max_height_, freedom_ = 1;
+  double max_height_, max_edge_, freedom_ = 1;
   SearchCounters& counters_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface
@@ -64,7 +64,8 @@ class StepGuard {
   std::vector<std::array<Vec3, 3>> old_triangles_;  // corners of the removed triangles
   std::vector<std::array<Vec3, 3>> new_triangles_;  // and of those added
   Vec3 old_normal_;                                 // the sum of their normals
-  double old_height_ = 0;                           // the largest of them
+  double old_longest_ = 0;                          // the longest of their edges
+  double old_height_ = 0;                           // the largest of their distances from the isosurface
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_;
   std::vector<Hit> hits_;

@@ -13,6 +13,7 @@
 #include "surface/certificate/component_assignment.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/verification/delaunay_balls.h"
+#include "surface/verification/dropped_components.h"
 #include "surface/verification/facing_votes.h"
 #include "surface/verification/isosurface_probe.h"
 #include "volume/topology/exact_topology.h"
@@ -146,7 +147,7 @@ struct DistanceCounts {
   std::int64_t vertices = 0, mesh = 0, isosurface = 0;
 };
 
-DistanceCounts check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe,
+DistanceCounts check_distances(const TriangleMesh& voxels, IsosurfaceProbe& probe, const std::vector<Vec3>& crossings,
                                std::span<const std::optional<double>> off, const Promise& promise, Verification& v) {
   DistanceCounts counts;
   v.residual.distance = vertices_to_isosurface(voxels, off);
@@ -155,7 +156,7 @@ DistanceCounts check_distances(const TriangleMesh& voxels, IsosurfaceProbe& prob
   v.residual.pass = counts.vertices == 0;
   v.distance.mesh_to_isosurface = triangles_to_isosurface(voxels, probe, promise.max_distance, &counts.mesh);
   v.distance.isosurface_to_mesh =
-      points_to_mesh(probe.crossing_points(), voxels, probe.box().diagonal(), promise.max_distance, &counts.isosurface);
+      points_to_mesh(crossings, voxels, probe.box().diagonal(), promise.max_distance, &counts.isosurface);
   v.distance.pass = counts.mesh == 0 && counts.isosurface == 0;
   in_world(v.residual.distance, probe);
   in_world(v.distance.mesh_to_isosurface, probe);
@@ -185,20 +186,6 @@ PromiseFigures figures_of(const Verification& v, const DistanceCounts& counts) {
   figures.worst_mesh = v.distance.mesh_to_isosurface.max_voxels;
   figures.worst_isosurface = v.distance.isosurface_to_mesh.max_voxels;
   return figures;
-}
-
-AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
-                                  const RegularTopology& truth) {
-  if (!topology.is_manifold()) return {};
-  const Vec3& s = grid.spacing();
-  std::vector<Vec3> points;
-  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z}));
-  std::vector<ComponentTopology> pieces;
-  for (const MeshComponent& piece : topology.components) {
-    pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
-  }
-  const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
-  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components, points});
 }
 
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
@@ -237,6 +224,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
     throw InputError("the isosurface of " + std::to_string(isovalue) + " has no point in this volume");
   }
   IsosurfaceProbe probe(grid, v.isovalue_used, truth.crossings);
+  const std::vector<std::uint8_t> is_dropped = components_left_out(mesh, grid, regular, promise);
   TriangleMesh voxels = mesh;
   for (Vec3& p : voxels.points) p = probe.to_voxels(p);
   begin(0.1, "vertices");
@@ -252,16 +240,19 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   {
     const MeshTopology topology = mesh_topology(mesh);
     faults = faults_of_places(mesh, topology, grid, regular);
+    if (!is_dropped.empty()) faults.without.clear();
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
     v.orientation = check_orientation(mesh, voxels, topology, probe);
     v.boundary = check_boundary(voxels, topology, probe.box());
   }
-  v.topology = certify(mesh, truth);
+  v.topology = certify_kept(mesh, truth, is_dropped);
+  if (promise.dropped_components > 0 && is_dropped.empty()) refuse_dropped(promise.dropped_components, v.topology);
   add_assignment_faults(faults, v.topology);
 
   // Geometry.
   begin(0.5, "distances");
-  const DistanceCounts counts = check_distances(voxels, probe, off, promise, v);
+  const DistanceCounts counts =
+      check_distances(voxels, probe, kept_crossings(probe, truth, is_dropped), off, promise, v);
   v.normals = check_normals(voxels, next);
   begin(0.8, "Delaunay balls");
   v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);

@@ -47,6 +47,7 @@ const std::map<std::string, Floors> kFloors = {
       {"surface/refine/guard", "surface/refine/slabs"},
       {"surface/refine"},
       {"surface/shape"},
+      {"surface/sizes"},
       {"surface/verification"},
       {"surface/repair/lattice"},
       {"surface/repair/signs"},

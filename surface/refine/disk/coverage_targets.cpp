@@ -30,8 +30,12 @@ using nearness::widened;
 
 class CoverageTargetSearch {
  public:
-  CoverageTargetSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads)
-      : mesh_(mesh), ball_of_(ball_of), least_(std::max(least, nearness::kCrossing)), threads_(threads) {}
+  CoverageTargetSearch(const RefinementMesh& mesh, const BallOf& ball_of, double least, int threads, bool is_all)
+      : mesh_(mesh),
+        ball_of_(ball_of),
+        least_(is_all ? least : std::max(least, nearness::kCrossing)),
+        threads_(threads),
+        is_all_(is_all) {}
 
   [[nodiscard]] std::vector<Vec3> far_from_all(std::span<const Vec3> coverage_targets) const;
   // For coverage targets that are far from all triangles: their nearest triangles.
@@ -70,13 +74,14 @@ class CoverageTargetSearch {
   const BallOf& ball_of_;
   double least_;
   int threads_;
+  bool is_all_;  // nothing but least_ counts
 };
 
 // How far off a triangle a coverage target may be to count as near.
 double CoverageTargetSearch::reach_of(std::uint32_t triangle) const {
   const auto [a, b, c] = corners(triangle);
   const double squared_edge = std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
-  if (squared_edge <= kLong * kLong || !mesh_.triangles[triangle].has_hit()) return least_;
+  if (is_all_ || squared_edge <= kLong * kLong || !mesh_.triangles[triangle].has_hit()) return least_;
   const Vec3 normal = cross(b - a, c - a);
   const double h = std::abs(dot(normal, ball_of_(triangle).center - a)) / std::max(norm(normal), 1e-300);
   return std::max(least_, std::min(kTimesHeight * h, std::sqrt(squared_edge)));
@@ -193,8 +198,8 @@ std::vector<MissedTarget> CoverageTargetSearch::with_nearest(std::span<const Vec
 }  // namespace
 
 std::vector<MissedTarget> missed_targets(std::span<const Vec3> coverage_targets, const RefinementMesh& mesh,
-                                         const BallOf& ball_of, double least, int threads) {
-  const CoverageTargetSearch search(mesh, ball_of, least, threads);
+                                         const BallOf& ball_of, double least, int threads, bool is_all) {
+  const CoverageTargetSearch search(mesh, ball_of, least, threads, is_all);
   std::vector<MissedTarget> missed = search.with_nearest(search.far_from_all(coverage_targets));
   std::stable_sort(missed.begin(), missed.end(), [](const MissedTarget& a, const MissedTarget& b) {
     return a.squared_distance > b.squared_distance;

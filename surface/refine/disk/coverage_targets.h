@@ -29,8 +29,9 @@ using BallOf = std::function<SurfaceDelaunayBall(std::uint32_t triangle)>;
 // The coverage targets that no triangle of the mesh is near, farthest first. Near means within `least` or 0.8
 // mesh-space units, whichever is more. A triangle with an edge longer than 4 units is also near within twice its own
 // height h, but at most within the length of that edge: where the surface is smooth the triangle may be that far off. A
-// coverage target without any triangle within 6 units is left out. The same for any number of threads.
+// coverage target without any triangle within 6 units is left out. With `is_all`, near means within `least` alone. The
+// same for any number of threads.
 std::vector<MissedTarget> missed_targets(std::span<const Vec3> coverage_targets, const RefinementMesh& mesh,
-                                         const BallOf& ball_of, double least, int threads);
+                                         const BallOf& ball_of, double least, int threads, bool is_all = false);
 
 }  // namespace deliso

@@ -96,7 +96,7 @@ SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& i
 }
 
 std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                                       MeshFaults& faults, Controls& controls) {
+                                       MeshFaults& faults, double cube, Controls& controls) {
   std::vector<bool> is_marked(surface.topology.components.size(), false);
   std::int64_t replaced = 0;
   for (int round = 0; round < kMostRoundsAtLast && faults.count() > 0 && !controls.poll(); ++round) {
@@ -104,7 +104,7 @@ std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& su
     next.pole_heights.assign(next.points.size(), 1);
     set_side_adjacency(next);
     mark_components(next, surface, faults, is_marked);
-    const std::int64_t count = replace_marked(surface, is_marked, promise.max_distance / (1 + round), next);
+    const std::int64_t count = replace_marked(surface, is_marked, cube / (1 + round), next);
     if (count == 0) break;
     MeshFaults left{check_geometry(next, surface, promise),
                     crossing_in_world(next, surface.isosurface, surface.threads)};

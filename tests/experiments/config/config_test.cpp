@@ -45,6 +45,7 @@ constexpr const char* kDocumentedDefaults = R"({
              "one_sign_per_tetrahedron": true},
   "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
              "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
+  "r_min_of": "surface",
   "queue_order": "worst_first",
   "field": {"label": null, "smooth": null, "invert": false},
   "boundary": "open",
@@ -54,6 +55,10 @@ constexpr const char* kDocumentedDefaults = R"({
   "certify": true,
   "shape": {"min_angle": null, "rounds": 4},
   "promise": {"max_distance": 1.0},
+  "size": {"max_error": null, "max_edge": null, "min_angle": null, "max_aspect": null, "target_vertices": null},
+  "components": {"fill_cavities": false, "min_vertices": null, "min_area": null, "min_volume": null,
+                 "keep_largest": null},
+  "region": {"i0": null, "i1": null, "j0": null, "j1": null, "k0": null, "k1": null},
   "repair": {"max_rounds": 8},
   "budget": {"seconds": null, "max_vertices": null}
 })";

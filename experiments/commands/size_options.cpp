@@ -1,0 +1,193 @@
+#include "experiments/commands/size_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/counted.h"
+#include "delaunay/base/shortest_text.h"
+#include "experiments/config/config.h"
+#include "experiments/system/parse_number.h"
+#include "experiments/system/rounded_output.h"
+#include "experiments/system/text_table.h"
+#include "surface/base/sizes.h"
+#include "volume/region.h"
+
+namespace deliso {
+namespace {
+
+constexpr std::string_view kDropped = "components dropped ";
+constexpr std::string_view kRegion = "region ";
+
+double positive_length(const std::string& text, const std::string& option, const Volume* volume) {
+  const double length = parse_length(text, option, volume);
+  if (length > 0) return length;
+  throw InputError(option + ": expected a length > 0, in voxels or like 0.5mm, found '" + text + "'");
+}
+
+// With the checks of the parameter that the option sets; what is wrong is said of the option.
+void set_number(const std::string& text, const std::string& option, std::string_view key, Parameters& parameters) {
+  if (text.empty()) return;
+  set_parameter(key, parse_json(text, option), option, parameters);
+}
+
+// "50", "area:2.5", "volume:10mm3": vertices, or a measure in voxels to its power, or in units of the world.
+void set_least_component(const std::string& text, const Volume* volume, Parameters& parameters) {
+  const std::string option = "--min-component";
+  const std::size_t colon = text.find(':');
+  const std::string kind = colon == std::string::npos ? "vertices" : text.substr(0, colon);
+  const std::string value = colon == std::string::npos ? text : text.substr(colon + 1);
+  if (kind == "vertices") {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
+    parameters.components.min_vertices = static_cast<std::int64_t>(parse_count(value, option, 1, kMost));
+    return;
+  }
+  if (kind != "area" && kind != "volume") {
+    throw InputError(option + ": expected a number of vertices, area:A or volume:V, found '" + text + "'");
+  }
+  const int power = kind == "area" ? 2 : 3;
+  const std::string suffix = std::to_string(power);
+  std::string number = value;
+  double unit = 1;
+  for (const std::string name : {"mm", "w"}) {
+    if (!number.ends_with(name + suffix)) continue;
+    number.resize(number.size() - name.size() - suffix.size());
+    unit = std::pow(parse_length("1" + name, option, volume), power);
+    break;
+  }
+  const double measure = unit * parse_number(number, option);
+  if (!(measure > 0)) throw InputError(option + ": expected a number > 0, found '" + text + "'");
+  (power == 2 ? parameters.components.min_area : parameters.components.min_volume) = measure;
+}
+
+void set_region(const std::string& text, Parameters& parameters) {
+  const SampleRegion region = parse_region(text, "--region");
+  parameters.region = {region.first[0], region.last[0],  region.first[1],
+                       region.last[1],  region.first[2], region.last[2]};
+}
+
+std::string cause_text(DropCause cause) {
+  if (cause == DropCause::kCavity) return "in cavities";
+  return cause == DropCause::kSmall ? "too small" : "not among the largest";
+}
+
+}  // namespace
+
+void add_size_options(Command& command, SizeOptions& options) {
+  const auto add = [&](const std::string& name, std::string& value, const std::string& help, const std::string& type) {
+    command.add_option(name, value, help).type_name(type).check(refuse_empty_value);
+  };
+  add("--max-error", options.max_error,
+      "Mesh and isosurface within D of each other, with as few vertices as that allows: voxels, or like 0.5mm", "D");
+  add("--max-edge", options.max_edge, "No edge longer than D", "D");
+  add("--min-angle", options.min_angle, "No angle below A degrees, as far as that can be (at most 35)", "A");
+  add("--max-aspect", options.max_aspect,
+      "No longest edge over smallest height above Q, as far as that can be (at least 3)", "Q");
+  add("--target-vertices", options.target_vertices, "So many vertices, within 2 %, at the least error", "N");
+  add("--keep-largest", options.keep_largest, "Keep the N components of the largest area", "N");
+  add("--min-component", options.min_component,
+      "Leave out components below V: 50 (vertices), area:2.5, volume:10 (voxels), area:2mm2, volume:5mm3", "V");
+  command.add_flag("--fill-cavities", options.fill_cavities,
+                   "Leave out closed components that bound cavities of solids");
+  add("--region", options.region, "Mesh the samples i0:i1,j0:j1,k0:k1 alone, the last ones included", "R");
+}
+
+void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters) {
+  if (!options.max_error.empty()) {
+    parameters.size.max_error = positive_length(options.max_error, "--max-error", volume);
+  }
+  if (!options.max_edge.empty()) parameters.size.max_edge = positive_length(options.max_edge, "--max-edge", volume);
+  set_number(options.min_angle, "--min-angle", "size.min_angle", parameters);
+  set_number(options.max_aspect, "--max-aspect", "size.max_aspect", parameters);
+  set_number(options.target_vertices, "--target-vertices", "size.target_vertices", parameters);
+  set_number(options.keep_largest, "--keep-largest", "components.keep_largest", parameters);
+  if (!options.min_component.empty()) set_least_component(options.min_component, volume, parameters);
+  if (options.fill_cavities) parameters.components.fill_cavities = true;
+  if (!options.region.empty()) set_region(options.region, parameters);
+}
+
+std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result) {
+  std::vector<std::string> lines;
+  if (!result.dropped.empty()) lines.push_back(std::string(kDropped) + std::to_string(result.dropped.size()));
+  const SampleRegion region = region_of(parameters.region);
+  if (!region.is_all()) lines.push_back(std::string(kRegion) + region_text(region));
+  return lines;
+}
+
+KeptInFile kept_in_file(const std::vector<std::string>& comments) {
+  KeptInFile kept;
+  for (const std::string& comment : comments) {
+    if (comment.starts_with(kDropped)) {
+      std::int64_t count = 0;
+      const char* const number = comment.data() + kDropped.size();
+      const auto error = std::from_chars(number, comment.data() + comment.size(), count).ec;
+      if (error == std::errc() && count > 0) kept.dropped = count;
+    }
+    if (!comment.starts_with(kRegion)) continue;
+    const std::string text = comment.substr(kRegion.size());
+    const bool is_one = text.find_first_not_of("0123456789:,") == std::string::npos &&
+                        std::count(text.begin(), text.end(), ':') == 3 &&
+                        std::count(text.begin(), text.end(), ',') == 2;
+    if (is_one) kept.region = text;
+  }
+  return kept;
+}
+
+std::vector<std::string> size_remarks(const Parameters& parameters, const MeshingResult& result) {
+  std::vector<std::string> remarks;
+  for (const DropCause cause : {DropCause::kCavity, DropCause::kSmall, DropCause::kNotLargest}) {
+    std::int64_t count = 0, vertices = 0;
+    double area = 0;
+    for (const DroppedPiece& dropped : result.dropped) {
+      if (dropped.cause != cause) continue;
+      ++count;
+      vertices += dropped.piece.vertices;
+      area = std::max(area, dropped.piece.area);
+    }
+    if (count == 0) continue;
+    remarks.push_back("left out: " + counted(count, "component", "components") + " " + cause_text(cause) + ", with " +
+                      counted(vertices, "vertex", "vertices") + "; the largest has an area of " + number_text(area) +
+                      " voxels^2");
+  }
+  const auto& target = parameters.size.target_vertices;
+  constexpr double kWithin = 0.02;
+  const auto count = static_cast<double>(result.mesh.points.size());
+  if (target && std::abs(count - static_cast<double>(*target)) > kWithin * static_cast<double>(*target)) {
+    remarks.push_back("--target-vertices: " + std::to_string(result.mesh.points.size()) +
+                      " vertices were reached, not " + std::to_string(*target) + ": " +
+                      (count > static_cast<double>(*target)
+                           ? "fewer do not keep the topology, the angles and a distance of " +
+                                 number_text(result.promised_distance) + " voxels"
+                           : "insertions of more were refused"));
+  }
+  if (target && !parameters.size.max_error && result.promised_distance > parameters.promise.max_distance) {
+    remarks.push_back("--target-vertices: so few vertices take a distance of " + number_text(result.promised_distance) +
+                      " voxels between mesh and isosurface, which the mesh file promises");
+  }
+  const auto& edge = parameters.size.max_edge;
+  if (edge && result.longest_edge > *edge) {
+    remarks.push_back("--max-edge: the longest edge has " + number_text(result.longest_edge) + " voxels, not " +
+                      number_text(*edge) + ": insertions beside it were refused");
+  }
+  return remarks;
+}
+
+std::string many_vertices_remark(const Parameters& parameters, double expected, double crossings) {
+  constexpr double kMany = 200000, kTimes = 6;
+  if (is_sized(parameters) || expected < kMany || expected < kTimes * crossings) return "";
+  const double rounded = std::pow(10, std::floor(std::log10(expected)));
+  const auto about = static_cast<std::int64_t>(std::round(expected / rounded) * rounded);
+  return "stage 2 is going to make about " + std::to_string(about) + " vertices, many for an isosurface that crosses " +
+         shortest_text(crossings) +
+         " edges of the grid: it follows creases down to r_min; --max-error 0.1 (voxels) or --target-vertices gives "
+         "far "
+         "fewer";
+}
+
+}  // namespace deliso

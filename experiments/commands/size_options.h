@@ -1,0 +1,41 @@
+// The options of `deliso mesh` that state sizes and what is kept. Each is a parameter, too: they are set after --set.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/commands/command.h"
+#include "experiments/commands/world.h"
+#include "surface/deliso.h"
+#include "volume/io/base/volume.h"
+
+namespace deliso {
+
+// As typed; empty: not given.
+struct SizeOptions {
+  std::string max_error, max_edge, min_angle, max_aspect, target_vertices;
+  std::string keep_largest, min_component, region;
+  bool fill_cavities = false;
+};
+
+void add_size_options(Command& command, SizeOptions& options);
+
+// Sets what was given. Throws InputError naming the option. Without a volume only the form of lengths is checked.
+void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters);
+
+// What a file of the mesh says of components and samples left out, for `verify`; none when nothing is.
+std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result);
+// The number of components and the region that such lines of a mesh file name, if any do.
+struct KeptInFile {
+  std::int64_t dropped = 0;
+  std::string region;  // empty: all samples
+};
+KeptInFile kept_in_file(const std::vector<std::string>& comments);
+
+// What stderr tells of sizes that were asked for: components left out, a number not reached.
+std::vector<std::string> size_remarks(const Parameters& parameters, const MeshingResult& result);
+
+// A warning before stage 2 when it is going to make very many vertices for the size of the isosurface; else empty.
+std::string many_vertices_remark(const Parameters& parameters, double expected, double crossings);
+
+}  // namespace deliso

@@ -1,0 +1,73 @@
+// A run of the mesher: what its steps share. The lines of the paper are in deliso.cpp, what comes after RefineGeom in
+// pipeline_end.cpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "surface/base/controls.h"
+#include "surface/base/exact_surface.h"
+#include "surface/certificate/component_assignment.h"
+#include "surface/certificate/promise.h"
+#include "surface/deliso.h"
+#include "surface/extract/recovered_surface.h"
+#include "surface/mesh/surface_mesh.h"
+#include "surface/repair/diagnosis/exact_surface_cache.h"
+#include "surface/repair/finish/last_resort.h"
+#include "surface/restricted/restricted_delaunay.h"
+
+namespace deliso {
+
+// One run. What the paper does not have stands between its lines: the exact topology, which a certificate needs, first;
+// coverage after Recover; repair around ComputePoles and BuildTriMesh; the certificate at the end.
+class Pipeline {
+ public:
+  // Keeps references to all of them.
+  Pipeline(const ScalarGrid& grid, const MeshingOptions& options, MeshingResult& result);
+
+  void run(double isovalue);
+
+ private:
+  using DelS = std::unique_ptr<RestrictedDelaunay>;  // Del S restricted to the isosurface
+
+  void find_exact_surface(double isovalue);
+  DelS recover_topology(DelS del_s0);
+  SurfaceMesh refine(DelS del_s1);
+  std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
+  void take_inner_seconds(const RecoveredSurface& recovered);
+  void find_faults(const SurfaceMesh& mesh);
+
+  // After RefineGeom (pipeline_end.cpp, pipeline_sizes.cpp).
+  void finish(SurfaceMesh& mesh, const RefineOptions& options);
+  void improve(SurfaceMesh& mesh, int most_rounds);
+  void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
+  void drop_components(SurfaceMesh& mesh);
+  void limit_edges(SurfaceMesh& mesh, RefineOptions options);
+  void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
+  void refine_to_error(SurfaceMesh& mesh, RefineOptions options);
+  void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
+  void decimate_mesh(SurfaceMesh& mesh);
+  void find_last_faults(SurfaceMesh& mesh);
+  void find_crossings();
+  void drop_crossings();
+  void certify(SurfaceMesh mesh);
+
+  const ScalarGrid& grid_;
+  const MeshingOptions& options_;
+  const Parameters& parameters_;
+  Controls controls_;
+  MeshingResult& result_;
+
+  IsosurfaceTopology topology_;  // empty where nothing needs it
+  std::unique_ptr<Isosurface> isosurface_;
+  std::optional<ExactSurface> surface_;       // the two
+  Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
+  std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
+  std::vector<Vec3> coverage_targets_;        // for RefineGeom
+  AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
+  Promise promise_;
+  MeshFaults last_;  // of the mesh that RefineGeom has made
+};
+
+}  // namespace deliso

@@ -1,0 +1,180 @@
+// A run after RefineGeom: better angles, the distance promised, sizes, the last faults, the certificate.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "delaunay/base/check.h"
+#include "delaunay/base/memory.h"
+#include "surface/base/sizes.h"
+#include "surface/certificate/final_certificate.h"
+#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/kept_components.h"
+#include "surface/certificate/mesh_pieces.h"
+#include "surface/mesh/side_adjacency.h"
+#include "surface/pipeline.h"
+#include "surface/refine/refine.h"
+#include "surface/repair/finish/last_resort.h"
+#include "surface/shape/shape.h"
+
+namespace deliso {
+
+void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
+  if (parameters_.size.max_edge) limit_edges(mesh, options);
+  improve(mesh, parameters_.shape.rounds);
+  if (!parameters_.certify) return;
+  if (is_sized(parameters_)) {
+    refine_to_error(mesh, options);
+  } else {
+    refine_by_distance(mesh, options);
+  }
+  if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
+  if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
+  drop_crossings();
+  if (!controls_.stopped()) find_last_faults(mesh);
+}
+
+// Components left out on purpose count no more: neither the mesh nor the certificate has them.
+void Pipeline::drop_components(SurfaceMesh& mesh) {
+  timed(result_.certify_stage, [&] {
+    set_side_adjacency(mesh);
+    const MeasuredPieces measured = measure_pieces(mesh);
+    const std::vector<DropCause> causes = pieces_to_drop(mesh, measured, parameters_.components);
+    std::vector<bool> is_gone(mesh.triangles.size(), false);
+    std::vector<std::vector<std::uint32_t>> gone(causes.size());
+    for (std::uint32_t t = 0; t < is_gone.size(); ++t) {
+      is_gone[t] = causes[measured.piece_of[t]] != DropCause::kNone;
+      if (is_gone[t]) gone[measured.piece_of[t]].push_back(t);
+    }
+    surface_->is_dropped.assign(topology_.components.size(), 0);
+    for (std::size_t piece = 0; piece < causes.size(); ++piece) {
+      if (causes[piece] == DropCause::kNone) continue;
+      result_.dropped.push_back({measured.pieces[piece], causes[piece]});
+      const auto component = most_frequent(components_at(mesh, vertices_of(mesh, gone[piece]), *surface_));
+      if (component) surface_->is_dropped[*component] = 1;
+    }
+    drop_triangles(mesh, is_gone);
+    if (mesh.triangles.empty()) {
+      throw InputError("components: all " + std::to_string(causes.size()) +
+                       " components of the isosurface would be left out, expected one at least to be kept");
+    }
+    std::stable_sort(result_.dropped.begin(), result_.dropped.end(),
+                     [](const DroppedPiece& a, const DroppedPiece& b) { return a.piece.area > b.piece.area; });
+    last_.geometry = check_geometry(mesh, *surface_, promise_);
+  });
+}
+
+// What the criteria leave badly shaped, where insertions are refused and at or below r_min; not in the paper.
+void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
+  if (!improves_shape(parameters_) || controls_.stopped()) return;
+  controls_.enter("shape");
+  timed(result_.shape, [&] {
+    ShapeOptions options = shape_options(parameters_);
+    options.rounds = std::min(options.rounds, most_rounds);
+    improve_shape(mesh, *surface_, options, controls_, result_.shape);
+    if (options_.observer != nullptr) options_.observer->reshaped(mesh);
+  });
+}
+
+// Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;
+// not without repair, as in the paper. What is promised is known afterwards.
+void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
+  constexpr int kMostRounds = 6, kCautiousRounds = 2;  // of shape: what it has cut off would be cut off again
+  constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
+  const bool may_refine = repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage;
+  options.epsilon2 = std::numeric_limits<double>::infinity();
+  options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
+  std::int64_t off_before = 0;
+  for (int round = 0;; ++round) {
+    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+    const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings);
+    const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
+    if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
+    off_before = off;
+    const std::int64_t before = result_.refine.insertions;
+    timed(result_.refine, [&] {
+      set_side_adjacency(mesh);
+      mesh.pole_heights.assign(mesh.points.size(), isosurface_->box().diagonal());
+      options.coverage_targets = last_.geometry.missed_crossings;
+      refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+    });
+    if (round == 0) improve(mesh, kCautiousRounds);
+    if (result_.refine.insertions == before) return;
+  }
+}
+
+// What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
+// Components with faults come from finer cubes; for these the crossings are found once more.
+void Pipeline::find_last_faults(SurfaceMesh& mesh) {
+  timed(result_.certify_stage, [&] {
+    if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
+      last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+    }
+  });
+  if (!repairs(parameters_) || last_.count() == 0) return;
+  timed(result_.repair, [&] {
+    find_crossings();
+    // With a smaller error promised, cubes that are no smaller will mostly do.
+    constexpr double kTimes = 4, kLargest = 0.9;
+    const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
+    const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
+    result_.repair.components_polygonized +=
+        replace_faulty_components(mesh, *surface_, promise_, last_, cube, controls_);
+  });
+  drop_crossings();
+}
+
+void Pipeline::find_crossings() {
+  if (topology_.crossings.empty()) topology_ = exact_topology(grid_, result_.isovalue_used, options_.threads);
+}
+
+// Where the pieces lie that RefineGeom starts from. It takes none elsewhere, and the crossings that tell of it are too
+// many to be kept until it has ended.
+void Pipeline::find_faults(const SurfaceMesh& mesh) {
+  if (!parameters_.certify || !result_.build.bounds_a_solid) return;
+  faults_ = timed(result_.certify_stage, [&] { return assignment_faults(mesh, *surface_); });
+}
+
+void Pipeline::drop_crossings() {
+  UnwrittenArray<EdgeCrossing>().swap(topology_.crossings);
+  topology_.index = {};
+  release_free_memory();
+}
+
+void Pipeline::certify(SurfaceMesh mesh) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest_edge(mesh, t)));
+  }
+  result_.mesh = to_world(std::move(mesh), *isosurface_);
+  SurfaceMesh places;
+  for (const DroppedPiece& dropped : result_.dropped) places.points.push_back(dropped.piece.at);
+  const std::vector<Vec3> places_in_world = to_world(std::move(places), *isosurface_).points;
+  for (std::size_t i = 0; i < places_in_world.size(); ++i) result_.dropped[i].piece.at = places_in_world[i];
+  SurfaceMesh centroids;
+  for (const BadTriangle& bad : result_.shape.worst) centroids.points.push_back(bad.centroid);
+  const std::vector<Vec3> in_world = to_world(std::move(centroids), *isosurface_).points;
+  for (std::size_t i = 0; i < in_world.size(); ++i) result_.shape.worst[i].centroid = in_world[i];
+  if (!parameters_.certify) return;
+  if (!result_.dropped.empty()) keep_components(topology_, surface_->is_dropped);
+  result_.certificate =
+      final_certificate(result_.mesh, topology_, faults_, result_.build.bounds_a_solid, options_.threads);
+  if (controls_.stopped() || !result_.build.bounds_a_solid) return;
+  PromiseFigures figures;
+  figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());
+  figures.is_manifold = result_.certificate.manifold;
+  figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
+  figures.reversed_components = last_.geometry.reversed_components;
+  figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
+  figures.topology = result_.certificate.verdict;
+  figures.crossing_pairs = last_.crossing.crossing_pairs;
+  figures.vertices_off = last_.geometry.vertices_off;
+  figures.mesh_off = last_.geometry.mesh_off;
+  figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_crossings.size());
+  result_.certificate.broken = broken_promises(figures, promise_);
+}
+
+}  // namespace deliso

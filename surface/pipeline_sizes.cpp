@@ -1,0 +1,168 @@
+// A run whose sizes are an error or a number of vertices (surface/sizes/README.md).
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "surface/base/sizes.h"
+#include "surface/certificate/geometry_check.h"
+#include "surface/mesh/side_adjacency.h"
+#include "surface/pipeline.h"
+#include "surface/refine/refine.h"
+#include "surface/repair/finish/last_resort.h"
+#include "surface/shape/shape_options.h"
+#include "surface/sizes/decimation.h"
+#include "surface/sizes/error_steps.h"
+#include "surface/sizes/error_targets.h"
+#include "surface/sizes/long_edges.h"
+
+namespace deliso {
+
+namespace {
+
+double area_of(const SurfaceMesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    area += norm(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+  }
+  return area;
+}
+
+}  // namespace
+
+// No edge is longer than the diameter of a circumcircle. So circumradii get down to half the length allowed; then those
+// edges that are longer all the same are halved.
+void Pipeline::limit_edges(SurfaceMesh& mesh, RefineOptions options) {
+  constexpr double kSmall = 0.25;  // of the length: the circumradius below which no triangle is refined for its shape
+  const double length = *parameters_.size.max_edge;
+  options.criterion2 = Criterion2::kCircumradius;
+  options.epsilon1 = std::numeric_limits<double>::infinity();
+  options.epsilon2 = length / 2;  // of a pole height of 1
+  options.r_min = std::min(options.r_min, kSmall * length);
+  timed(result_.refine, [&] {
+    set_side_adjacency(mesh);
+    mesh.pole_heights.assign(mesh.points.size(), 1);
+    refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+  });
+  if (!improves_shape(parameters_) || controls_.stopped()) return;
+  timed(result_.shape,
+        [&] { split_long_edges(mesh, *surface_, shape_options(parameters_), controls_, result_.shape); });
+}
+
+void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
+  const auto& count = parameters_.size.target_vertices;
+  if (count && mesh.points.size() < static_cast<std::size_t>(*count)) {
+    refine_to_count(mesh, options, static_cast<std::size_t>(*count));
+    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+  }
+  if (!last_.geometry.is_near()) {
+    find_last_faults(mesh);
+    timed(result_.certify_stage, [&] { find_crossings(); });
+  }
+  decimate_mesh(mesh);
+  timed(result_.certify_stage, [&] {
+    last_.geometry = check_geometry(mesh, *surface_, promise_);
+    if (last_.crossing.crossing_pairs > 0) last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+  });
+}
+
+// The height of stage 2 is measured at one point of each triangle. Where the mesh is too far at others, its triangles
+// get smaller, and what it misses is inserted; where that is refused, other steps are tried.
+void Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
+  constexpr int kMostRounds = 12;
+  constexpr double kReach = 0.9;       // of the distance promised: what is farther off is inserted
+  constexpr double kLeastShare = 0.1;  // of it: smaller triangles are near it anyway
+  constexpr double kProgress = 0.7;
+  Promise nearer = promise_;
+  nearer.max_distance *= kReach;
+  options.target_reach = nearer.max_distance;
+  options.r_min = std::min(options.r_min, kLeastShare * promise_.max_distance);
+  options.criterion2 = Criterion2::kCircumradius;
+  options.epsilon2 = 1;
+  const auto check = [&](const Promise& promise) {
+    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise); });
+    return static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings));
+  };
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
+    const double off = check(nearer);
+    if (off == 0) return;
+    if (off > kProgress * before) break;
+    before = off;
+    timed(result_.refine, [&] {
+      const std::vector<Vec3> targets = error_targets(mesh, *surface_, last_.geometry);
+      set_side_adjacency(mesh);
+      ask_for_smaller_triangles(mesh, *surface_, last_.geometry);
+      options.coverage_targets = targets;
+      refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+    });
+  }
+  // What refinement does not reach may be off by more than steps of the shape stage are.
+  constexpr int kStepRounds = 2;
+  ShapeOptions options_of_steps = shape_options(parameters_);
+  options_of_steps.max_height = nearer.max_distance;
+  for (int round = 0; round < kStepRounds && check(nearer) > 0 && !controls_.poll(); ++round) {
+    timed(result_.shape, [&] {
+      insert_missed(mesh, *surface_, last_.geometry.missed_crossings, options_of_steps, controls_, result_.shape);
+      const GeometryCheck now = check_geometry(mesh, *surface_, nearer);
+      bring_near(mesh, *surface_, now.far_triangles, nearer.max_distance, shape_options(parameters_), controls_,
+                 result_.shape);
+    });
+  }
+  check(promise_);
+}
+
+// Where the mesh is farthest from the isosurface first: each round allows a smaller height, until there are enough
+// vertices. Where that is nothing any more, as on planes, it allows smaller radii.
+void Pipeline::refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count) {
+  constexpr int kMostRounds = 60;
+  constexpr double kBeyond = 0.9, kLeastFactor = 0.4, kMostFactor = 0.9, kNoHeight = 2e-3, kRadiusFactor = 0.8,
+                   kLeastRadius = 0.2;
+  controls_.enter("refine");
+  // That of equilateral triangles, two for each vertex.
+  const double even_radius = std::sqrt(2 * area_of(mesh) / (3 * std::sqrt(3.0) * static_cast<double>(count)));
+  options.r_min = std::min(options.r_min, kLeastRadius * even_radius);
+  options.criterion2 = Criterion2::kCircumradius;
+  double radius = 2 * even_radius;
+  for (int round = 0; round < kMostRounds && mesh.points.size() < count && !controls_.poll(); ++round) {
+    // Vertices grow as the inverse of the height.
+    const double share = static_cast<double>(mesh.points.size()) / static_cast<double>(count);
+    options.max_distance *= std::clamp(kBeyond * share, kLeastFactor, kMostFactor);
+    if (options.max_distance < kNoHeight) {
+      options.epsilon2 = radius;  // of a pole height of 1
+      radius *= kRadiusFactor;
+    }
+    timed(result_.refine, [&] {
+      set_side_adjacency(mesh);
+      mesh.pole_heights.assign(mesh.points.size(), 1);
+      refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+    });
+  }
+}
+
+// Down to the number asked for, or as far as the error allows. Where only a number is asked for, more error is allowed
+// as long as it takes, and promised afterwards.
+void Pipeline::decimate_mesh(SurfaceMesh& mesh) {
+  constexpr double kMostTimes = 64, kRounding = 1.001;
+  controls_.enter("decimate");
+  DecimationOptions options;
+  options.max_error = promise_.max_distance;
+  options.enough = static_cast<std::size_t>(parameters_.size.target_vertices.value_or(0));
+  options.min_angle = shape_options(parameters_).min_angle;
+  options.max_edge = longest_edge_allowed(parameters_);
+  const double most = parameters_.size.max_error ? options.max_error : kMostTimes * options.max_error;
+  timed(result_.decimation, [&] {
+    for (; !controls_.stopped(); options.max_error = std::min(2 * options.max_error, most)) {
+      decimate(mesh, *surface_, options, controls_, result_.decimation);
+      if (mesh.points.size() <= options.enough || options.max_error >= most) break;
+    }
+  });
+  const double reached = std::min(kRounding * result_.decimation.largest_error, options.max_error);
+  promise_.max_distance = std::max(promise_.max_distance, reached);
+  result_.promised_distance = promise_.max_distance;
+}
+
+}  // namespace deliso

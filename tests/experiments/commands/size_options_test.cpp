@@ -1,0 +1,132 @@
+// Sizes, components and regions on the command line: what is asked for is kept, told, and known to `verify`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/config/json.h"
+#include "tests/support/program_runner.h"
+
+namespace deliso::testing {
+namespace {
+
+class SizeOptionsTest : public ::testing::Test {
+ protected:
+  // Two balls, of radius 5 and 2, of samples 2 mm apart.
+  SizeOptionsTest() {
+    std::string bytes =
+        "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 24 14 14\nencoding: raw\nspace dimension: 3\n"
+        "space units: \"mm\" \"mm\" \"mm\"\nspace directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (-3,7,100)\n\n";
+    for (int k = 0; k < 14; ++k) {
+      for (int j = 0; j < 14; ++j) {
+        for (int i = 0; i < 24; ++i) {
+          const double large = 5 - std::hypot(i - 6.3, j - 6.6, k - 6.4), small = 2 - std::hypot(i - 18, j - 6, k - 7);
+          bytes += static_cast<char>(std::lround(std::fmax(0, std::fmin(250, 100 + 20 * std::fmax(large, small)))));
+        }
+      }
+    }
+    write_file(volume(), bytes);
+  }
+
+  [[nodiscard]] std::string volume() const { return folder_ / "a.nrrd"; }
+  ProgramResult mesh(const std::vector<std::string>& more, const std::string& name = "m.ply") {
+    std::vector<std::string> arguments = {"mesh", volume(),       "--isovalue", "99.5",
+                                          "-o",   folder_ / name, "--report",   folder_ / "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_deliso(arguments);
+  }
+  ProgramResult verify(const std::vector<std::string>& more = {}, const std::string& name = "m.ply") {
+    std::vector<std::string> arguments = {"verify", folder_ / name, volume(),          "--isovalue",
+                                          "99.5",   "--report",     folder_ / "v.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_deliso(arguments);
+  }
+  Json json(const std::string& name) { return Json::parse(read_file(folder_ / name)); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SizeOptionsTest, AnErrorIsPromisedAndKept) {
+  for (const auto& [typed, voxels] : {std::pair<std::string, double>{"0.2", 0.2}, {"0.5mm", 0.25}, {"0.4w", 0.2}}) {
+    const ProgramResult made = mesh({"--max-error", typed});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(verify().exit_code, 0);
+    EXPECT_DOUBLE_EQ(json("v.json")["promise"]["max_distance"].get<double>(), voxels);
+    EXPECT_DOUBLE_EQ(json("r.json")["parameters"]["size"]["max_error"].get<double>(), voxels);
+  }
+}
+
+TEST_F(SizeOptionsTest, ANumberOfVerticesIsReachedOrToldOf) {
+  EXPECT_EQ(mesh({"--target-vertices", "300"}).exit_code, 0);
+  EXPECT_EQ(json("r.json")["vertices"], 300);
+  EXPECT_EQ(verify().exit_code, 0);
+  const ProgramResult few = mesh({"--target-vertices", "8", "--max-error", "0.3"});
+  EXPECT_EQ(few.exit_code, 0);
+  EXPECT_NE(few.err.find("vertices were reached, not 8"), std::string::npos) << few.err;
+  EXPECT_EQ(verify().exit_code, 0);
+}
+
+TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--keep-largest", "1"},
+                                                  {"--min-component", "area:100"},
+                                                  {"--min-component", "volume:500mm3"},
+                                                  {"--min-component", "area:400mm2"}}) {
+    const ProgramResult made = mesh(options);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_NE(made.err.find("left out: 1 component "), std::string::npos) << made.err;
+    EXPECT_EQ(json("r.json")["dropped"].size(), 1u);
+    EXPECT_EQ(json("r.json")["components"], 1);
+    EXPECT_EQ(verify().exit_code, 0);
+    EXPECT_EQ(verify({"--dropped", "0"}).exit_code, 1);
+  }
+  EXPECT_EQ(mesh({"--keep-largest", "1"}, "m.off").exit_code, 0);
+  EXPECT_EQ(verify({}, "m.off").exit_code, 0);
+  EXPECT_EQ(mesh({"--keep-largest", "1"}, "m.stl").exit_code, 0);
+  EXPECT_EQ(verify({"--dropped", "1"}, "m.stl").exit_code, 0);
+}
+
+TEST_F(SizeOptionsTest, RegionsKeepTheirPlaceInEveryCommand) {
+  EXPECT_EQ(mesh({"--region", "14:,:,:"}).exit_code, 0);
+  EXPECT_EQ(json("r.json")["components"], 1);
+  EXPECT_EQ(verify().exit_code, 0);
+  EXPECT_EQ(verify({"--region", ":,:,:"}).exit_code, 1);
+  const std::vector<std::string> region = {"--region", "14:,:,:"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), region.begin(), region.end());
+    return run_deliso(arguments);
+  };
+  EXPECT_NE(run({"info", volume()}).out.find("10 14 14"), std::string::npos);
+  EXPECT_EQ(run({"topology", volume(), "--isovalue", "99.5", "--report", folder_ / "t.json"}).exit_code, 0);
+  EXPECT_EQ(json("t.json")["components"], 1);
+  EXPECT_EQ(run({"render", volume(), "--isovalue", "99.5", "-o", folder_ / "p.png"}).exit_code, 0);
+}
+
+TEST_F(SizeOptionsTest, BadSizesAreRefusedInOneSentence) {
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--max-error", "0"},
+                                      {"--max-error", "-1mm"},
+                                      {"--max-error", "1cm"},
+                                      {"--max-edge", "x"},
+                                      {"--min-angle", "36"},
+                                      {"--max-aspect", "2"},
+                                      {"--target-vertices", "3"},
+                                      {"--target-vertices", "2.5"},
+                                      {"--keep-largest", "0"},
+                                      {"--min-component", "area:"},
+                                      {"--min-component", "weight:3"},
+                                      {"--min-component", "0"},
+                                      {"--region", "1:2"},
+                                      {"--region", "0:99,:,:"},
+                                      {"--threads", "some"}}) {
+    const ProgramResult refused = mesh({option, value}, "none.ply");
+    EXPECT_EQ(refused.exit_code, 2) << option << ' ' << value;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_NE(refused.err.find(option.substr(2)), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(mesh({"--threads", "auto"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace deliso::testing
