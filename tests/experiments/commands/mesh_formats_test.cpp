@@ -58,7 +58,8 @@ TEST_F(MeshFormats, VerifyTakesItsBoundFromEveryFormatThatIsRead) {
 TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtp", {"--report", folder_ / "r.json"}).exit_code, 0);
   const ProgramResult text = run_deliso({"info", folder_ / "m.vtp"});
-  EXPECT_TRUE(has_text(text.out, "enclosed volume") && has_text(text.out, "volume v.nrrd") && has_text(text.out, "closed"))
+  EXPECT_TRUE(has_text(text.out, "enclosed volume") && has_text(text.out, "volume v.nrrd") &&
+              has_text(text.out, "closed"))
       << text.out;
   const Json info = parse_json(run_deliso({"info", folder_ / "m.vtp", "--json"}).out, "info");
   const Json report = read_json(folder_ / "r.json");
@@ -67,7 +68,7 @@ TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   EXPECT_EQ(info["components"], 4);
   EXPECT_EQ(info["closed"], true);
   EXPECT_EQ(info["oriented"], true);
-  EXPECT_EQ(info["comments"].size(), 5u);
+  EXPECT_EQ(info["comments"].size(), 6u);  // the lines of mesh_comments(), and that the boundary is closed
   double sum = 0;
   int cavities = 0;
   for (const Json& component : info["surface"]["components"]) {

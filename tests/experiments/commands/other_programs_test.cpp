@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -97,6 +98,8 @@ struct ClosedField {
   std::string name;
   std::string size;
   std::string isovalue;
+
+  friend std::ostream& operator<<(std::ostream& out, const ClosedField& field) { return out << field.name; }
 };
 
 // Spheres, tori, nested shells, labyrinths; and a volume of the public ones where there are any.
