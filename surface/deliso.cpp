@@ -30,17 +30,11 @@ void reverse(TriangleMesh& mesh) {
   for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
 }
 
-// The box of the cells that the isosurface passes, in mesh space.
-Box3 box_of_surface(const Isosurface& isosurface, const CrossingIndex& known, int threads) {
-  const CrossingIndex own =
-      known.crossing_count() == 0 ? CrossingIndex(isosurface.grid(), isosurface.isovalue(), threads) : CrossingIndex();
-  Box3 box;
-  (known.crossing_count() == 0 ? own : known).for_each_active_cell([&](const CellIndex& cell, std::uint8_t) {
-    const Vec3 low{double(cell[0]), double(cell[1]), double(cell[2])};
-    box.extend(low);
-    box.extend(low + Vec3{1, 1, 1});
-  });
-  return {scaled(box.low, isosurface.step()), scaled(box.high, isosurface.step())};
+// What r_min is a fraction of the smallest side of. A constant number of voxels, unlike the paper's box of the volume,
+// does not change with empty slices around the surface; it is the side of the paper's largest volumes.
+Box3 r_min_box(const Isosurface& isosurface, RMinOf of) {
+  constexpr double kVoxels = 256;
+  return of == RMinOf::kBox ? isosurface.box() : Box3{{0, 0, 0}, {kVoxels, kVoxels, kVoxels}};
 }
 
 bool needs_topology(const Parameters& parameters) {
@@ -93,8 +87,7 @@ void Pipeline::find_exact_surface(double isovalue) {
                                         spacing_to_use(parameters_, grid_.spacing()), options_.threads);
   });
   surface_.emplace(ExactSurface{*isosurface_, topology_, options_.threads});
-  r_min_box_ = parameters_.r_min_of == RMinOf::kBox ? isosurface_->box()
-                                                    : box_of_surface(*isosurface_, topology_.index, options_.threads);
+  r_min_box_ = r_min_box(*isosurface_, parameters_.r_min_of);
   // With threads to spare, what repair will ask is found beside stage 1.
   if (repairs(parameters_)) cache_ = std::make_unique<ExactSurfaceCache>(*surface_);
 }

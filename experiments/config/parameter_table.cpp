@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 2> kAlgorithmNames = {"two_stage", "full3
 constexpr std::array<std::string_view, 2> kSeedingNames = {"components", "random"};
 constexpr std::array<std::string_view, 2> kBoundaryNames = {"open", "closed"};
 constexpr std::array<std::string_view, 2> kSpacingNames = {"use", "ignore"};
-constexpr std::array<std::string_view, 2> kRMinOfNames = {"surface", "box"};
+constexpr std::array<std::string_view, 2> kRMinOfNames = {"voxels", "box"};
 constexpr std::array<std::string_view, 3> kQueueOrderNames = {"worst_first", "fifo", "largest_radius"};
 constexpr std::array<std::string_view, 2> kCriterion2Names = {"circumradius", "shortest_edge"};
 constexpr std::array<std::string_view, 2> kNewPoleNames = {"mean", "nearest"};
@@ -184,8 +184,8 @@ constexpr std::array kTable = {
                                                     "which of a vertex's two poles gives its pole height; nearer is "
                                                     "the paper's, the others need repair.max_rounds = 0"),
     row<&P::r_min_of>("r_min_of", kAny, "",
-                      "what r_min is a fraction of: the smallest side of the box of the cells that the isosurface "
-                      "passes, or of the volume's box, as in the paper"),
+                      "what r_min is a fraction of: 256 smallest spacings, whatever the volume's size, or the smallest "
+                      "side of its box, as in the paper"),
     row<&P::queue_order>("queue_order", kAny, "", "which violation of the same kind is mended first"),
     row<&P::field, &FieldParameters::label>("field.label", kAnyInteger, "",
                                             "mesh the surface of the samples with this value, half-way between them "

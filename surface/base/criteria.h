@@ -29,8 +29,8 @@ struct Criteria {
   Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / h_mean
 };
 
-// r_min in mesh space, from the fraction of the smallest side of a box that a parameter gives: the box of the cells
-// that the isosurface passes, or the volume's (r_min_of). At a crease of the isosurface h / r stays what it is however
+// r_min in mesh space, from the fraction of the smallest side of a box that a parameter gives: one of 256 smallest
+// spacings, or the volume's (r_min_of). At a crease of the isosurface h / r stays what it is however
 // small the triangles are. A triangle as small as the distance that a vertex may be off the isosurface tells nothing by
 // its shape: there refinement ends, whatever the fraction.
 inline double absolute_r_min(double fraction, const Box3& box) {

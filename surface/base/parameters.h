@@ -19,7 +19,7 @@ enum class SpacingUse { kUse, kIgnore };
 enum class PoleHeight { kNearer, kFarther, kMean };
 enum class Criterion2 { kCircumradius, kShortestEdge };
 enum class NewPole { kMean, kNearest };
-enum class RMinOf { kSurface, kBox };
+enum class RMinOf { kVoxels, kBox };
 enum class QueueOrder { kWorstFirst, kFirstInFirstOut, kLargestRadius };
 
 struct InitialParameters {
@@ -99,8 +99,8 @@ struct Parameters {
   InitialParameters initial;
   Stage1Parameters stage1;
   Stage2Parameters stage2;
-  RMinOf r_min_of = RMinOf::kSurface;  // r_min is a fraction of the smallest side of the box of the cells that the
-                                       // isosurface passes, or of the volume's box, as in the paper
+  RMinOf r_min_of = RMinOf::kVoxels;  // r_min is a fraction of 256 smallest spacings, or of the smallest side of the
+                                      // volume's box, as in the paper
   QueueOrder queue_order = QueueOrder::kWorstFirst;
   FieldParameters field;
   Boundary boundary = Boundary::kOpen;

@@ -272,7 +272,7 @@ def two_signals(place):
     """Two signals in a row, as `timeout` sends them, ask once: the partial mesh is written."""
     place.run("generate", "gyroid", "--size", "64", "-o", "large.nrrd", expect=[DONE])
     command = ("mesh", "large.nrrd", "--isovalue", "0.1", "-o", "m.ply", "--report", "r.json", "--quiet",
-               "--set", "stage2.epsilon1=0.005", "--set", "stage2.epsilon2=0.01")
+               "--set", "stage2.epsilon1=0.005", "--set", "stage2.epsilon2=0.01", "--set", "r_min_of=box")
     gaps = (0, 0, 0.001, 0.01, 0.1, 0.3, 0.8) if place.is_long else (0, 0.01, 0.3)
     for first, second in ((signal.SIGTERM, signal.SIGTERM), (signal.SIGINT, signal.SIGTERM)):
         for gap in gaps:

@@ -15,6 +15,8 @@ namespace {
 
 MeshingOptions options_of(const StressCase& stress_case, double most_seconds) {
   MeshingOptions options;
+  // Small volumes are refined to hundredths of a voxel: harder than by default.
+  options.parameters.r_min_of = RMinOf::kBox;
   if (stress_case.is_closed) options.parameters.boundary = Boundary::kClosed;
   for (const auto& [key, value] : stress_case.sets) {
     if (key == "stage2.r_min") options.parameters.stage2.r_min = value;

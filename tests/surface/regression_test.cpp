@@ -135,6 +135,7 @@ TEST_P(ProvenInput, StaysSo) {
   const ScalarGrid grid = read_volume(kInputs / name);
   MeshingOptions options;
   options.parameters.boundary = boundary;
+  options.parameters.r_min_of = RMinOf::kBox;  // the default when they were found: small volumes are refined far more
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
   const MeshedField field =
       meshed_field(grid, isovalue, {}, boundary == Boundary::kClosed, grid.spacing(), 1);

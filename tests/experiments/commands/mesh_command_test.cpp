@@ -245,7 +245,7 @@ TEST_F(MeshCommand, RandomPointsEndWithTheRun) {
 // More points than are triangulated at once.
 TEST_F(MeshCommand, ManyRandomPointsAreAllStartedFrom) {
   generate("sphere", 24);
-  ASSERT_EQ(mesh("0.3", {"--set", "initial.random_points=21000"}).exit_code, 0);
+  ASSERT_EQ(mesh("0.3", {"--set", "initial.random_points=21000", "--set", "r_min_of=box"}).exit_code, 0);
   EXPECT_GT(report()["vertices"].get<std::int64_t>(), 20500);
   EXPECT_EQ(run_deliso({"verify", folder_ / "m.ply", folder_ / "v.nrrd", "--isovalue", "0.3"}).exit_code, 0);
 }

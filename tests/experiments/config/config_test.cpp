@@ -45,7 +45,7 @@ constexpr const char* kDocumentedDefaults = R"({
              "one_sign_per_tetrahedron": true},
   "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
              "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
-  "r_min_of": "surface",
+  "r_min_of": "voxels",
   "queue_order": "worst_first",
   "field": {"label": null, "smooth": null, "invert": false},
   "boundary": "open",
