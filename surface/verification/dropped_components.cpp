@@ -50,7 +50,7 @@ Certificate certify_kept(const TriangleMesh& mesh, const IsosurfaceTopology& tru
 
 std::vector<Vec3> kept_crossings(const IsosurfaceProbe& probe, const IsosurfaceTopology& truth,
                                  std::span<const std::uint8_t> is_dropped) {
-  const std::vector<Vec3> all = probe.crossing_points();
+  std::vector<Vec3> all = probe.crossing_points();
   if (is_dropped.empty()) return all;
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
