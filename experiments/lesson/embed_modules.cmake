@@ -1,7 +1,7 @@
 # Writes ${OUTPUT}, a source file that holds the modules of the page (${FOLDER}/modules.txt lists them) as strings, so that
 # the program needs no file beside it. Runs at build time, when a module has changed.
 set(text "// Written by the build.\n#include \"experiments/lesson/lesson_modules.h\"\n\nnamespace deliso {\n")
-string(APPEND text "\nstd::span<const LessonModule> lesson_modules() {\n  static constexpr LessonModule kModules[] = {\n")
+string(APPEND text "\nnamespace {\nconstexpr LessonModule kModules[] = {\n")
 file(STRINGS ${FOLDER}/modules.txt names)
 foreach(name IN LISTS names)
   file(READ ${FOLDER}/${name} module)
@@ -11,5 +11,5 @@ foreach(name IN LISTS names)
   endif()
   string(APPEND text "{\"${name}\", R\"~module(${module})~module\"},\n")
 endforeach()
-string(APPEND text "  };\n  return kModules;\n}\n\n}  // namespace deliso\n")
+string(APPEND text "};\n}  // namespace\n\nstd::span<const LessonModule> lesson_modules() { return kModules; }\n\n}  // namespace deliso\n")
 file(WRITE ${OUTPUT} "${text}")

@@ -94,6 +94,7 @@ Json lesson_rays(const ScalarGrid& grid, double isovalue, const Vec3& spacing, s
   const MinMaxKdTree tree(grid, options.leaf_cells);
   Rng rng(seed);
   std::vector<Json> rays;
+  rays.reserve(kTries);
   for (int i = 0; i < kTries; ++i) rays.push_back(ray_json(isosurface, tree, random_line(isosurface.box(), rng)));
   std::stable_sort(rays.begin(), rays.end(),
                    [](const Json& a, const Json& b) { return a["hits"].size() > b["hits"].size(); });

@@ -11,6 +11,7 @@
 
 namespace deliso {
 
+// Moving nlohmann's JSON is not declared noexcept. NOLINTNEXTLINE(bugprone-exception-escape)
 struct LessonRun {
   std::string name;          // as the page calls it
   std::vector<Json> events;  // the whole trace (experiments/lesson/trace/trace_writer.h)

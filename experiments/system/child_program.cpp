@@ -24,6 +24,7 @@ namespace {
   const std::string name = program.string();
   arguments.insert(arguments.begin(), name);
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   dup2(out, STDOUT_FILENO);

@@ -67,7 +67,7 @@ std::string ending(const TraceEvent& event) {
 }  // namespace
 
 std::string sentence_of(const TraceEvent& event) {
-  const std::string kind = event.at("e");
+  std::string kind = event.at("e");
   if (kind == "initial") {
     return "InitTriangulation: " + count_of(event.at("points").size(), "point", "points") + ", " +
            count_of(event.at("tets").size(), "tetrahedron", "tetrahedra") + " with those at infinity.";
