@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "experiments/results/plot_legend.h"
 #include "experiments/results/plot_style.h"
@@ -31,11 +32,13 @@ std::vector<std::string> lines_of(const std::string& text, double width, double 
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     std::string& line = lines.back();
-    const std::string longer = line.empty() ? word : line + " " + word;
+    std::string longer = line;
+    if (!line.empty()) longer += ' ';
+    longer += word;
     if (!line.empty() && text_width(longer, size) > width) {
       lines.push_back(word);
     } else {
-      line = longer;
+      line = std::move(longer);
     }
   }
   return lines;
