@@ -46,7 +46,7 @@ TEST(Closing, RunsAlongTheFacesOfTheBox) {
   std::vector<double> doubles(120);
   for (std::size_t i = 0; i < 120; ++i) {
     bytes[i] = static_cast<std::uint8_t>(rng.below(256));
-    integers[i] = static_cast<std::int32_t>(rng.below(4000000000u)) - 2000000000;
+    integers[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(rng.below(4000000000u)) - 2000000000);
     floats[i] = static_cast<float>(rng.below(1000)) * 1e33f;
     doubles[i] = static_cast<double>(rng.below(1000)) * 1e-200;
   }
