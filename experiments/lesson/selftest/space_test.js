@@ -50,13 +50,14 @@
   test("hits lie on the surface, and agree with the signs", () => {
     const run = main();
     if (!run || !run.volume.samples.length) return;
+    const largest = run.volume.samples.reduce((most, f) => Math.max(most, Math.abs(f)), 0);
     const picture = new Lesson.SpacePicture(run, run.camera);
     for (let n = 0; n < run.meshAt; n += 11) {
       const replay = run.at(n);
       const restricted = new Set(replay.restricted().map(Lesson.Replay.keyOf));
       for (const key of replay.hits.keys()) {
         for (const p of picture.hitsOf(replay, key)) {
-          check(Math.abs(Lesson.slice.value(run.volume, p)) < 0.05, `event ${n}: the hit of ${key} is off the surface`);
+          check(Math.abs(Lesson.slice.value(run.volume, p)) < 0.01 * largest, `event ${n}: the hit of ${key} is off the surface`);
         }
         check(
             (replay.hits.get(key).t.length % 2 === 1) === restricted.has(key), `event ${n}: hits and signs of ${key}`);
