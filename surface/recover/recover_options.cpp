@@ -10,7 +10,9 @@ RecoverOptions recover_options(const Parameters& parameters, const Box3& box, in
   const Stage1Parameters& stage1 = parameters.stage1;
   RecoverOptions options;
   options.threads = threads;
-  options.geometry = {.epsilon = stage1.epsilon, .rho = effective_rho(stage1.rho, parameters.size), .r_min = absolute_r_min(stage1.r_min, box)};
+  options.geometry = {.epsilon = stage1.epsilon,
+                      .rho = effective_rho(stage1.rho, parameters.size),
+                      .r_min = absolute_r_min(stage1.r_min, box)};
   options.size_bound = std::max(options.geometry.r_min, stage1.size_bound_voxels);
   options.order = parameters.queue_order;
   return options;

@@ -137,8 +137,7 @@ TEST_P(ProvenInput, StaysSo) {
   options.parameters.boundary = boundary;
   options.parameters.r_min_of = RMinOf::kBox;  // the default when they were found: small volumes are refined far more
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
-  const MeshedField field =
-      meshed_field(grid, isovalue, {}, boundary == Boundary::kClosed, grid.spacing(), 1);
+  const MeshedField field = meshed_field(grid, isovalue, {}, boundary == Boundary::kClosed, grid.spacing(), 1);
   const Verification verification = verify_mesh(result.mesh, field.grid, field.isovalue);
   EXPECT_TRUE(verification.proven);
   for (const std::string& failure : verification.failures) ADD_FAILURE() << failure;

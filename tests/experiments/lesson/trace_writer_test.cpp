@@ -126,8 +126,8 @@ TEST_P(Trace, RebuildsEveryStateOfTheLiveTriangulation) {
 
 INSTANTIATE_TEST_SUITE_P(Fields, Trace,
                          ::testing::Values(TracedField{"torus", 16, 0.7}, TracedField{"double_torus", 24, 500.5},
-                                         TracedField{"shells", 24, 100.5}, TracedField{"gyroid", 16, 0.1},
-                                         TracedField{"plane", 8, 0.123457}, TracedField{"noise", 8, 127.5}),
+                                           TracedField{"shells", 24, 100.5}, TracedField{"gyroid", 16, 0.1},
+                                           TracedField{"plane", 8, 0.123457}, TracedField{"noise", 8, 127.5}),
                          [](const auto& field) { return std::string(field.param.name); });
 
 TEST(TraceOfALargeRun, IsRefusedWhereSlabsBegin) {
