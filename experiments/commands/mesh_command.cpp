@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "experiments/commands/label_files.h"
 #include "experiments/commands/mesh_fields.h"
 #include "experiments/commands/mesh_output.h"
+#include "experiments/commands/mesh_summary.h"
 #include "experiments/commands/size_options.h"
 #include "experiments/commands/world.h"
 #include "experiments/config/config.h"
@@ -30,10 +30,8 @@
 #include "experiments/system/progress_bar.h"
 #include "experiments/system/rounded_output.h"
 #include "experiments/system/stop_signal.h"
-#include "experiments/system/text_table.h"
 #include "surface/deliso.h"
 #include "surface/mesh/mesh_frame.h"
-#include "surface/mesh/mesh_quality.h"
 #include "volume/filters/labels.h"
 
 namespace deliso {
@@ -84,14 +82,6 @@ void check_outputs(const MeshCommandOptions& options, const std::vector<std::int
                    {{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
   }
 }
-
-// One surface: all of a run but for several labels.
-struct Meshed {
-  std::optional<std::int32_t> label;
-  ChosenField chosen;
-  MeshingOptions meshing;
-  MeshingResult result;
-};
 
 Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume, const std::string& sha256,
                const World& world) {
@@ -158,42 +148,6 @@ void write_outputs(const MeshCommandOptions& options, const std::vector<Meshed>&
   }
 }
 
-void print_summary(const Meshed& meshed, std::ostream& stream) {
-  const MeshingResult& result = meshed.result;
-  const MeshingOptions& options = meshed.meshing;
-  const TopologySum topology = sum_of(mesh_topology(result));
-  const std::string field = field_text(meshed.chosen.parameters);
-  TextTable table;
-  if (!field.empty()) table.row({"field", field});
-  table.row({"vertices", std::to_string(result.mesh.points.size())})
-      .row({"triangles", std::to_string(result.mesh.triangles.size())})
-      .row({"components", std::to_string(topology.components)})
-      .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
-      .row({"boundary loops", std::to_string(topology.boundary_loops)})
-      .row({"verdict", verdict_name(result.certificate.verdict)})
-      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, options.threads).min_angle_degrees)})
-      .row({"seconds", number_text(result.total_seconds)});
-  table.print(stream);
-  if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
-  stream << '\n'
-         << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
-         << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
-         << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
-         << number_text(result.promised_distance) << " voxel"
-         << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
-}
-
-// The triangles that could not be brought to the angle asked for, and where the worst of them is.
-void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
-  if (shape.bad_after == 0) return;
-  const double wanted = shape_options(parameters).min_angle * 180 / std::numbers::pi;
-  const BadTriangle& worst = shape.worst.front();
-  std::cerr << "deliso: " << shape.bad_after << (shape.bad_after == 1 ? " triangle has" : " triangles have")
-            << " an angle below " << number_text(wanted) << " degrees, at creases and necks of the isosurface; the "
-            << "worst, of " << number_text(worst.degrees()) << " degrees, at " << number_text(worst.centroid.x) << ' '
-            << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
-}
-
 // What a reader of stderr must know of the volume.
 void print_volume_remarks(const MeshCommandOptions& options, const Volume& volume, const World& world,
                           const ChosenField& chosen) {
@@ -203,28 +157,6 @@ void print_volume_remarks(const MeshCommandOptions& options, const Volume& volum
   }
   const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen);
   if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
-}
-
-// What a reader of stderr must know of a mesh beyond the table.
-void print_remarks(const MeshCommandOptions& options, const Meshed& meshed) {
-  const MeshingResult& result = meshed.result;
-  const ChosenField& chosen = meshed.chosen;
-  const Parameters& parameters = meshed.meshing.parameters;
-  const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
-  remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
-  remark_shape(result.shape, parameters);
-  for (const std::string& remark : size_remarks(parameters, result)) std::cerr << "deliso: " << remark << '\n';
-  const MeshRun run{options.volume.path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
-  for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
-  constexpr std::size_t kShown = 10;
-  const std::vector<std::string>& differences = result.certificate.differences;
-  for (std::size_t i = 0; i < std::min(kShown, differences.size()); ++i) {
-    std::cerr << "deliso: " << differences[i] << '\n';
-  }
-  for (const std::string& broken : result.certificate.broken) std::cerr << "deliso: not proven: " << broken << '\n';
-  if (differences.size() > kShown) {
-    std::cerr << "deliso: " << differences.size() - kShown << " more differences stand in the report\n";
-  }
 }
 
 ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result) {
@@ -294,7 +226,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
     print_summary(meshed, out);
     if (options.quiet) continue;
     if (&meshed == &all.front()) print_volume_remarks(options, volume, world, meshed.chosen);
-    print_remarks(options, meshed);
+    print_remarks(options.volume.path, meshed);
   }
   return worst;
 }

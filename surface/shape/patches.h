@@ -2,14 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "delaunay/base/parallel.h"
 #include "surface/base/exact_surface.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/shape/box_set.h"
 #include "surface/shape/patch.h"
+#include "surface/shape/shape_options.h"
 
 namespace deliso {
 
@@ -35,5 +38,21 @@ NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan);
 
 // Brings what was changed in patches into the mesh, which then has no neighbours; removes vertices without triangles.
 void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> patches, SurfaceMesh& mesh);
+
+// Takes the patches, has each worked on apart from the others, on any thread, and puts them back: work(patch, plan,
+// counted), whose counters are added to `stats` in the order of the plans.
+template <class Work>
+void work_in_patches(SurfaceMesh& mesh, std::span<const PatchPlan> plans, int threads, ShapeStats& stats,
+                     const Work& work) {
+  std::vector<NumberedPatch> patches(plans.size());
+  std::vector<ShapeStats> counted(plans.size());
+  run_tasks(plans.size(), threads, [&](std::size_t k) {
+    patches[k] = take_patch(mesh, plans[k]);
+    work(patches[k], plans[k], counted[k]);
+    if (patches[k].patch.steps() == 0) patches[k].patch = {};
+  });
+  put_back(plans, patches, mesh);
+  for (const ShapeStats& part : counted) stats.add(part);
+}
 
 }  // namespace deliso

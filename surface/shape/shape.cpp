@@ -48,21 +48,16 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   if (bad.empty() || controls.poll()) return;
   controls.report("shape", mesh.points.size(), bad.size());
   const std::vector<PatchPlan> plans = plan_patches(mesh, bad, kReach, surface);
-  std::vector<NumberedPatch> patches(plans.size());
-  std::vector<ShapeStats> counted(plans.size());
-  run_tasks(plans.size(), surface.threads, [&](std::size_t k) {
-    patches[k] = take_patch(mesh, plans[k]);
-    PatchImprovement improvement(patches[k].patch, plans[k], surface.isosurface, options,
-                                 controls.for_part(1, mesh.points.size()), counted[k]);
-    for (int round = 0; round < options.rounds && !patches[k].bad.empty(); ++round) {
-      improvement.run(patches[k].bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
-      patches[k].bad = patches[k].patch.triangles_below(goal);
-    }
-    count_left(patches[k], counted[k]);
-    if (patches[k].patch.steps() == 0) patches[k].patch = {};
-  });
-  put_back(plans, patches, mesh);
-  for (const ShapeStats& part : counted) stats.add(part);
+  work_in_patches(mesh, plans, surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                    PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
+                                                 controls.for_part(1, mesh.points.size()), part);
+                    for (int round = 0; round < options.rounds && !patch.bad.empty(); ++round) {
+                      improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
+                      patch.bad = patch.patch.triangles_below(goal);
+                    }
+                    count_left(patch, part);
+                  });
   stats.keep_worst(kMostWorst);
   controls.poll();
 }

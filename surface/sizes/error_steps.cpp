@@ -138,21 +138,13 @@ void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const 
                 const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
   if (far.empty()) return;
   const std::vector<PatchPlan> plans = plan_patches(mesh, far, kReach, surface);
-  std::vector<NumberedPatch> patches(plans.size());
-  std::vector<ShapeStats> counted(plans.size());
-  run_tasks(plans.size(), surface.threads, [&](std::size_t k) {
-    patches[k] = take_patch(mesh, plans[k]);
-    NearnessSteps steps(patches[k], plans[k], surface, most, options, counted[k]);
-    const Controls part = controls.for_part(1, mesh.points.size());
-    for (const double freedom : {1.0, 4.0, 16.0}) steps.run(freedom, 1, part);
-    steps.run(16, 2, part);  // a few
-    if (patches[k].patch.steps() == 0) patches[k].patch = {};
-  });
-  put_back(plans, patches, mesh);
-  for (std::size_t k = 0; k < counted.size(); ++k) {
-    for (std::size_t i = 0; i < counted[k].steps.size(); ++i) stats.steps[i] += counted[k].steps[i];
-    stats.search += counted[k].search;
-  }
+  work_in_patches(mesh, plans, surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
+                    NearnessSteps steps(patch, plan, surface, most, options, counted);
+                    const Controls part = controls.for_part(1, mesh.points.size());
+                    for (const double freedom : {1.0, 4.0, 16.0}) steps.run(freedom, 1, part);
+                    steps.run(16, 2, part);  // a few
+                  });
 }
 
 namespace {
@@ -244,18 +236,10 @@ void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<con
   std::sort(nearest.begin(), nearest.end());
   nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
   const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kReach, surface);
-  std::vector<NumberedPatch> patches(plans.size());
-  std::vector<ShapeStats> counted(plans.size());
-  run_tasks(plans.size(), surface.threads, [&](std::size_t k) {
-    patches[k] = take_patch(mesh, plans[k]);
-    insert_in(patches[k], plans[k], missed, surface, options, counted[k]);
-    if (patches[k].patch.steps() == 0) patches[k].patch = {};
-  });
-  put_back(plans, patches, mesh);
-  for (const ShapeStats& part : counted) {
-    for (std::size_t i = 0; i < part.steps.size(); ++i) stats.steps[i] += part.steps[i];
-    stats.search += part.search;
-  }
+  work_in_patches(mesh, plans, surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
+                    insert_in(patch, plan, missed, surface, options, counted);
+                  });
 }
 
 }  // namespace deliso

@@ -60,18 +60,10 @@ void split_long_edges(SurfaceMesh& mesh, const ExactSurface& surface, const Shap
       });
   if (longer.empty()) return;
   const std::vector<PatchPlan> plans = plan_patches(mesh, longer, kAroundEdge, surface);
-  std::vector<NumberedPatch> patches(plans.size());
-  std::vector<ShapeStats> counted(plans.size());
-  run_tasks(plans.size(), surface.threads, [&](std::size_t k) {
-    patches[k] = take_patch(mesh, plans[k]);
-    split_in(patches[k], plans[k], surface, options, controls.for_part(1, mesh.points.size()), counted[k]);
-    if (patches[k].patch.steps() == 0) patches[k].patch = {};
-  });
-  put_back(plans, patches, mesh);
-  for (const ShapeStats& part : counted) {
-    for (std::size_t i = 0; i < part.steps.size(); ++i) stats.steps[i] += part.steps[i];
-    stats.search += part.search;
-  }
+  work_in_patches(mesh, plans, surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                    split_in(patch, plan, surface, options, controls.for_part(1, mesh.points.size()), part);
+                  });
 }
 
 }  // namespace deliso

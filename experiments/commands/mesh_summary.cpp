@@ -1,0 +1,77 @@
+#include "experiments/commands/mesh_summary.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iostream>
+#include <numbers>
+#include <vector>
+
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/size_options.h"
+#include "experiments/runs/record.h"
+#include "experiments/system/text_table.h"
+#include "surface/mesh/mesh_quality.h"
+
+namespace deliso {
+namespace {
+
+// The triangles that could not be brought to the angle asked for, and where the worst of them is.
+void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
+  if (shape.bad_after == 0) return;
+  const double wanted = shape_options(parameters).min_angle * 180 / std::numbers::pi;
+  const BadTriangle& worst = shape.worst.front();
+  std::cerr << "deliso: " << shape.bad_after << (shape.bad_after == 1 ? " triangle has" : " triangles have")
+            << " an angle below " << number_text(wanted) << " degrees, at creases and necks of the isosurface; the "
+            << "worst, of " << number_text(worst.degrees()) << " degrees, at " << number_text(worst.centroid.x) << ' '
+            << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
+}
+
+}  // namespace
+
+void print_summary(const Meshed& meshed, std::ostream& stream) {
+  const MeshingResult& result = meshed.result;
+  const MeshingOptions& options = meshed.meshing;
+  const TopologySum topology = sum_of(mesh_topology(result));
+  const std::string field = field_text(meshed.chosen.parameters);
+  TextTable table;
+  if (!field.empty()) table.row({"field", field});
+  table.row({"vertices", std::to_string(result.mesh.points.size())})
+      .row({"triangles", std::to_string(result.mesh.triangles.size())})
+      .row({"components", std::to_string(topology.components)})
+      .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
+      .row({"boundary loops", std::to_string(topology.boundary_loops)})
+      .row({"verdict", verdict_name(result.certificate.verdict)})
+      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, options.threads).min_angle_degrees)})
+      .row({"seconds", number_text(result.total_seconds)});
+  table.print(stream);
+  if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;
+  stream << '\n'
+         << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
+         << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
+         << "triangles cross, its vertices lie on the isosurface, and distances both ways are at most "
+         << number_text(result.promised_distance) << " voxel"
+         << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
+}
+
+void print_remarks(const std::string& volume_path, const Meshed& meshed) {
+  const MeshingResult& result = meshed.result;
+  const ChosenField& chosen = meshed.chosen;
+  const Parameters& parameters = meshed.meshing.parameters;
+  const bool is_as_read = !chosen.parameters.label && !chosen.parameters.smooth;
+  remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
+  remark_shape(result.shape, parameters);
+  for (const std::string& remark : size_remarks(parameters, result)) std::cerr << "deliso: " << remark << '\n';
+  const MeshRun run{volume_path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
+  for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
+  constexpr std::size_t kShown = 10;
+  const std::vector<std::string>& differences = result.certificate.differences;
+  for (std::size_t i = 0; i < std::min(kShown, differences.size()); ++i) {
+    std::cerr << "deliso: " << differences[i] << '\n';
+  }
+  for (const std::string& broken : result.certificate.broken) std::cerr << "deliso: not proven: " << broken << '\n';
+  if (differences.size() > kShown) {
+    std::cerr << "deliso: " << differences.size() - kShown << " more differences stand in the report\n";
+  }
+}
+
+}  // namespace deliso

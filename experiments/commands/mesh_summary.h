@@ -1,0 +1,26 @@
+// What `deliso mesh` tells of a mesh: a table, and remarks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "experiments/commands/field_options.h"
+#include "surface/deliso.h"
+
+namespace deliso {
+
+// One surface: all of a run but for several labels.
+struct Meshed {
+  std::optional<std::int32_t> label;
+  ChosenField chosen;
+  MeshingOptions meshing;
+  MeshingResult result;
+};
+
+void print_summary(const Meshed& meshed, std::ostream& stream);
+// On stderr, what a reader must know beyond the table.
+void print_remarks(const std::string& volume_path, const Meshed& meshed);
+
+}  // namespace deliso
