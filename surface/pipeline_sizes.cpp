@@ -104,12 +104,14 @@ void Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   constexpr int kStepRounds = 2;
   ShapeOptions options_of_steps = shape_options(parameters_);
   options_of_steps.max_height = nearer.max_distance;
+  // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
+  ShapeOptions options_of_nearing = shape_options(parameters_);
+  options_of_nearing.max_height = std::max(options_of_nearing.max_height, ShapeOptions{}.max_height);
   for (int round = 0; round < kStepRounds && check(nearer) > 0 && !controls_.poll(); ++round) {
     timed(result_.shape, [&] {
       insert_missed(mesh, *surface_, last_.geometry.missed_crossings, options_of_steps, controls_, result_.shape);
       const GeometryCheck now = check_geometry(mesh, *surface_, nearer);
-      bring_near(mesh, *surface_, now.far_triangles, nearer.max_distance, shape_options(parameters_), controls_,
-                 result_.shape);
+      bring_near(mesh, *surface_, now.far_triangles, nearer.max_distance, options_of_nearing, controls_, result_.shape);
     });
   }
   check(promise_);

@@ -143,7 +143,7 @@ void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const 
                     NearnessSteps steps(patch, plan, surface, most, options, counted);
                     const Controls part = controls.for_part(1, mesh.points.size());
                     for (const double freedom : {1.0, 4.0, 16.0}) steps.run(freedom, 1, part);
-                    steps.run(16, 2, part);  // a few
+                    for (const int depth : {2, 3}) steps.run(16, depth, part);  // a few
                   });
 }
 
