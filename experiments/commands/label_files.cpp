@@ -1,6 +1,7 @@
 #include "experiments/commands/label_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -19,6 +20,25 @@ void append(const TriangleMesh& from, std::optional<std::int32_t> label, Triangl
   to.points.insert(to.points.end(), from.points.begin(), from.points.end());
   for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({first + a, first + b, first + c});
   if (label) to.labels.resize(to.triangles.size(), *label);
+}
+
+// Those of a mesh after those of the others in the file: all have the same names.
+void append(const std::vector<MeshAttribute>& from, std::vector<MeshAttribute>& to) {
+  for (std::size_t i = 0; i < to.size() && i < from.size(); ++i) {
+    to[i].values.insert(to[i].values.end(), from[i].values.begin(), from[i].values.end());
+  }
+}
+
+MeshAttribute label_attribute(const TriangleMesh& mesh) {
+  MeshAttribute attribute{.name = "label", .width = 1, .is_whole = true, .values = {}};
+  attribute.values.assign(mesh.labels.begin(), mesh.labels.end());
+  return attribute;
+}
+
+// The formats with a number for each triangle in which surfaces may touch each other.
+bool holds_labels(const std::string& name) {
+  constexpr std::array<std::string_view, 4> kExtensions{".ply", ".vtk", ".vtp", ".mesh"};
+  return std::find(kExtensions.begin(), kExtensions.end(), lower_case_extension(name)) != kExtensions.end();
 }
 
 }  // namespace
@@ -41,17 +61,22 @@ void check_label_names(const std::string& pattern, const std::string& option, co
     if (!labels.empty()) return;
     throw InputError(option + ": {label} stands for a label, but none is meshed, expected --label N or another name");
   }
-  if (!is_mesh || pattern.empty() || labels.size() < 2 || lower_case_extension(pattern) == ".ply") return;
+  if (!is_mesh || pattern.empty() || labels.size() < 2 || holds_labels(pattern)) return;
   throw InputError(option +
-                   ": several labels in one file need a .ply, which holds a label per triangle, or {label} in "
-                   "the name for a file each, found '" +
+                   ": several labels in one file need a .ply, .vtk, .vtp or .mesh, which hold a label per triangle, or "
+                   "{label} in the name for a file each, found '" +
                    pattern + "'");
 }
 
 void MeshFiles::add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
                     const MeshFileOptions& options) {
   auto file = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.name == name; });
-  if (file == files_.end()) file = files_.insert(file, File{name, {}, {}, options});
+  if (file == files_.end()) {
+    file = files_.insert(file, File{name, {}, {}, options});
+  } else {
+    append(options.attributes.vertices, file->options.attributes.vertices);
+    append(options.attributes.triangles, file->options.attributes.triangles);
+  }
   append(mesh, label, file->mesh);
   if (label) file->labels.push_back(*label);
 }
@@ -62,7 +87,11 @@ void MeshFiles::write() const {
     if (!file.labels.empty()) options.comments.push_back(label_note(file.labels));
     // A file of one label needs none at its triangles.
     TriangleMesh mesh = file.mesh;
-    if (file.labels.size() < 2) mesh.labels.clear();
+    if (file.labels.size() < 2) {
+      mesh.labels.clear();
+    } else {
+      options.attributes.triangles.push_back(label_attribute(mesh));
+    }
     write_mesh_output(mesh, file.name, options);
   }
 }

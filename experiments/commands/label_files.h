@@ -27,7 +27,7 @@ void check_label_names(const std::string& pattern, const std::string& option, co
 // Meshes by the names of their files; those of one name come into one file.
 class MeshFiles {
  public:
-  // The options, with the lines of comments, are those of the first mesh of a file.
+  // The options are those of the first mesh of a file, but for the attributes, which are those of all.
   void add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
            const MeshFileOptions& options);
   void write() const;

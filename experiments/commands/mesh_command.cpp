@@ -243,7 +243,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
       .add_option("-o,--output", options->output,
                   "The mesh: " + std::string(kMeshExtensions) +
                       "; - is standard output; {label} in the name stands for the label, without it several share one "
-                      ".ply with a label per triangle")
+                      ".ply, .vtk, .vtp or .mesh with a label per triangle")
       .type_name("MESH")
       .required();
   command.add_option("--config", options->config, "Parameters in a JSON file")

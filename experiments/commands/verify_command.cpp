@@ -36,7 +36,7 @@ struct VerifyCommandOptions {
   std::string mesh;
   MeshFormatOptions format;
   VolumeOptions volume;
-  WorldOptions world;
+  WorldOptions world{.space = ""};
   FieldOptions field;
   std::string report;
   std::string dropped;       // empty: what the mesh file says, or else none
@@ -156,6 +156,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
   const KeptInFile kept = kept_in_file(file.comments);
   if (options.volume.region.empty()) options.volume.region = kept.region;
   const Volume volume = load_volume(options.volume);
+  take_world_notes(file.comments, volume, options.world);
   const World world = world_of(volume, options.world);
   const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
                                        : promised_distance(file.comments).value_or(PromiseParameters().max_distance);

@@ -16,6 +16,9 @@
 namespace deliso {
 namespace {
 
+// What begins a line of a mesh file's comments.
+constexpr std::string_view kPromise = "promise.max_distance", kSpace = "space", kLocalOrigin = "local origin";
+
 Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 Json name_json(const std::string& name) { return name.empty() ? Json() : Json(name); }
@@ -46,18 +49,33 @@ std::string on_one_line(std::string text) {
 }  // namespace
 
 void add_world_options(Command& command, WorldOptions& options) {
-  command
-      .add_option("--space", options.space,
-                  "World coordinates of the mesh: native (as in the volume's file), LPS or RAS")
-      .type_name("SPACE")
-      .show_default();
+  const std::string by_default = options.space.empty() ? " (default: what the mesh file says, or native)" : "";
+  CommandOption option =
+      command
+          .add_option("--space", options.space,
+                      "World coordinates of the mesh: native (as in the volume's file), LPS or RAS" + by_default)
+          .type_name("SPACE");
+  if (by_default.empty()) option.show_default();
   command.add_flag("--local-origin", options.local_origin,
                    "Coordinates of the mesh count from the first sample (for STL far from the origin)");
 }
 
 void check_space(const std::string& space) {
-  if (space == "native" || space == "LPS" || space == "RAS" || space == "lps" || space == "ras") return;
+  if (space.empty() || space == "native" || space == "LPS" || space == "RAS" || space == "lps" || space == "ras")
+    return;
   throw InputError("--space: expected native, LPS or RAS, found '" + space + "'");
+}
+
+void take_world_notes(const std::vector<std::string>& comments, const Volume& volume, WorldOptions& options) {
+  if (options.space.empty()) {
+    const std::string text = note_in(comments, kSpace).value_or("");
+    const std::string space = text.substr(0, text.find(','));
+    options.space = "native";
+    for (const char* const known : {"LPS", "RAS"}) {
+      if (space == space_name(known) && !volume.placement.space.empty()) options.space = known;
+    }
+  }
+  if (note_in(comments, kLocalOrigin)) options.local_origin = true;
 }
 
 World world_of(const Volume& volume, const WorldOptions& options) {
@@ -94,21 +112,17 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
   return key + "=" + shortest_text(parse_length(value, "--set " + key, volume));
 }
 
-namespace {
-constexpr std::string_view kPromise = "promise.max_distance";
-}
-
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world, const std::vector<std::string>& more) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
   lines.push_back(std::string(kPromise) + " " + shortest_text(promised));
   lines.insert(lines.end(), more.begin(), more.end());
-  lines.push_back("space " + or_unknown(world.space) + ", units " + or_unknown(world.units));
+  lines.push_back(std::string(kSpace) + " " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
-    lines.push_back("local origin " + shortest_text(o.x) + " " + shortest_text(o.y) + " " + shortest_text(o.z) +
-                    ", to be added to every vertex");
+    lines.push_back(std::string(kLocalOrigin) + " " + shortest_text(o.x) + " " + shortest_text(o.y) + " " +
+                    shortest_text(o.z) + ", to be added to every vertex");
   }
   const std::string file = std::filesystem::path(volume_path).filename().string();
   lines.push_back("volume " + (file == "-" ? "of standard input" : on_one_line(file)));

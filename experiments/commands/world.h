@@ -14,7 +14,7 @@ namespace deliso {
 
 // As typed.
 struct WorldOptions {
-  std::string space = "native";
+  std::string space = "native";  // empty in the beginning: what a mesh's file says
   bool local_origin = false;
 };
 
@@ -28,6 +28,8 @@ struct World {
   bool is_sheared = false;
 };
 
+// What is not given, from the lines of a mesh's file (mesh_comments): another tool's mesh has none, and is native.
+void take_world_notes(const std::vector<std::string>& comments, const Volume& volume, WorldOptions& options);
 // Throws InputError when the space is none or the volume does not say its own.
 World world_of(const Volume& volume, const WorldOptions& options);
 // Throws InputError when the option's value is no space; to be checked before the volume is read.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,27 @@ TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
             both["labels"][0]["triangles"].get<std::size_t>() + both["labels"][1]["triangles"].get<std::size_t>());
   // One of them is checked alone.
   EXPECT_EQ(run_deliso({"verify", mesh_, volume_, "--label", "-5"}).exit_code, 0);
+  // As numbers of the triangles, which VTK files hold in one line and Medit files at the end of each triangle.
+  const std::string numbers = folder_ / "n.vtk", medit = folder_ / "n.mesh";
+  for (const std::string& name : {numbers, medit}) {
+    EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2,-5", "--smooth", "1", "-o", name, "--ascii"}).exit_code, 0);
+    EXPECT_EQ(read_mesh(name).triangles, mesh.triangles);
+  }
+  const std::string text = read_file(numbers);
+  const std::size_t at = text.find("label 1 " + std::to_string(mesh.triangles.size()) + " int\n");
+  ASSERT_NE(at, std::string::npos);
+  std::istringstream in(text.substr(text.find('\n', at)));
+  std::istringstream of_medit(read_file(medit).substr(read_file(medit).find("Triangles\n") + 10));
+  std::size_t count = 0;
+  of_medit >> count;
+  ASSERT_EQ(count, mesh.triangles.size());
+  for (const std::int32_t label : mesh.labels) {
+    std::int32_t found = 0, reference = 0, corner = 0;
+    in >> found;
+    of_medit >> corner >> corner >> corner >> reference;
+    EXPECT_EQ(found, label);
+    EXPECT_EQ(reference, label);
+  }
   const std::string each = folder_ / "l_{label}.obj";
   EXPECT_EQ(
       run_deliso({"mesh", volume_, "--label", "2,-5", "-o", each, "--report", folder_ / "l_{label}.json"}).exit_code,

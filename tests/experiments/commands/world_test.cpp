@@ -232,6 +232,27 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
       read_file(folder_ / "b.stl").starts_with("DelIso 0.1.0, isovalue 40; promise.max_distance 1; space left"));
 }
 
+// Space and local origin of a mesh need not be said again; what is said again counts.
+TEST_F(WorldTest, TheVerificationTakesSpaceAndLocalOriginFromTheMesh) {
+  write_file(folder_ / "a.nrrd", nrrd_file(kAskew));
+  for (const std::string name : {"m.ply", "m.off", "m.vtp"}) {
+    mesh("a.nrrd", name, {"--space", "RAS", "--local-origin"}, false);
+    const auto verify = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments = {"verify",  folder_ / name, folder_ / "a.nrrd", "--isovalue",
+                                            kIsovalue, "--report",     folder_ / "v.json"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run_deliso(arguments).exit_code;
+    };
+    EXPECT_EQ(verify({}), 0) << name;
+    EXPECT_EQ(Json::parse(read_file(folder_ / "v.json"))["world"]["space"], "right-anterior-superior") << name;
+    EXPECT_EQ(verify({"--space", "native"}), 1) << name;
+  }
+  // The same samples where no space is known.
+  mesh("a.nrrd", "n.ply", {}, false);
+  write_file(folder_ / "n.nrrd", nrrd_file(kAskew, ""));
+  EXPECT_EQ(run_deliso({"verify", folder_ / "n.ply", folder_ / "n.nrrd", "--isovalue", kIsovalue}).exit_code, 0);
+}
+
 TEST_F(WorldTest, LengthsMayBeOfTheWorld) {
   write_file(folder_ / "a.nrrd", nrrd_file(kAskew));  // the smallest spacing is 1.25 mm
   for (const auto& [typed, voxels] :
