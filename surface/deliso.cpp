@@ -135,11 +135,13 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
     };
   }
   result_.r_min_voxels = options.r_min;
+  if (is_sized(parameters_)) start_ = mesh;
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
   options.announce = {};
   if (result_.build.bounds_a_solid) finish(mesh, options);
+  start_.reset();
   drop_crossings();
   return mesh;
 }

@@ -45,7 +45,8 @@ class Pipeline {
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
-  void refine_to_error(SurfaceMesh& mesh, RefineOptions options);
+  bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
+  void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
@@ -65,6 +66,7 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
+  std::optional<SurfaceMesh> start_;          // what RefineGeom begins with, where an error or a number is stated
   AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
   Promise promise_;
   MeshFaults last_;  // of the mesh that RefineGeom has made

@@ -70,8 +70,8 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
 }
 
 // The height of stage 2 is measured at one point of each triangle. Where the mesh is too far at others, its triangles
-// get smaller, and what it misses is inserted; where that is refused, other steps are tried.
-void Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
+// get smaller, and what it misses is inserted; where that is refused, other steps are tried. Whether that was enough.
+bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   constexpr int kMostRounds = 12;
   constexpr double kReach = 0.9;       // of the distance promised: what is farther off is inserted
   constexpr double kLeastShare = 0.1;  // of it: smaller triangles are near it anyway
@@ -89,7 +89,7 @@ void Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
     const double off = check(nearer);
-    if (off == 0) return;
+    if (off == 0) return true;
     if (off > kProgress * before) break;
     before = off;
     timed(result_.refine, [&] {
@@ -115,6 +115,32 @@ void Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
     });
   }
   check(promise_);
+  return last_.geometry.is_near();
+}
+
+// Without criteria 1 and 2 of the paper a few long triangles may lie across a fold, and nothing can be inserted into
+// them: they would be turned over. With all criteria such places are reached in smaller steps, and decimation takes out
+// what is not needed.
+void Pipeline::begin_again(SurfaceMesh& mesh, const RefineOptions& options) {
+  Parameters paper = parameters_;
+  paper.size.max_error.reset();
+  paper.size.target_vertices.reset();
+  SurfaceMesh again = std::move(*start_);
+  timed(result_.refine, [&] {
+    const RefineOptions all_criteria = refine_options(paper, r_min_box_, coverage_targets_, options_.threads);
+    set_side_adjacency(again);
+    refine_geometry(again, *isosurface_, all_criteria, controls_, result_.refine);
+  });
+  if (parameters_.size.max_edge) limit_edges(again, options);
+  improve(again, parameters_.shape.rounds);
+  const MeshFaults before = last_;
+  refine_to_error(again, options);
+  const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_crossings); };
+  if (off(last_.geometry) < off(before.geometry)) {
+    mesh = std::move(again);
+  } else {
+    last_ = before;
+  }
 }
 
 // Where the mesh is farthest from the isosurface first: each round allows a smaller height, until there are enough
