@@ -28,6 +28,18 @@ other_program_packages=(
   "gmsh:/usr/bin/gmsh"
 )
 
+# For the Python module and its tests, and for the library's, which are skipped without them.
+python_packages=(
+  "python3-dev:/usr/bin/python3-config"
+  "python3-numpy:/usr/lib/python3/dist-packages/numpy/__init__.py"
+  "python3-pybind11:/usr/lib/python3/dist-packages/pybind11/__init__.py"
+  "pybind11-dev:/usr/include/pybind11/pybind11.h"
+  "python3-pip:/usr/lib/python3/dist-packages/pip/__init__.py"
+  "python3-setuptools:/usr/lib/python3/dist-packages/setuptools/__init__.py"
+  "python3-wheel:/usr/lib/python3/dist-packages/wheel/__init__.py"
+  "pkg-config:/usr/bin/pkg-config"
+)
+
 # For the tests of the page of lessons in a browser, which are skipped without it.
 browser_packages=("chromium:/usr/bin/chromium")
 

@@ -76,15 +76,8 @@ std::string region_text(const SampleRegion& region) {
   return text;
 }
 
-namespace {
-
-struct Part {
-  std::array<std::int32_t, 3> low{};
-  Dims dims{};
-};
-
-Part part_of(const Dims& all, const SampleRegion& region) {
-  Part part;
+SamplePart part_of(const Dims& all, const SampleRegion& region) {
+  SamplePart part;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t end = all[axis] - 1, last = region.last[axis].value_or(end);
     part.low[axis] = region.first[axis].value_or(0);
@@ -98,15 +91,13 @@ Part part_of(const Dims& all, const SampleRegion& region) {
   return part;
 }
 
-}  // namespace
-
 Samples cropped(const Samples& samples, const Dims& dims, const SampleRegion& region) {
-  const Part part = part_of(dims, region);
+  const SamplePart part = part_of(dims, region);
   return visit_samples(samples, [&](const auto& all) { return crop(all, dims, part.low, part.dims); });
 }
 
 ScalarGrid cropped(const ScalarGrid& grid, const SampleRegion& region) {
-  const Part part = part_of(grid.dims(), region);
+  const SamplePart part = part_of(grid.dims(), region);
   Vec3 origin = grid.origin();
   for (std::size_t axis = 0; axis < 3; ++axis) origin[axis] += part.low[axis] * grid.spacing()[axis];
   return {part.dims, cropped(grid.samples(), grid.dims(), region), grid.spacing(), origin};

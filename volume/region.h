@@ -22,6 +22,14 @@ SampleRegion parse_region(const std::string& text, const std::string& source);
 // The same text again.
 std::string region_text(const SampleRegion& region);
 
+// The first sample of each axis, and how many.
+struct SamplePart {
+  std::array<std::int32_t, 3> low{};
+  Dims dims{};
+};
+// Throws InputError when the region leaves the samples or has fewer than two along an axis.
+SamplePart part_of(const Dims& all, const SampleRegion& region);
+
 // These samples, at their own places. Throws InputError when the region leaves the grid or has fewer than two samples
 // along an axis.
 ScalarGrid cropped(const ScalarGrid& grid, const SampleRegion& region);

@@ -28,7 +28,7 @@
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/progress_bar.h"
-#include "experiments/system/rounded_output.h"
+#include "surface/library/rounded_output.h"
 #include "experiments/system/stop_signal.h"
 #include "surface/deliso.h"
 #include "surface/mesh/mesh_frame.h"
@@ -226,7 +226,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
     print_summary(meshed, out);
     if (options.quiet) continue;
     if (&meshed == &all.front()) print_volume_remarks(options, volume, world, meshed.chosen);
-    print_remarks(options.volume.path, meshed);
+    print_remarks(meshed);
   }
   return worst;
 }

@@ -53,7 +53,7 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
          << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }
 
-void print_remarks(const std::string& volume_path, const Meshed& meshed) {
+void print_remarks(const Meshed& meshed) {
   const MeshingResult& result = meshed.result;
   const ChosenField& chosen = meshed.chosen;
   const Parameters& parameters = meshed.meshing.parameters;
@@ -61,8 +61,7 @@ void print_remarks(const std::string& volume_path, const Meshed& meshed) {
   remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
   remark_shape(result.shape, parameters);
   for (const std::string& remark : size_remarks(parameters, result)) std::cerr << "deliso: " << remark << '\n';
-  const MeshRun run{volume_path, chosen.grid, chosen.isovalue, meshed.meshing, ""};
-  for (const std::string& goal : unmet_goals(run, result)) std::cerr << "deliso: " << goal << '\n';
+  for (const std::string& goal : unmet_goals(meshed.meshing, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;
   const std::vector<std::string>& differences = result.certificate.differences;
   for (std::size_t i = 0; i < std::min(kShown, differences.size()); ++i) {

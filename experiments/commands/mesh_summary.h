@@ -21,6 +21,6 @@ struct Meshed {
 
 void print_summary(const Meshed& meshed, std::ostream& stream);
 // On stderr, what a reader must know beyond the table.
-void print_remarks(const std::string& volume_path, const Meshed& meshed);
+void print_remarks(const Meshed& meshed);
 
 }  // namespace deliso

@@ -14,7 +14,7 @@
 #include "delaunay/base/shortest_text.h"
 #include "experiments/config/config.h"
 #include "experiments/system/parse_number.h"
-#include "experiments/system/rounded_output.h"
+#include "surface/library/rounded_output.h"
 #include "experiments/system/text_table.h"
 #include "surface/base/sizes.h"
 #include "volume/region.h"

@@ -26,6 +26,7 @@
 #include "experiments/system/parse_number.h"
 #include "experiments/system/progress_bar.h"
 #include "experiments/system/text_table.h"
+#include "surface/library/verification_report.h"
 #include "surface/mesh/mesh_frame.h"
 #include "surface/verification/verification.h"
 
@@ -77,15 +78,6 @@ Json verify_report(const VerifyCommandOptions& options, const Volume& volume, co
               {"total_seconds", v.seconds}};
 }
 
-// Places of the grid's own coordinates as points of the mesh's file.
-void to_world(Verification& v, const Affine& map) {
-  for (Vec3& p : v.orientation.reversed_at) p = map(p);
-  for (TrianglePair& pair : v.self_intersection.found.crossing) pair.position = map(pair.position);
-  for (TrianglePair& pair : v.self_intersection.found.touching) pair.position = map(pair.position);
-  for (DistanceFigure* figure : {&v.residual.distance, &v.distance.mesh_to_isosurface, &v.distance.isosurface_to_mesh})
-    figure->worst = map(figure->worst);
-}
-
 // Converts the mesh and its volume to units of samples: sample (i, j, k) lies at (i, j, k).
 void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
   const Vec3& s = grid.spacing();
@@ -110,7 +102,7 @@ Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volum
     return verify_mesh(mesh, field.grid, field.isovalue, promise,
                        [&bar](double share, std::string_view step) { bar.show(share, step); });
   }();
-  if (!options.ignore_spacing) to_world(verification, world.from_grid);
+  if (!options.ignore_spacing) move_places(verification, world.from_grid);
   return {std::move(chosen), std::move(field), std::move(verification)};
 }
 

@@ -7,7 +7,8 @@
 #include <string_view>
 
 #include "experiments/config/json.h"
-#include "experiments/config/parameter_table.h"
+#include "surface/base/parameter_table.h"
+#include "surface/base/parameter_value.h"
 #include "surface/base/parameters.h"
 
 namespace deliso {
@@ -25,9 +26,6 @@ Json value_to_json(const ParameterValue& value);
 
 // Every parameter, also those that have their default.
 Json parameters_to_json(const Parameters& parameters);
-
-// Throws InputError unless the key path names a parameter.
-void check_parameter_path(std::string_view path, const std::string& source);
 
 // One `--set key.path=value`. The value is written as in JSON; the quotes of a choice may be left out. Throws
 // InputError like apply_parameters, and when the '=' is missing.

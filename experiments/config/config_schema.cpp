@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "experiments/config/config.h"
-#include "experiments/config/parameter_table.h"
+#include "surface/base/parameter_table.h"
 
 namespace deliso {
 namespace {

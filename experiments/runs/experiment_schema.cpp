@@ -1,6 +1,6 @@
 // The JSON schema of experiments, from the tables that the parser uses.
 #include "experiments/config/config.h"
-#include "experiments/config/parameter_table.h"
+#include "surface/base/parameter_table.h"
 #include "experiments/runs/experiment_config.h"
 #include "experiments/runs/experiment_keys.h"
 

@@ -13,6 +13,8 @@
 #include "experiments/config/json.h"
 #include "surface/certificate/certificate.h"
 #include "surface/deliso.h"
+#include "surface/library/json_tree.h"
+#include "surface/library/run_report.h"
 #include "surface/mesh/mesh_quality.h"
 #include "surface/mesh/triangle_mesh.h"
 #include "volume/scalar_grid.h"
@@ -21,6 +23,8 @@ namespace deliso {
 
 // The layout of the report; it gets a new name whenever a key changes its meaning.
 inline constexpr const char* kReportSchema = "deliso-report-1";
+
+Json json_of(const JsonTree& tree);
 
 // version, commit, compiler, flags, cpu.
 Json program_json();
@@ -38,20 +42,6 @@ Json certificate_json(const Certificate& certificate);
 // min_angle_histogram: triangles by their smallest angle, in bins of 5 degrees.
 Json quality_json(const MeshQuality& quality);
 
-// The name of a verdict in JSON.
-std::string verdict_name(Verdict verdict);
-
-// Euler characteristic, boundary loops and number of components of a whole surface.
-struct TopologySum {
-  std::int64_t components = 0;
-  std::int64_t euler_characteristic = 0;
-  std::int64_t boundary_loops = 0;
-};
-TopologySum sum_of(const std::vector<TopologyCount>& counts);
-
-// The topology of the mesh of a result, certified or not. (The mesher's meshes are manifold.)
-std::vector<TopologyCount> mesh_topology(const MeshingResult& result);
-
 // The input of a run of the mesher.
 struct MeshRun {
   std::filesystem::path volume_path;
@@ -60,9 +50,6 @@ struct MeshRun {
   const MeshingOptions& options;
   std::string volume_sha256{};  // empty: not known yet
 };
-
-// What a run that stopped early left undone, one sentence each; empty when it was not stopped.
-std::vector<std::string> unmet_goals(const MeshRun& run, const MeshingResult& result);
 
 // The report of `deliso mesh`.
 Json mesh_report(const MeshRun& run, const MeshingResult& result);

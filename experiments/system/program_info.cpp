@@ -8,7 +8,8 @@
 #include <malloc.h>
 #endif
 
-#include "deliso_commit.h"  // written by the build: kCommit
+#include "deliso/version.h"  // written by the build, as is
+#include "deliso_commit.h"   // kCommit
 
 namespace deliso {
 namespace {
@@ -24,7 +25,7 @@ std::string cpu_name() {
 
 }  // namespace
 
-ProgramInfo program_info() { return {DELISO_VERSION, kCommit, DELISO_COMPILER, DELISO_FLAGS, cpu_name()}; }
+ProgramInfo program_info() { return {DELISO_VERSION_TEXT, kCommit, DELISO_COMPILER, DELISO_FLAGS, cpu_name()}; }
 
 // getrusage is not used: its value includes the peak of the process that started this one.
 std::int64_t peak_memory_bytes() {

@@ -11,24 +11,9 @@
 #include <string>
 #include <string_view>
 
+#include "surface/base/progress_share.h"
+
 namespace deliso {
-namespace {
-
-constexpr std::array<std::string_view, 8> kStages = {"index",  "initial", "recover",  "repair",
-                                                     "refine", "shape",   "decimate", "certify"};
-
-// The stages share the bar evenly. Within a stage, the fraction is vertices done over vertices done plus violations
-// waiting. The number of violations still to come is unknown, so the bar may slow down, but it shows which stage is
-// running.
-double filled_share(const Progress& progress) {
-  const auto stage = std::find(kStages.begin(), kStages.end(), progress.stage) - kStages.begin();
-  const auto done = static_cast<double>(progress.vertices);
-  const double all = done + static_cast<double>(progress.queued);
-  const double within = progress.queued > 0 && all > 0 ? done / all : 0;
-  return (static_cast<double>(stage) + within) / static_cast<double>(kStages.size());
-}
-
-}  // namespace
 
 std::string progress_line(double share, const std::string& text, std::size_t width) {
   // The length depends on the width alone, so that the bar stays still while the text grows.
@@ -47,7 +32,7 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::show(const Progress& progress) {
   const double now = stopwatch_.seconds();
   // Stages do not come back, but for the shape of what was refined by distance: that is a part of refinement.
-  const double share = filled_share(progress);
+  const double share = share_of_run(progress);
   const bool is_back = share < share_ && progress.stage != stage_;
   if (!is_back && progress.stage != stage_) {
     stage_ = progress.stage;

@@ -1,5 +1,5 @@
-// The parameters of the mesher. Defaults are the paper's where it gives them. The table in experiments/config/config.h
-// makes JSON, help text and schema of these structs.
+// The parameters of the mesher. Defaults are the paper's where it gives them. The table in surface/base/parameter_table.h
+// names them for files, the command line and the library.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ TEST(Usage, VersionNamesVersionCommitCompilerAndFlags) {
   const ProgramResult result = run_deliso({"--version"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  EXPECT_TRUE(result.out.starts_with("deliso 0.1.0\ncommit   ")) << result.out;
+  EXPECT_TRUE(result.out.starts_with("deliso 0.2.0\ncommit   ")) << result.out;
   EXPECT_TRUE(contains(result.out, "\ncompiler "));
   EXPECT_TRUE(contains(result.out, "-ffp-contract=off"));
 }

@@ -218,7 +218,7 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
     mesh("a.nrrd", name, {}, false);
     const std::string text = read_file(folder_ / name);
     for (const char* const part :
-         {"DelIso 0.1.0, isovalue 40", "space left-posterior-superior, units mm", "volume a.nrrd", "samples sha256 "})
+         {"DelIso 0.2.0, isovalue 40", "space left-posterior-superior, units mm", "volume a.nrrd", "samples sha256 "})
       EXPECT_NE(text.find(part), std::string::npos) << name << part;
   }
   // TetGen takes the second line of an OFF file for its counts.
@@ -229,7 +229,7 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
   EXPECT_NE(text.substr(0, text.find('\n')).find("space left-posterior-superior"), std::string::npos);
   mesh("a.nrrd", "b.stl", {}, false);
   EXPECT_TRUE(
-      read_file(folder_ / "b.stl").starts_with("DelIso 0.1.0, isovalue 40; promise.max_distance 1; space left"));
+      read_file(folder_ / "b.stl").starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; space left"));
 }
 
 // Space and local origin of a mesh need not be said again; what is said again counts.

@@ -9,7 +9,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/rng.h"
-#include "experiments/config/parameter_table.h"
+#include "surface/base/parameter_table.h"
 
 namespace deliso {
 namespace {

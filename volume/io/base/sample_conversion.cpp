@@ -22,7 +22,14 @@ bool is_double(Integer value) {
 }
 
 template <class Integer>
-Samples narrowed_integers(const LargeArray<Integer>& values, const Dims& dims, const ByteStream& file) {
+std::optional<std::size_t> first_not_double(const LargeArray<Integer>& values) {
+  const auto wrong = std::find_if(values.begin(), values.end(), [](Integer v) { return !is_double(v); });
+  if (wrong == values.end()) return std::nullopt;
+  return static_cast<std::size_t>(wrong - values.begin());
+}
+
+template <class Integer>
+Samples narrowed_integers(const LargeArray<Integer>& values) {
   const auto fits = [](Integer v) { return std::in_range<std::int32_t>(v); };
   if (std::all_of(values.begin(), values.end(), fits)) {
     LargeArray<std::int32_t> kept;
@@ -32,16 +39,19 @@ Samples narrowed_integers(const LargeArray<Integer>& values, const Dims& dims, c
   }
   LargeArray<double> kept;
   kept.reserve(values.size());
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    if (!is_double(values[n])) {
-      const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
-      file.fail("sample (" + std::to_string(n % nx) + ", " + std::to_string(n / nx % ny) + ", " +
-                std::to_string(n / nx / ny) + ") is " + std::to_string(values[n]) +
-                ", which no double holds exactly: scale the samples, or store them as doubles");
-    }
-    kept.push_back(static_cast<double>(values[n]));
-  }
+  for (const Integer v : values) kept.push_back(static_cast<double>(v));
   return SampleArray<double>(std::move(kept));
+}
+
+template <class Integer>
+Samples narrowed_in_file(const LargeArray<Integer>& values, const Dims& dims, const ByteStream& file) {
+  if (const auto n = first_not_double(values)) {
+    const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
+    file.fail("sample (" + std::to_string(*n % nx) + ", " + std::to_string(*n / nx % ny) + ", " +
+              std::to_string(*n / nx / ny) + ") is " + std::to_string(values[*n]) +
+              ", which no double holds exactly: scale the samples, or store them as doubles");
+  }
+  return narrowed_integers(values);
 }
 
 // Reverses the order of the samples along an axis.
@@ -72,13 +82,27 @@ float float_of_half(std::uint16_t bits) {
 }
 
 Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_integers(values, dims, file);
+  return narrowed_in_file(values, dims, file);
 }
 Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_integers(values, dims, file);
+  return narrowed_in_file(values, dims, file);
 }
 Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_integers(values, dims, file);
+  return narrowed_in_file(values, dims, file);
+}
+
+Samples narrowed(const LargeArray<std::uint32_t>& values) { return narrowed_integers(values); }
+Samples narrowed(const LargeArray<std::uint64_t>& values) { return narrowed_integers(values); }
+Samples narrowed(const LargeArray<std::int64_t>& values) { return narrowed_integers(values); }
+
+std::optional<std::size_t> first_without_double(const LargeArray<std::uint32_t>& values) {
+  return first_not_double(values);
+}
+std::optional<std::size_t> first_without_double(const LargeArray<std::uint64_t>& values) {
+  return first_not_double(values);
+}
+std::optional<std::size_t> first_without_double(const LargeArray<std::int64_t>& values) {
+  return first_not_double(values);
 }
 
 Samples rescaled(const Samples& samples, double factor, double offset) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "delaunay/base/huge_pages.h"
 #include "volume/io/base/byte_stream.h"
@@ -17,6 +19,15 @@ float float_of_half(std::uint16_t bits);
 Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file);
 Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file);
 Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file);
+
+// The same of values that came from no file. Precondition: a double holds each.
+Samples narrowed(const LargeArray<std::uint32_t>& values);
+Samples narrowed(const LargeArray<std::uint64_t>& values);
+Samples narrowed(const LargeArray<std::int64_t>& values);
+// The first value that no double holds; nothing: there is none.
+std::optional<std::size_t> first_without_double(const LargeArray<std::uint32_t>& values);
+std::optional<std::size_t> first_without_double(const LargeArray<std::uint64_t>& values);
+std::optional<std::size_t> first_without_double(const LargeArray<std::int64_t>& values);
 
 // factor * sample + offset, as doubles.
 Samples rescaled(const Samples& samples, double factor, double offset);

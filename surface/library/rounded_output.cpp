@@ -1,4 +1,4 @@
-#include "experiments/system/rounded_output.h"
+#include "surface/library/rounded_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "delaunay/base/counted.h"
-#include "experiments/system/text_table.h"
+#include "delaunay/base/shortest_text.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
@@ -45,7 +45,7 @@ void judge_rounding(const TriangleMesh& mesh, const Affine& to_world, double vox
   const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
   if (together == 0 && !crosses && moved <= kFarthest) return;
-  const std::string what = "; here vertices move by up to " + number_text(moved) + " voxels, " +
+  const std::string what = "; here vertices move by up to " + short_text(moved) + " voxels, " +
                            counted(together, "vertex coincides with another", "vertices coincide with others") +
                            " and " + counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + ".";
   certificate.broken.push_back(keeps_floats(format)

@@ -1,4 +1,4 @@
-#include "experiments/config/parameter_table.h"
+#include "surface/base/parameter_table.h"
 
 #include <array>
 #include <cmath>

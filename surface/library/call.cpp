@@ -1,0 +1,120 @@
+#include "surface/library/call.h"
+
+#include <algorithm>
+#include <thread>
+#include <type_traits>
+#include <variant>
+
+#include "delaunay/base/shortest_text.h"
+#include "surface/base/parameter_value.h"
+#include "surface/base/progress_share.h"
+#include "surface/library/json_tree.h"
+
+namespace deliso {
+namespace {
+
+const std::string kSource = "parameters";
+
+// A value as a message or a table shows it.
+template <class Value>
+std::string value_text(const Value& value) {
+  return std::visit(
+      [](const auto& held) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+          return JsonTree().text();
+        } else {
+          return JsonTree(held).text();
+        }
+      },
+      value);
+}
+
+ParameterValue plain_value_of(const ParameterInput& input) {
+  return std::visit([](const auto& held) -> ParameterValue { return held; }, input);
+}
+
+void apply(const std::string& name, const ParameterInput& value, Parameters& parameters) {
+  check_parameter_path(name, kSource);
+  assign_parameter(*find_parameter(name), plain_value_of(value), value_text(value), kSource, parameters);
+}
+
+}  // namespace
+
+std::string version() { return DELISO_VERSION_TEXT; }
+
+Error::Error(Kind kind, const std::string& sentence) : std::runtime_error(sentence), kind_(kind) {}
+Error::~Error() = default;
+
+void ParameterSet::set_value(std::string_view name, ParameterInput value) {
+  std::string key(name);
+  call_guarded([&] {
+    Parameters scratch;
+    apply(key, value, scratch);
+  });
+  values_.emplace_back(std::move(key), std::move(value));
+}
+
+std::vector<ParameterInfo> parameters() {
+  return call_guarded([] {
+    std::vector<ParameterInfo> all;
+    for (const ParameterField& field : parameter_table()) {
+      all.push_back({std::string(field.path), value_text(field.get(Parameters())), allowed_values(field),
+                     field.unit == "-" ? "" : std::string(field.unit), std::string(field.effect)});
+    }
+    return all;
+  });
+}
+
+Parameters engine_parameters(const ParameterSet& set) {
+  Parameters parameters;
+  for (const auto& [name, value] : set.values()) apply(name, value, parameters);
+  check_parameters(parameters);
+  return parameters;
+}
+
+int thread_count(int asked) {
+  if (asked < 0) throw InputError("threads: expected a number >= 0, found " + std::to_string(asked));
+  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void Watcher::show(const Progress& progress) {
+  tell({progress.stage, share_of_run(progress), share_of_stage(progress), progress.vertices});
+}
+
+void Watcher::show(double fraction, std::string_view step) { tell({step, fraction, 0, 0}); }
+
+void Watcher::tell(const StageProgress& progress) {
+  if (!callback_ || stop_->load()) return;
+  fraction_ = std::clamp(progress.fraction, fraction_, 1.0);
+  StageProgress told = progress;
+  told.fraction = fraction_;
+  try {
+    if (!callback_(told)) stop_->store(true);
+  } catch (...) {
+    thrown_ = std::current_exception();
+    stop_->store(true);
+  }
+}
+
+TriangleMesh engine_mesh(const Mesh& mesh) {
+  TriangleMesh own;
+  own.points.reserve(mesh.vertices.size());
+  for (const auto& [x, y, z] : mesh.vertices) {
+    own.points.push_back({x, y, z});
+    if (is_finite(own.points.back())) continue;
+    throw InputError("vertex " + std::to_string(own.points.size() - 1) + " of the mesh is (" + shortest_text(x) + ", " +
+                     shortest_text(y) + ", " + shortest_text(z) + "), expected finite numbers");
+  }
+  own.triangles = mesh.triangles;
+  return own;
+}
+
+Mesh public_mesh(const TriangleMesh& mesh) {
+  Mesh given;
+  given.vertices.reserve(mesh.points.size());
+  for (const Vec3& p : mesh.points) given.vertices.push_back({p.x, p.y, p.z});
+  given.triangles = mesh.triangles;
+  return given;
+}
+
+}  // namespace deliso

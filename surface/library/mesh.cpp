@@ -1,0 +1,110 @@
+// deliso::mesh: the caller's samples in, a mesh and what is known of it out.
+#include <algorithm>
+#include <utility>
+
+#include "surface/certificate/certificate.h"
+#include "surface/deliso.h"
+#include "surface/library/call.h"
+#include "surface/library/json_tree.h"
+#include "surface/library/placed_grid.h"
+#include "surface/library/rounded_output.h"
+#include "surface/library/run_report.h"
+#include "surface/mesh/mesh_frame.h"
+#include "surface/mesh/mesh_quality.h"
+
+namespace deliso {
+namespace {
+
+// What is given back and told in the world's coordinates.
+void move_to_world(MeshingResult& result, const Affine& map) {
+  result.mesh = transformed(std::move(result.mesh), map);
+  if (result.stage1_mesh) result.stage1_mesh = transformed(std::move(*result.stage1_mesh), map);
+  for (BadTriangle& bad : result.shape.worst) bad.centroid = map(bad.centroid);
+  for (DroppedPiece& dropped : result.dropped) dropped.piece.at = map(dropped.piece.at);
+}
+
+std::vector<std::pair<std::string, double>> seconds_by_stage(const MeshingResult& result) {
+  return {{"index", result.index.seconds + result.topology.seconds},
+          {"initial", result.initial.seconds},
+          {"recover", result.recover.seconds},
+          {"repair", result.repair.seconds},
+          {"poles", result.poles.seconds},
+          {"build", result.build.seconds},
+          {"refine", result.refine.seconds},
+          {"shape", result.shape.seconds},
+          {"decimate", result.decimation.seconds},
+          {"certify", result.certify_stage.seconds}};
+}
+
+JsonTree volume_tree(const VolumeView& volume, const PlacedGrid& placed) {
+  return JsonTree{{"dims", volume.dims},
+                  {"type", placed.grid.type_name()},
+                  {"range", std::array{placed.grid.range().first, placed.grid.range().second}},
+                  {"index_to_world", volume.affine},
+                  {"copied_samples", placed.is_copied}};
+}
+
+MeshReport report_of(const MeshingOptions& options, const MeshingResult& result, const MeshQuality& quality) {
+  const TopologySum topology = sum_of(mesh_topology(result));
+  MeshReport report;
+  report.proven = is_proven(result.certificate);
+  report.stopped = result.stopped_early();
+  report.verdict = verdict_name(result.certificate.verdict);
+  report.stopped_in = result.stopped_in;
+  report.not_kept = result.certificate.broken;
+  report.differences = result.certificate.differences;
+  report.unmet = unmet_goals(options, result);
+  report.isovalue_used = result.isovalue_used;
+  report.components = topology.components;
+  report.euler_characteristic = topology.euler_characteristic;
+  report.boundary_loops = topology.boundary_loops;
+  report.promised_distance = result.promised_distance;
+  report.min_angle_degrees = quality.min_angle_degrees;
+  report.max_angle_degrees = quality.max_angle_degrees;
+  report.seconds = result.total_seconds;
+  report.stage_seconds = seconds_by_stage(result);
+  return report;
+}
+
+MeshResult mesh_watched(const VolumeView& volume, double isovalue, const MeshOptions& options, Watcher& watcher) {
+  MeshingOptions meshing;
+  meshing.parameters = engine_parameters(options.parameters);
+  meshing.seed = options.seed;
+  meshing.threads = thread_count(options.threads);
+  meshing.progress = [&watcher](const Progress& progress) { watcher.show(progress); };
+  meshing.stop = watcher.stop();
+  meshing.keep_stage1_mesh = options.keep_stage1;
+  const PlacedGrid placed = placed_grid(volume, region_of(meshing.parameters.region));
+  MeshingOptions of_region = meshing;
+  of_region.parameters.region = {};  // it is all of the grid
+  MeshingResult result = mesh_isosurface(placed.grid, isovalue, of_region);
+  if (meshing.parameters.certify && !placed.is_exact()) {
+    const Vec3& s = placed.grid.spacing();
+    judge_rounding(result.mesh, placed.to_world, std::min({s.x, s.y, s.z}), "the mesh", MeshFormat::kPly, std::nullopt,
+                   result.certificate);
+  }
+  move_to_world(result, placed.to_world);
+  MeshResult given;
+  const MeshQuality quality = measure_quality(result.mesh, meshing.threads);
+  given.report = report_of(meshing, result, quality);
+  given.report.copied_samples = placed.is_copied;
+  JsonTree json{{"schema", "deliso-report-1"},
+                {"program", JsonTree{{"version", version()}}},
+                {"volume", volume_tree(volume, placed)}};
+  json.update(run_report(isovalue, meshing, result, quality));
+  given.report.json = json.text();
+  given.mesh = public_mesh(result.mesh);
+  if (result.stage1_mesh) given.stage1 = public_mesh(*result.stage1_mesh);
+  return given;
+}
+
+}  // namespace
+
+MeshResult mesh(const VolumeView& volume, double isovalue, const MeshOptions& options) {
+  Watcher watcher(options.progress, options.stop);
+  MeshResult result = call_guarded([&] { return mesh_watched(volume, isovalue, options, watcher); });
+  watcher.rethrow();
+  return result;
+}
+
+}  // namespace deliso

@@ -1,0 +1,28 @@
+# What a project within must leave as it is.
+set(watched_variables CMAKE_CXX_FLAGS CMAKE_CXX_STANDARD CMAKE_BUILD_TYPE CMAKE_POSITION_INDEPENDENT_CODE
+  CMAKE_CXX_VISIBILITY_PRESET CMAKE_EXPORT_COMPILE_COMMANDS BUILD_SHARED_LIBS BUILD_TESTING CMAKE_MODULE_PATH)
+set(watched_properties COMPILE_OPTIONS COMPILE_DEFINITIONS INCLUDE_DIRECTORIES LINK_OPTIONS TESTS)
+
+macro(note_state when)
+  foreach(variable IN LISTS watched_variables)
+    set(${when}_${variable} "${${variable}}")
+  endforeach()
+  foreach(property IN LISTS watched_properties)
+    get_directory_property(${when}_${property} ${property})
+  endforeach()
+endmacro()
+
+function(expect_unchanged_state)
+  foreach(name IN LISTS watched_variables watched_properties)
+    if(NOT "${before_${name}}" STREQUAL "${after_${name}}")
+      message(FATAL_ERROR "${name} was '${before_${name}}' and is '${after_${name}}'")
+    endif()
+  endforeach()
+  if(TARGET deliso OR TARGET test_surface)
+    message(FATAL_ERROR "nobody asked for the program or the tests")
+  endif()
+  get_directory_property(tests DIRECTORY ${CMAKE_BINARY_DIR}/deliso TESTS)
+  if(tests)
+    message(FATAL_ERROR "the project within has registered tests: ${tests}")
+  endif()
+endfunction()
