@@ -51,7 +51,7 @@ inline constexpr std::array kDatasetKeys = {
     KeyInfo{"file", KeyType::kText, false, "looked for in the data folder"},
     KeyInfo{"also", KeyType::kText, false, "another name under which the file is taken"},
     KeyInfo{"sha256", KeyType::kText, false, "of the samples, little endian, x fastest; checked before a run"},
-    KeyInfo{"get", KeyType::kText, false, "how to get the file; required with file"},
+    KeyInfo{"get", KeyType::kText, false, "how to get the file, told where it is absent"},
     KeyInfo{"field", KeyType::kText, false, "a built-in field instead of a file"},
     KeyInfo{"size", KeyType::kInteger, false, "of the field, samples along each axis", 2, 2048},
     KeyInfo{"seed", KeyType::kInteger, false, "of the field; default 1", 0, kLargestSeed},

@@ -4,6 +4,8 @@
 
 #include "delaunay/base/nearest_name.h"
 #include "delaunay/base/stopwatch.h"
+#include "experiments/config/config.h"
+#include "experiments/runs/experiment_keys.h"
 #include "experiments/runs/isosurface_samples.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/program_info.h"
@@ -49,7 +51,7 @@ std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& compone
   return certify(TriangleMesh{}, components).isosurface;
 }
 
-Json topology_report(const RunInput& input, double isovalue) {
+Json topology_report(const RunInput& input, double isovalue, std::uint64_t seed) {
   const Stopwatch stopwatch;
   const double used = regular_isovalue(input.grid, isovalue);
   const std::vector<TopologyCount> counts = counted(exact_topology(input.grid, used).components);
@@ -59,6 +61,7 @@ Json topology_report(const RunInput& input, double isovalue) {
               {"volume", volume_json(input.path, input.grid)},
               {"isovalue", isovalue},
               {"isovalue_used", used},
+              {"seed", seed},
               {"components", sum.components},
               {"euler_characteristic", sum.euler_characteristic},
               {"boundary_loops", sum.boundary_loops},
@@ -74,7 +77,9 @@ MeshedField meshed_field_of(const RunInput& input, double isovalue, const Parame
 }
 
 // The part of the mesher's report that also applies to marching cubes.
-Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
+// The seed changes nothing; it tells the repeats apart.
+Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, std::uint64_t seed,
+                           TriangleMesh& mesh) {
   const Stopwatch stopwatch;
   const MeshedField field = meshed_field_of(input, isovalue, parameters);
   const double used = regular_isovalue(field.grid, field.isovalue);
@@ -89,6 +94,8 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
               {"volume", volume_json(input.path, input.grid)},
               {"isovalue", isovalue},
               {"isovalue_used", used},
+              {"parameters", parameters_to_json(parameters)},
+              {"seed", seed},
               {"vertices", mesh.points.size()},
               {"triangles", mesh.triangles.size()},
               {"components", sum.components},
@@ -114,6 +121,14 @@ Json header(const std::string& experiment, const std::string& dataset, const std
 }
 
 }  // namespace
+
+Json mesher_json(const Variant& variant) {
+  if (variant.mesher != Mesher::kCommand) return kMesherNames[static_cast<std::size_t>(variant.mesher)];
+  return Json{{"command", variant.command.arguments},
+              {"timeout", variant.command.timeout_seconds},
+              {"mesh_format", variant.command.mesh_format},
+              {"exit_codes", variant.command.exit_codes}};
+}
 
 Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status) {
   return header(experiment.name, experiment.datasets[run.dataset].name, experiment.variants[run.variant].name,
@@ -152,19 +167,20 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
   Json record = run_header(experiment, run, kStatusDone);
   reset_peak_memory();  // so that the peak is that of this run
   const double isovalue = experiment.datasets[run.dataset].isovalue;
+  const std::uint64_t seed = seed_of(experiment, run.repeat);
   if (experiment.task == Task::kTopology) {
-    append_report(topology_report(input, isovalue), record);
+    append_report(topology_report(input, isovalue, seed), record);
     return record;
   }
   const Variant& variant = experiment.variants[run.variant];
   TriangleMesh mesh;
   if (variant.mesher == Mesher::kMarchingCubes) {
-    append_report(marching_cubes_report(input, isovalue, variant.parameters, mesh), record);
+    append_report(marching_cubes_report(input, isovalue, variant.parameters, seed, mesh), record);
   } else {
     // Mesh as `deliso mesh` does.
     MeshingOptions options;
     options.parameters = variant.parameters;
-    options.seed = seed_of(experiment, run.repeat);
+    options.seed = seed;
     options.threads = input.threads;
     options.stop = input.stop;
     options.progress = input.progress;
@@ -185,7 +201,7 @@ Json empty_record(Task task, bool distances) {
   const RunInput input{"", grid, 1, nullptr, {}};
   Json record = header("", "", "", 1, kStatusDone);
   if (task == Task::kTopology) {
-    append_report(topology_report(input, 0.5), record);
+    append_report(topology_report(input, 0.5, 1), record);
     return record;
   }
   const MeshingOptions options;

@@ -22,6 +22,9 @@ inline constexpr const char* kStatusAbsent = "absent";  // the file of the data 
 // The beginning of a run's record: schema, experiment, dataset, variant, repeat, status.
 Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status);
 
+// What makes the mesh, as a config and a record say it: a name, or an object with the command.
+Json mesher_json(const Variant& variant);
+
 // A key that identifies a run within its experiment.
 std::string run_key(const Experiment& experiment, const PlannedRun& run);
 std::string run_key(const Json& record);
