@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "experiments/config/config.h"
 #include "experiments/results/table.h"
@@ -114,6 +115,12 @@ std::string changes_text(const Parameters& from, const Parameters& to) {
 std::string variant_line(const Experiment& experiment, const Variant& variant) {
   std::string text = "- " + variant.name + ": ";
   if (variant.mesher == Mesher::kMarchingCubes) return text + "marching cubes\n";
+  if (variant.mesher == Mesher::kCommand) {
+    // The program by its name: where it lies is of no interest to readers.
+    text += "`" + std::filesystem::path(variant.command.arguments.front()).filename().string();
+    for (std::size_t i = 1; i < variant.command.arguments.size(); ++i) text += " " + variant.command.arguments[i];
+    return text + "`\n";
+  }
   text += "the parameters '" + experiment.base.name + "'";
   return text + changes_text(experiment.base.parameters, variant.parameters) + "\n";
 }

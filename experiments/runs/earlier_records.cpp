@@ -22,12 +22,11 @@ namespace fs = std::filesystem;
 Json identity(const Experiment& experiment, const PlannedRun& run) {
   const Variant& variant = experiment.variants[run.variant];
   const bool is_mesh = experiment.task == Task::kMesh;
-  return Json{
-      {"kind", is_mesh ? mesher_json(variant) : Json("topology")},
-      {"parameters", is_mesh && variant.mesher != Mesher::kCommand ? parameters_to_json(variant.parameters) : Json()},
-      {"isovalue", experiment.datasets[run.dataset].isovalue},
-      {"seed", seed_of(experiment, run.repeat)},
-      {"program", program_json()}};
+  return Json{{"kind", is_mesh ? mesher_json(variant) : Json("topology")},
+              {"parameters", is_mesh ? parameters_to_json(variant.parameters) : Json()},
+              {"isovalue", experiment.datasets[run.dataset].isovalue},
+              {"seed", seed_of(experiment, run.repeat)},
+              {"program", program_json()}};
 }
 
 Json part(const Json& record, const char* key) { return record.contains(key) ? record[key] : Json(); }

@@ -94,6 +94,10 @@ Experiment smoke_form(Experiment experiment) {
   experiment.builtin_datasets.clear();
   experiment.repeats = 1;
   experiment.name += "_smoke";
+  // Other programs may not be there, and are not ours to try.
+  std::erase_if(experiment.variants, [](const Variant& variant) {
+    return variant.mesher == Mesher::kCommand && variant.command.arguments.front() != "{deliso}";
+  });
   experiment.answers.clear();
   for (Plot& plot : experiment.plots) {
     if (plot.across_datasets) plot.series = {{"smoke", {tiny.name}}};

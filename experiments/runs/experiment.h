@@ -164,7 +164,8 @@ inline std::uint64_t seed_of(const Experiment& experiment, std::int32_t repeat) 
 // names no fields to replace them.
 Experiment builtin_form(Experiment experiment);
 
-// The same experiment small enough for a test: all its variants once, on one tiny built-in field.
+// The same experiment small enough for a test: all its variants once, but for those of other programs, on one tiny
+// built-in field.
 Experiment smoke_form(Experiment experiment);
 
 }  // namespace deliso

@@ -86,7 +86,7 @@ Experiment parse_gathering(const Json& document, const fs::path& path, Mistakes&
   const bool knows_datasets = parse_datasets(object, folder, experiment, mistakes);
   experiment.base = parse_base(object, folder, mistakes);
   const bool knows_variants =
-      mistakes.gather([&] { experiment.variants = parse_all_variants(object, experiment.base, mistakes); });
+      mistakes.gather([&] { experiment.variants = parse_all_variants(object, experiment.base, folder, mistakes); });
   mistakes.gather([&] { experiment.reference = parse_reference(object, folder); });
   if (!knows_variants) return experiment;
   experiment.metrics = parse_metrics(object, experiment, mistakes);

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
 #include "delaunay/base/stopwatch.h"
 #include "experiments/config/config.h"
+#include "experiments/runs/command_mesher.h"
 #include "experiments/runs/experiment_keys.h"
-#include "experiments/runs/isosurface_samples.h"
+#include "experiments/runs/judged_mesh.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/program_info.h"
 #include "surface/deliso.h"
 #include "surface/intersection/exact_tests.h"
-#include "surface/verification/surface_distance.h"
 #include "surface/verification/verification.h"
 #include "volume/marching_cubes/marching_cubes.h"
 #include "volume/topology/exact_topology.h"
@@ -20,31 +21,6 @@ namespace deliso {
 namespace {
 
 constexpr const char* kRecordSchema = "deliso-record-1";
-
-// `samples`: the distances to the mesh from points of the isosurface inside cells. The verification uses grid-edge
-// crossings instead, which are the vertices of marching cubes.
-Json distances_json(const Verification& check, const DistanceFigure& samples) {
-  return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
-              {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
-              {"isosurface_to_mesh_max_voxels", check.distance.isosurface_to_mesh.max_voxels},
-              {"isosurface_to_mesh_mean_voxels", check.distance.isosurface_to_mesh.mean_voxels},
-              {"isosurface_samples_to_mesh_max_voxels", samples.max_voxels},
-              {"isosurface_samples_to_mesh_mean_voxels", samples.mean_voxels},
-              {"vertex_residual_max_voxels", check.residual.distance.max_voxels},
-              {"crossing_pairs", check.self_intersection.found.crossing_pairs},
-              {"fraction_normals_against", check.normals.fraction_against}};
-}
-
-Json measured_distances(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
-  const Verification check = verify_mesh(mesh, grid, isovalue);
-  const std::vector<Vec3> samples = isosurface_samples(grid, check.isovalue_used);
-  DistanceFigure figure = points_to_mesh(samples, mesh, norm(grid.box().high - grid.box().low));
-  const Vec3& step = grid.spacing();
-  const double voxel = std::min({step.x, step.y, step.z});
-  figure.max_voxels /= voxel;
-  figure.mean_voxels /= voxel;
-  return distances_json(check, figure);
-}
 
 // One entry for each kind of component.
 std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& components) {
@@ -105,6 +81,31 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
               {"peak_memory_bytes", peak_memory_bytes()},
               {"certificate", certificate_json(certificate)},
               {"quality", quality_json(measure_quality(mesh))}};
+}
+
+// The part of the mesher's report that also applies to another program; all of it is judged by the verification.
+Json command_report(const RunInput& input, double isovalue, const Variant& variant, std::uint64_t seed,
+                    const CommandOutcome& outcome, const JudgedMesh& judged) {
+  const TopologySum sum = sum_of(judged.check.topology.mesh);
+  const Json command = command_json(outcome);
+  return Json{{"mesher", mesher_json(variant)},
+              {"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", judged.check.isovalue_used},
+              {"parameters", parameters_to_json(variant.parameters)},
+              {"seed", seed},
+              {"threads", input.threads},
+              {"vertices", judged.check.vertices},
+              {"triangles", judged.check.triangles},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"total_seconds", command["cold_seconds"].is_null() ? command["wall_seconds"] : command["cold_seconds"]},
+              {"peak_memory_bytes", command["peak_memory_bytes"]},
+              {"command", command},
+              {"certificate", certificate_json(judged.check.topology)},
+              {"quality", quality_json(judged.check.quality)}};
 }
 
 // The record has a schema of its own, so the report's is left out.
@@ -173,8 +174,15 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
     return record;
   }
   const Variant& variant = experiment.variants[run.variant];
+  std::optional<CommandOutcome> outcome;
   TriangleMesh mesh;
-  if (variant.mesher == Mesher::kMarchingCubes) {
+  if (variant.mesher == Mesher::kCommand) {
+    DELISO_CHECK(input.launcher != nullptr, "a run of another program has a launcher");
+    outcome =
+        run_command_mesher(variant.command, {input.grid, isovalue, seed, input.threads, input.stop}, *input.launcher);
+    if (outcome->is_stopped) return std::nullopt;
+    mesh = std::move(outcome->mesh);
+  } else if (variant.mesher == Mesher::kMarchingCubes) {
     append_report(marching_cubes_report(input, isovalue, variant.parameters, seed, mesh), record);
   } else {
     // Mesh as `deliso mesh` does.
@@ -189,16 +197,18 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
     append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
     mesh = std::move(result.mesh);
   }
-  if (experiment.distances) {
-    const MeshedField field = meshed_field_of(input, isovalue, variant.parameters);
-    record["distances"] = measured_distances(mesh, field.grid, field.isovalue);
-  }
+  if (!experiment.distances && !outcome) return record;
+  const MeshedField field = meshed_field_of(input, isovalue, variant.parameters);
+  const JudgedMesh judged = judge_mesh(mesh, field.grid, field.isovalue);
+  if (outcome) append_report(command_report(input, isovalue, variant, seed, *outcome, judged), record);
+  record["distances"] = distances_json(judged);
+  record["verification"] = verification_json(judged);
   return record;
 }
 
 Json empty_record(Task task, bool distances) {
   const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
-  const RunInput input{"", grid, 1, nullptr, {}};
+  const RunInput input{"", grid, 1, nullptr, {}, nullptr};
   Json record = header("", "", "", 1, kStatusDone);
   if (task == Task::kTopology) {
     append_report(topology_report(input, 0.5, 1), record);
@@ -206,7 +216,10 @@ Json empty_record(Task task, bool distances) {
   }
   const MeshingOptions options;
   append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
-  if (distances) record["distances"] = distances_json(Verification{}, {});
+  record["command"] = command_json(CommandOutcome{});
+  if (!distances) return record;
+  record["distances"] = distances_json(JudgedMesh{});
+  record["verification"] = verification_json(JudgedMesh{});
   return record;
 }
 

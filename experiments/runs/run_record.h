@@ -9,6 +9,7 @@
 
 #include "experiments/config/json.h"
 #include "experiments/runs/experiment.h"
+#include "experiments/system/program_launcher.h"
 #include "surface/base/controls.h"
 #include "volume/scalar_grid.h"
 
@@ -39,9 +40,11 @@ struct RunInput {
   std::int32_t threads = 1;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
+  ProgramLauncher* launcher = nullptr;  // needed where another program makes the mesh
 };
 
-// Does the run. Returns nothing when it was stopped from outside. Throws what the mesher throws.
+// Does the run. Returns nothing when it was stopped from outside. Throws what the mesher throws, and InputError when
+// another program fails to make a mesh.
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input);
 
 // A record with all its keys and no values of a run.

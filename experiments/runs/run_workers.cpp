@@ -39,7 +39,8 @@ bool write_whole(int file, const char* data, std::size_t size) {
 }
 
 // Until the pipe of numbers is closed.
-[[noreturn]] void work(int in, int out, const MakeRun& make) {
+[[noreturn]] void work(int in, int out, const std::function<void()>& begin, const MakeRun& make) {
+  begin();
   for (std::size_t index = 0;;) {
     const ssize_t count = read(in, &index, sizeof index);
     if (count < 0 && errno == EINTR) continue;
@@ -50,7 +51,7 @@ bool write_whole(int file, const char* data, std::size_t size) {
   }
 }
 
-Worker start(const MakeRun& make, const std::vector<Worker>& others) {
+Worker start(const std::function<void()>& begin, const MakeRun& make, const std::vector<Worker>& others) {
   std::array<int, 2> to{};
   std::array<int, 2> from{};
   const auto refuse = [] { throw InputError("--jobs: cannot start a process: " + std::string(std::strerror(errno))); };
@@ -67,7 +68,7 @@ Worker start(const MakeRun& make, const std::vector<Worker>& others) {
     }
     close(to[1]);
     close(from[0]);
-    work(to[0], from[1], make);
+    work(to[0], from[1], begin, make);
   }
   close(to[0]);
   close(from[1]);
@@ -90,9 +91,10 @@ std::string ending_text(int status) {
 
 class Pool {
  public:
-  Pool(std::size_t count, int jobs, const MakeRun& make) : count_(count), make_(make) {
+  Pool(std::size_t count, int jobs, const std::function<void()>& begin, const MakeRun& make)
+      : count_(count), begin_(begin), make_(make) {
     const auto most = static_cast<std::size_t>(jobs);
-    while (workers_.size() < std::min(most, count)) workers_.push_back(start(make_, workers_));
+    while (workers_.size() < std::min(most, count)) workers_.push_back(start(begin_, make_, workers_));
   }
   ~Pool() {
     int status = 0;
@@ -141,7 +143,7 @@ class Pool {
       for (const Worker& other : workers_) {
         if (&other != &worker) others.push_back(other);
       }
-      worker = start(make_, others);
+      worker = start(begin_, make_, others);
       return done(std::move(result));
     }
     worker.text.append(buffer.data(), static_cast<std::size_t>(count));
@@ -158,6 +160,7 @@ class Pool {
   }
 
   std::size_t count_;
+  const std::function<void()>& begin_;
   const MakeRun& make_;
   std::size_t next_ = 0;
   std::vector<Worker> workers_;
@@ -165,10 +168,10 @@ class Pool {
 
 }  // namespace
 
-void run_side_by_side(std::size_t count, int jobs, const MakeRun& make, const std::function<bool()>& next_wanted,
-                      const std::function<void(WorkerResult)>& done) {
+void run_side_by_side(std::size_t count, int jobs, const std::function<void()>& begin, const MakeRun& make,
+                      const std::function<bool()>& next_wanted, const std::function<void(WorkerResult)>& done) {
   std::signal(SIGPIPE, SIG_IGN);  // a process that is gone is seen when its answer is read
-  Pool(count, jobs, make).run(next_wanted, done);
+  Pool(count, jobs, begin, make).run(next_wanted, done);
 }
 
 }  // namespace deliso

@@ -22,9 +22,10 @@ struct WorkerResult {
   std::string failure;  // of its process: "was ended by signal 9"
 };
 
-// Makes the runs 0 to count - 1, `jobs` of them at a time, and calls `done` for each as it ends. `next_wanted` is asked
-// before every run whether more are wanted. Precondition: this process has no other threads.
-void run_side_by_side(std::size_t count, int jobs, const MakeRun& make, const std::function<bool()>& next_wanted,
-                      const std::function<void(WorkerResult)>& done);
+// Makes the runs 0 to count - 1, `jobs` of them at a time, and calls `done` for each as it ends. `begin` is called once
+// in each process. `next_wanted` is asked before every run whether more are wanted. Precondition: this process has no
+// other threads.
+void run_side_by_side(std::size_t count, int jobs, const std::function<void()>& begin, const MakeRun& make,
+                      const std::function<bool()>& next_wanted, const std::function<void(WorkerResult)>& done);
 
 }  // namespace deliso

@@ -1,5 +1,6 @@
 #include "experiments/runs/runner.h"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -101,11 +102,15 @@ Json failed_record(const Experiment& experiment, const PlannedRun& run, const st
 
 // A record of the run: done or failed (also when its volume is not the expected one); nothing when it was stopped.
 std::optional<Json> attempt(const Experiment& experiment, const PlannedRun& run, const RunnerOptions& options,
-                            VolumeCache& volumes, RunProgress& progress) {
+                            VolumeCache& volumes, RunProgress& progress, ProgramLauncher* launcher) {
   const Dataset& dataset = experiment.datasets[run.dataset];
   try {
-    const RunInput input{dataset_path(dataset, options.data_folder), volumes.load(dataset), options.threads,
-                         options.stop, [&progress](const Progress& state) { progress.show(state); }};
+    const RunInput input{dataset_path(dataset, options.data_folder),
+                         volumes.load(dataset),
+                         options.threads,
+                         options.stop,
+                         [&progress](const Progress& state) { progress.show(state); },
+                         launcher};
     return run_and_record(experiment, run, input);
   } catch (const std::bad_alloc&) {
     return failed_record(experiment, run, "not enough memory for this volume and these parameters");
@@ -137,7 +142,10 @@ class ExperimentRuns {
       : experiment_(experiment),
         options_(options),
         progress_(progress),
-        records_(options.out_folder / record_file_name(options.shard)) {}
+        records_(options.out_folder / record_file_name(options.shard)) {
+    // Before volumes are loaded here.
+    if (options.jobs == 1) begin_process();
+  }
 
   RunnerSummary make(const std::vector<PlannedRun>& runs, std::size_t planned) {
     summary_.planned = planned;
@@ -157,6 +165,7 @@ class ExperimentRuns {
   }
 
  private:
+  ProgramLauncher* launcher() { return launcher_ ? &*launcher_ : nullptr; }
   [[nodiscard]] bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
   // A missing data set is recorded as absent, with the way to get it.
@@ -179,6 +188,12 @@ class ExperimentRuns {
     return present;
   }
 
+  // In each process that makes runs.
+  void begin_process() {
+    const auto is_command = [](const Variant& variant) { return variant.mesher == Mesher::kCommand; };
+    if (std::any_of(experiment_.variants.begin(), experiment_.variants.end(), is_command)) launcher_.emplace();
+  }
+
   void keep(const PlannedRun& run, Json record) {
     if (record["status"] == kStatusDone) record["runs_at_a_time"] = options_.jobs;
     records_.append(record);
@@ -198,7 +213,7 @@ class ExperimentRuns {
       }
       progress_.begin(run_name(experiment_, run));
       const Stopwatch stopwatch;
-      std::optional<Json> record = attempt(experiment_, run, options_, volumes, progress_);
+      std::optional<Json> record = attempt(experiment_, run, options_, volumes, progress_, launcher());
       if (!record) {
         summary_.stopped = true;
         return;
@@ -214,7 +229,7 @@ class ExperimentRuns {
     VolumeCache volumes(options_.data_folder);
     const auto make_run = [&](std::size_t index) -> std::optional<Json> {
       const Stopwatch stopwatch;
-      std::optional<Json> record = attempt(experiment_, runs[index], options_, volumes, silent);
+      std::optional<Json> record = attempt(experiment_, runs[index], options_, volumes, silent, launcher());
       if (record) (*record)["seconds_of_process"] = stopwatch.seconds();
       return record;
     };
@@ -222,17 +237,19 @@ class ExperimentRuns {
       summary_.stopped = summary_.stopped || is_stopped();
       return !summary_.stopped;
     };
-    run_side_by_side(runs.size(), options_.jobs, make_run, is_wanted, [&](WorkerResult result) {
-      const PlannedRun& run = runs[result.index];
-      summary_.stopped = summary_.stopped || result.is_stopped;
-      if (result.is_stopped) return;
-      if (!result.record) result.record = failed_record(experiment_, run, result.failure);
-      const double seconds = result.record->value("seconds_of_process", 0.0);
-      result.record->erase("seconds_of_process");
-      progress_.begin(run_name(experiment_, run));
-      keep(run, std::move(*result.record));
-      progress_.finished(seconds / options_.jobs);
-    });
+    run_side_by_side(
+        runs.size(), options_.jobs, [this] { begin_process(); }, make_run, is_wanted,
+        [&](WorkerResult result) {
+          const PlannedRun& run = runs[result.index];
+          summary_.stopped = summary_.stopped || result.is_stopped;
+          if (result.is_stopped) return;
+          if (!result.record) result.record = failed_record(experiment_, run, result.failure);
+          const double seconds = result.record->value("seconds_of_process", 0.0);
+          result.record->erase("seconds_of_process");
+          progress_.begin(run_name(experiment_, run));
+          keep(run, std::move(*result.record));
+          progress_.finished(seconds / options_.jobs);
+        });
     summary_.stopped = summary_.stopped && summary_.done + summary_.failed.size() < runs.size();
   }
 
@@ -240,6 +257,7 @@ class ExperimentRuns {
   const RunnerOptions& options_;
   RunProgress& progress_;
   RecordFile records_;
+  std::optional<ProgramLauncher> launcher_;
   RunnerSummary summary_;
 };
 

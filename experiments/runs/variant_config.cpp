@@ -6,6 +6,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
 #include "experiments/config/config.h"
+#include "experiments/runs/command_mesher.h"
 #include "experiments/runs/experiment_config.h"
 #include "experiments/runs/experiment_keys.h"
 #include "experiments/runs/run_record.h"
@@ -22,8 +23,63 @@ void apply_set(const StrictObject& object, Parameters& parameters, Mistakes& mis
   }
 }
 
+// A list of texts or integers, each checked by `fits`.
+template <class T, class Fits>
+std::vector<T> items_at(const StrictObject& object, std::string_view key, std::vector<T> otherwise,
+                        const std::string& expected, const Fits& fits) {
+  if (!object.has(key)) return otherwise;
+  std::vector<T> items;
+  for (const Json& item : object.at(key)) {
+    if (!fits(item)) {
+      throw InputError(object.place_of(key) + "/" + std::to_string(items.size()) + " must be " + expected + ", found " +
+                       short_json(item));
+    }
+    items.push_back(item.get<T>());
+  }
+  return items;
+}
+
+// A path to a program is relative to the folder of the experiment.
+MesherCommand parse_command(const StrictObject& object, const fs::path& folder) {
+  MesherCommand command;
+  command.arguments = items_at<std::string>(object, "command", {}, "a string that is not empty", [](const Json& item) {
+    return item.is_string() && !item.get_ref<const std::string&>().empty();
+  });
+  check_placeholders(command.arguments, object.place_of("command"));
+  std::string& program = command.arguments.front();
+  if (program.find('/') != std::string::npos) program = fs::absolute(folder / program).lexically_normal().string();
+  command.timeout_seconds = object.get("timeout", command.timeout_seconds);
+  command.mesh_format = object.get("mesh_format", command.mesh_format);
+  if (command.mesh_format.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") != std::string::npos) {
+    object.fail("mesh_format", "is no extension in small letters: '" + command.mesh_format + "'");
+  }
+  command.exit_codes = items_at<int>(
+      object, "exit_codes", command.exit_codes, "an integer from 0 to " + std::to_string(kLargestExitCode),
+      [](const Json& item) { return item.is_number_integer() && item >= 0 && item <= kLargestExitCode; });
+  return command;
+}
+
+void parse_mesher(const StrictObject& object, const fs::path& folder, Variant& variant) {
+  if (!object.has("mesher")) return;
+  const Json& mesher = object.at("mesher");
+  variant.command = {};
+  if (mesher.is_object()) {
+    variant.mesher = Mesher::kCommand;
+    variant.command = parse_command(StrictObject(mesher, object.place_of("mesher"), kCommandKeys), folder);
+    return;
+  }
+  const auto* const name = std::find(kMesherNames.begin(), kMesherNames.end(),
+                                     mesher.is_string() ? mesher.get_ref<const std::string&>() : std::string());
+  if (name == kMesherNames.end()) {
+    object.fail("mesher",
+                "must be 'deliso', 'marching_cubes' or an object with a command, found " + short_json(mesher));
+  }
+  variant.mesher = name == kMesherNames.begin() ? Mesher::kDelIso : Mesher::kMarchingCubes;
+}
+
 // Each variant is the base or an earlier variant, with a few keys changed.
-std::vector<Variant> parse_variants(const StrictObject& experiment, const Variant& base, Mistakes& mistakes) {
+std::vector<Variant> parse_variants(const StrictObject& experiment, const Variant& base, const fs::path& folder,
+                                    Mistakes& mistakes) {
   if (!experiment.has("variants")) return {base};
   std::vector<Variant> known = {base};
   std::vector<Variant> variants;
@@ -42,10 +98,7 @@ std::vector<Variant> parse_variants(const StrictObject& experiment, const Varian
       }
     });
     variant.name = name;
-    if (object.has("mesher")) {
-      variant.mesher =
-          object.get<std::string>("mesher", "") == kMesherNames[1] ? Mesher::kMarchingCubes : Mesher::kDelIso;
-    }
+    mistakes.gather([&] { parse_mesher(object, folder, variant); });
     apply_set(object, variant.parameters, mistakes);
     variants.push_back(variant);
     // A variant may have the base's name; variants that extend this name then extend the variant.
@@ -110,8 +163,9 @@ Variant parse_base(const StrictObject& experiment, const fs::path& folder, Mista
   return base;
 }
 
-std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Variant& base, Mistakes& mistakes) {
-  std::vector<Variant> variants = parse_variants(experiment, base, mistakes);
+std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Variant& base, const fs::path& folder,
+                                        Mistakes& mistakes) {
+  std::vector<Variant> variants = parse_variants(experiment, base, folder, mistakes);
   if (!experiment.has("sweep")) return variants;
   for (const auto& item : experiment.at("sweep").items()) {
     const std::string place = experiment.place_of("sweep").append("/").append(item.key());
@@ -125,7 +179,7 @@ Json variants_to_json(const Experiment& experiment) {
   for (const Variant& variant : experiment.variants) {
     Json& item = list.emplace_back(
         Json{{"name", variant.name}, {"set", parameter_changes(experiment.base.parameters, variant.parameters)}});
-    if (variant.mesher != Mesher::kDelIso) item["mesher"] = kMesherNames[static_cast<std::size_t>(variant.mesher)];
+    if (variant.mesher != Mesher::kDelIso) item["mesher"] = mesher_json(variant);
   }
   return list;
 }

@@ -15,8 +15,9 @@ namespace deliso {
 Variant parse_base(const StrictObject& experiment, const std::filesystem::path& folder, Mistakes& mistakes);
 
 // Every variant with every combination of the sweep. Throws InputError where the names of the variants cannot be known;
-// other mistakes are gathered.
-std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Variant& base, Mistakes& mistakes);
+// other mistakes are gathered. Paths are relative to `folder`.
+std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Variant& base,
+                                        const std::filesystem::path& folder, Mistakes& mistakes);
 
 // The variant of this name; fails at the key of `object` where there is none.
 const Variant& find_variant(const std::string& name, const std::vector<Variant>& variants, const StrictObject& object,
