@@ -12,6 +12,7 @@
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/mistakes.h"
 #include "experiments/system/program_info.h"
 #include "experiments/system/stop_signal.h"
 
@@ -90,6 +91,9 @@ ExitCode run_program(int argc, const char* const* argv) {
     // A result that did not reach its reader (a full disk, say) is no success.
     std::cout.flush();
     return std::cout ? exit_code : fail(ExitCode::kBadInput, "cannot write to standard output");
+  } catch (const SeveralMistakes& mistakes) {
+    for (const std::string& sentence : mistakes.sentences()) fail(ExitCode::kBadInput, sentence);
+    return ExitCode::kBadInput;
   } catch (const InputError& error) {
     return fail(ExitCode::kBadInput, error.what());
   } catch (const Stopped& stopped) {

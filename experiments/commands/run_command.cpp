@@ -26,6 +26,7 @@ struct RunCommandOptions {
   std::string out;
   std::string shard = "1/1";
   std::string threads = "1";
+  std::string jobs = "1";
   bool resume = false;
   bool dry_run = false;
   bool builtin = false;
@@ -83,6 +84,8 @@ ExitCode run_run(const RunCommandOptions& options) {
   runner.out_folder = options.out.empty() ? fs::path("out") / experiment.name : fs::path(options.out);
   runner.shard = parse_shard(options.shard);
   runner.threads = parse_threads(options.threads);
+  constexpr std::uint64_t kMostJobs = 1024;
+  runner.jobs = static_cast<int>(parse_count(options.jobs, "--jobs", 1, kMostJobs));
   runner.resume = options.resume;
   if (options.dry_run) {
     print_plan(experiment, runner);
@@ -98,9 +101,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   Style style = stderr_is_terminal() ? Style::kBar : Style::kSilent;
   if (options.progress) style = Style::kLines;
   if (options.quiet) style = Style::kSilent;
-  std::vector<std::size_t> datasets;
-  for (const PlannedRun& run : pending_runs(experiment, runner)) datasets.push_back(run.dataset);
-  RunProgress progress(std::cerr, style, std::move(datasets));
+  RunProgress progress(std::cerr, style);
   const RunnerSummary summary = run_experiment(experiment, runner, progress);
   const ExitCode exit_code = report(summary, runner, options.quiet);
 
@@ -132,7 +133,15 @@ void add_run_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("I/N")
       .show_default();
   command.add_option("--threads", options->threads, "Threads to use in each run").type_name("N").show_default();
-  command.add_flag("--resume", options->resume, "Go on with the records in the folder: finished runs are not repeated");
+  command
+      .add_option("--jobs", options->jobs,
+                  "Runs to make at a time, each in a process of its own; marks times as shared")
+      .type_name("N")
+      .show_default();
+  command.add_flag(
+      "--resume", options->resume,
+      "Take every record in the folder that still holds, whatever the config said then: parameters, volume, "
+      "seed and program agree");
   command.add_flag("--dry-run", options->dry_run, "List the runs that would be made");
   command.add_flag("--builtin", options->builtin, "Take the experiment's built-in fields, which need no file");
   command.add_flag("--smoke", options->smoke, "Do every variant once on one tiny field: does the experiment work?");

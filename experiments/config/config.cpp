@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "experiments/config/mistakes.h"
 #include "experiments/config/strict_object.h"
 #include "surface/base/parameter_value.h"
 
@@ -52,27 +53,35 @@ bool holds_parameters(const Json& document) {
   return true;
 }
 
+// A key of the top level: it holds a value, or a group of keys.
+void apply_key(const std::string& key, const Json& value, const std::string& source, Parameters& parameters) {
+  if (const ParameterField* field = find_parameter(key); field != nullptr) {
+    if (!group_of(key).empty()) fail_path_as_key(key, value, source);
+    return apply_value(*field, value, source, parameters);
+  }
+  if (!is_parameter_group(key)) fail_unknown_parameter(key, source);
+  require_object(value, std::string(source).append(": ").append(key));
+  Mistakes mistakes;
+  for (const auto& item : value.items()) {
+    mistakes.gather([&] {
+      const std::string path = std::string(key).append(1, '.').append(item.key());
+      const ParameterField* field = find_parameter(path);
+      if (field == nullptr) fail_unknown_parameter(path, source);
+      apply_value(*field, item.value(), source, parameters);
+    });
+  }
+  mistakes.throw_all();
+}
+
 }  // namespace
 
 void apply_parameters(const Json& document, const std::string& source, Parameters& parameters) {
   require_object(document, source + ": the parameters");
-  for (const auto& [key, value] : document.items()) {
-    // A key of the top level holds a value ...
-    if (const ParameterField* field = find_parameter(key); field != nullptr && group_of(key).empty()) {
-      apply_value(*field, value, source, parameters);
-      continue;
-    }
-    if (find_parameter(key) != nullptr) fail_path_as_key(key, value, source);
-    // ... or a group of keys.
-    if (!is_parameter_group(key)) fail_unknown_parameter(key, source);
-    require_object(value, std::string(source).append(": ").append(key));
-    for (const auto& [inner_key, inner_value] : value.items()) {
-      const std::string path = std::string(key).append(1, '.').append(inner_key);
-      const ParameterField* field = find_parameter(path);
-      if (field == nullptr) fail_unknown_parameter(path, source);
-      apply_value(*field, inner_value, source, parameters);
-    }
+  Mistakes mistakes;
+  for (const auto& item : document.items()) {
+    mistakes.gather([&] { apply_key(item.key(), item.value(), source, parameters); });
   }
+  mistakes.throw_all();
 }
 
 Parameters read_parameters(const std::filesystem::path& path) {

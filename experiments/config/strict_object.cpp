@@ -92,28 +92,49 @@ std::string short_json(const Json& value) {
   return text;
 }
 
-StrictObject::StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys)
-    : value_(value), place_(std::move(place)) {
-  if (!value.is_object()) throw InputError(own_place() + " must be an object, found " + short_json(value));
+StrictObject::StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys, Mistakes* mistakes)
+    : value_(&value), place_(std::move(place)) {
+  Mistakes found;
+  if (!value.is_object()) {
+    found.add(InputError(own_place() + " must be an object, found " + short_json(value)));
+    static const Json kEmpty = Json::object();
+    value_ = &kEmpty;
+  }
+  check_keys(keys, found);
+  if (mistakes == nullptr) {
+    found.throw_all();
+  } else {
+    mistakes->gather([&found] { found.throw_all(); });
+  }
+}
+
+void StrictObject::check_keys(std::span<const KeyInfo> keys, Mistakes& found) {
   // Every key of the object must be known and have a value that the table allows ...
   std::vector<std::string> known;
   for (const KeyInfo& key : keys) known.emplace_back(key.name);
-  for (const auto& [name, held] : value.items()) {
+  for (const auto& [name, held] : value_->items()) {
     const auto key =
         std::find_if(keys.begin(), keys.end(), [&known_name = name](const KeyInfo& k) { return k.name == known_name; });
     if (key == keys.end()) {
-      throw InputError(own_place() + ": unknown key '" + name + "', the nearest known key is '" +
-                       nearest_name(name, known) + "'");
+      found.add(InputError(own_place() + ": unknown key '" + name + "', the nearest known key is '" +
+                           nearest_name(name, known) + "'"));
+    } else if (!fits(*key, held)) {
+      found.add(InputError(place_of(name) + " must be " + expected(*key) + ", found " + short_json(held)));
+      refused_.push_back(name);
     }
-    if (!fits(*key, held)) fail(name, "must be " + expected(*key) + ", found " + short_json(held));
   }
   // ... and every required one must be there.
+  if (value_->empty() && !found.empty()) return;  // it is no object
   for (const KeyInfo& key : keys) {
-    if (key.required && !has(key.name)) {
-      throw InputError(own_place() + ": the key '" + std::string(key.name) + "' is missing (" +
-                       std::string(key.effect) + ")");
+    if (key.required && !value_->contains(key.name)) {
+      found.add(InputError(own_place() + ": the key '" + std::string(key.name) + "' is missing (" +
+                           std::string(key.effect) + ")"));
     }
   }
+}
+
+bool StrictObject::has(std::string_view key) const {
+  return value_->contains(key) && std::find(refused_.begin(), refused_.end(), key) == refused_.end();
 }
 
 std::string StrictObject::own_place() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/config/json.h"
+#include "experiments/config/mistakes.h"
 
 namespace deliso {
 
@@ -38,14 +39,15 @@ class StrictObject {
  public:
   // `place` names the object in messages: the file, '#' and the JSON pointer, which is empty for a whole file. Throws
   // InputError when `value` is no object, has a key that the table does not name (the message gives the nearest), lacks
-  // a required one, or has a value of the wrong type or out of range.
-  StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys);
+  // a required one, or has a value of the wrong type or out of range. All such mistakes are told at once. With
+  // `mistakes` they are added there instead; then keys with a wrong value count as absent, and so may required ones be.
+  StrictObject(const Json& value, std::string place, std::span<const KeyInfo> keys, Mistakes* mistakes = nullptr);
 
   // The position of a key's value in the file.
   [[nodiscard]] std::string place_of(std::string_view key) const;
-  [[nodiscard]] bool has(std::string_view key) const { return value_.contains(key); }
+  [[nodiscard]] bool has(std::string_view key) const;
   // The value of a key. Precondition: has(key).
-  [[nodiscard]] const Json& at(std::string_view key) const { return value_.at(std::string(key)); }
+  [[nodiscard]] const Json& at(std::string_view key) const { return value_->at(std::string(key)); }
   // The value of a key, or `otherwise` without it. Precondition: T fits the key's type.
   template <class T>
   [[nodiscard]] T get(std::string_view key, T otherwise) const {
@@ -57,9 +59,11 @@ class StrictObject {
  private:
   // The position of the object itself; for a whole file its name alone.
   [[nodiscard]] std::string own_place() const;
+  void check_keys(std::span<const KeyInfo> keys, Mistakes& found);
 
-  const Json& value_;
+  const Json* value_;
   std::string place_;
+  std::vector<std::string> refused_;  // keys with a wrong value
 };
 
 // JSON text for a message: on one line, cut off when long.

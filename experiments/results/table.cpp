@@ -109,7 +109,10 @@ class TableMaker {
       add_remarks(dataset);
     }
     for (const auto& [run, records] : done_) {
-      for (const Json* record : records) note_program(*record);
+      for (const Json* record : records) {
+        note_program(*record);
+        table_.runs_at_a_time = std::max(table_.runs_at_a_time, record->value("runs_at_a_time", std::int64_t{1}));
+      }
     }
     return std::move(table_);
   }
@@ -139,7 +142,8 @@ class TableMaker {
   void add_remarks(const Dataset& dataset) {
     const std::vector<const Json*> records = row_records(dataset.name, "");
     if (state_of(records) == RowState::kAbsent) {
-      table_.remarks.push_back(dataset.name + " is absent (" + dataset.file + "): " + dataset.get);
+      table_.remarks.push_back(dataset.name + " is absent (" + dataset.file + ")" +
+                               (dataset.get.empty() ? "" : ": " + dataset.get));
       return;
     }
     std::size_t done = 0;

@@ -1,6 +1,7 @@
 // The table of an experiment, from its records.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,6 +45,8 @@ struct Table {
   std::vector<std::string> remarks;
   // Of the programs and machines that made the records, each once.
   std::vector<std::string> programs;
+  // How many runs at most were made at a time: above 1, the times of runs are marked as shared.
+  std::int64_t runs_at_a_time = 1;
 };
 
 // The records must be of this experiment (otherwise InputError), at most one for each run, in any order.

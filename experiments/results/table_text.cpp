@@ -1,7 +1,9 @@
 // Tables as Markdown, CSV and JSON.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "experiments/config/config.h"
 #include "experiments/results/table.h"
@@ -48,7 +50,23 @@ bool shows_variants(const Experiment& experiment) {
   return experiment.rows == RowKind::kRuns && experiment.variants.size() > 1;
 }
 
-std::string markdown_header(const Experiment& experiment) {
+// Times of runs that shared the machine with other runs bear a mark.
+constexpr const char* kSharedMark = "*";
+
+bool is_shared_time(const Metric& metric, const Table& table) {
+  return table.runs_at_a_time > 1 && metric.value.find("seconds") != std::string::npos;
+}
+
+std::string shared_line(const Experiment& experiment, const Table& table) {
+  if (std::none_of(experiment.metrics.begin(), experiment.metrics.end(),
+                   [&table](const Metric& metric) { return is_shared_time(metric, table); })) {
+    return "";
+  }
+  return "\n" + std::string("\\") + kSharedMark + " Shared times: up to " + std::to_string(table.runs_at_a_time) +
+         " runs were made at a time on the machine.\n";
+}
+
+std::string markdown_header(const Experiment& experiment, const Table& table) {
   std::vector<std::string> names = {"data set"};
   std::string rule = "|---|";
   if (shows_variants(experiment)) {
@@ -57,7 +75,8 @@ std::string markdown_header(const Experiment& experiment) {
   }
   for (const Metric& metric : experiment.metrics) {
     if (!metric.reference.empty()) names.push_back(metric.name + ", paper");
-    names.push_back(metric.name + (metric.reference.empty() ? "" : ", ours"));
+    names.push_back(metric.name + (metric.reference.empty() ? "" : ", ours") +
+                    (is_shared_time(metric, table) ? kSharedMark : ""));
     if (metric.ratio) names.push_back(metric.name + ", ours / paper");
   }
   for (std::size_t i = shows_variants(experiment) ? 2 : 1; i < names.size(); ++i) rule += "---:|";
@@ -96,6 +115,12 @@ std::string changes_text(const Parameters& from, const Parameters& to) {
 std::string variant_line(const Experiment& experiment, const Variant& variant) {
   std::string text = "- " + variant.name + ": ";
   if (variant.mesher == Mesher::kMarchingCubes) return text + "marching cubes\n";
+  if (variant.mesher == Mesher::kCommand) {
+    // The program by its name: where it lies is of no interest to readers.
+    text += "`" + std::filesystem::path(variant.command.arguments.front()).filename().string();
+    for (std::size_t i = 1; i < variant.command.arguments.size(); ++i) text += " " + variant.command.arguments[i];
+    return text + "`\n";
+  }
   text += "the parameters '" + experiment.base.name + "'";
   return text + changes_text(experiment.base.parameters, variant.parameters) + "\n";
 }
@@ -174,8 +199,8 @@ std::string table_markdown(const Experiment& experiment, const Table& table) {
   if (!experiment.question.empty()) text += experiment.question + "\n\n";
   for (const std::string& note : experiment.notes) text += note + "\n\n";
   if (!experiment.answers.empty()) text += std::string(kThinkFirst) + "\n\n";
-  text += markdown_header(experiment) + markdown_body(experiment, table) + "\n";
-  text += repeats_line(experiment) + "\n";
+  text += markdown_header(experiment, table) + markdown_body(experiment, table) + "\n";
+  text += repeats_line(experiment) + "\n" + shared_line(experiment, table);
   if (!experiment.reference.source.empty()) text += "\nPaper: " + experiment.reference.source + "\n";
   if (experiment.task == Task::kMesh) text += variants_text(experiment);
   if (!table.remarks.empty()) text += "\nRemarks:\n\n";
@@ -222,9 +247,10 @@ Json table_json(const Experiment& experiment, const Table& table) {
       cells.push_back(cell_json(experiment.metrics[i], row.cells[i]));
     }
   }
-  return Json{{"schema", kTableSchema},          {"experiment", experiment.name}, {"title", experiment.title},
-              {"question", experiment.question}, {"notes", experiment.notes},     {"rows", rows},
-              {"remarks", table.remarks},        {"programs", table.programs}};
+  return Json{
+      {"schema", kTableSchema},          {"experiment", experiment.name}, {"title", experiment.title},
+      {"question", experiment.question}, {"notes", experiment.notes},     {"rows", rows},
+      {"remarks", table.remarks},        {"programs", table.programs},    {"runs_at_a_time", table.runs_at_a_time}};
 }
 
 }  // namespace deliso

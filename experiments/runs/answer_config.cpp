@@ -131,20 +131,22 @@ std::vector<TextPart> parts_of(std::string_view paragraph) {
   return parts;
 }
 
-std::vector<Answer> parse_answers(const StrictObject& object, const Experiment& experiment) {
+std::vector<Answer> parse_answers(const StrictObject& object, const Experiment& experiment, Mistakes& mistakes) {
   std::vector<Answer> answers;
   if (!object.has("answers")) return answers;
   if (experiment.question.empty()) object.fail("answers", "need a question to answer: the key 'question'");
   if (experiment.rows != RowKind::kRuns) object.fail("answers", "need rows that are runs, not data sets");
   for (const Json& item : object.at("answers")) {
-    const StrictObject paragraph(item, object.place_of("answers") + "/" + std::to_string(answers.size()), kAnswerKeys);
-    Answer answer;
-    answer.text = paragraph.get<std::string>("text", "");
-    for (const TextPart& part : parts_of(answer.text)) {
-      if (part.is_figure) parse_figure_reference(part.text, experiment, paragraph.place_of("text"));
-    }
-    answer.holds = parse_claims(paragraph, experiment);
-    answers.push_back(std::move(answer));
+    Answer& answer = answers.emplace_back();
+    const std::string place = object.place_of("answers") + "/" + std::to_string(answers.size() - 1);
+    mistakes.gather([&] {
+      const StrictObject paragraph(item, place, kAnswerKeys);
+      answer.text = paragraph.get<std::string>("text", "");
+      for (const TextPart& part : parts_of(answer.text)) {
+        if (part.is_figure) parse_figure_reference(part.text, experiment, paragraph.place_of("text"));
+      }
+      answer.holds = parse_claims(paragraph, experiment);
+    });
   }
   return answers;
 }

@@ -38,7 +38,7 @@ std::vector<TextPart> parts_of(std::string_view paragraph);
 
 // The answers that an experiment gives. The other members of `experiment` must be set already. Throws InputError like
 // parse_experiment.
-std::vector<Answer> parse_answers(const StrictObject& object, const Experiment& experiment);
+std::vector<Answer> parse_answers(const StrictObject& object, const Experiment& experiment, Mistakes& mistakes);
 
 // For parse_answers to read back.
 Json answers_to_json(const std::vector<Answer>& answers);

@@ -10,8 +10,11 @@ namespace deliso {
 std::vector<PlannedRun> planned_runs(const Experiment& experiment) {
   std::vector<PlannedRun> runs;
   for (std::size_t dataset = 0; dataset < experiment.datasets.size(); ++dataset) {
-    for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
-      for (std::int32_t repeat = 1; repeat <= experiment.repeats; ++repeat) runs.push_back({dataset, variant, repeat});
+    // By turns: what slows the machine down for a while meets all variants alike.
+    for (std::int32_t repeat = 1; repeat <= experiment.repeats; ++repeat) {
+      for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
+        runs.push_back({dataset, variant, repeat});
+      }
     }
   }
   return runs;
@@ -91,6 +94,10 @@ Experiment smoke_form(Experiment experiment) {
   experiment.builtin_datasets.clear();
   experiment.repeats = 1;
   experiment.name += "_smoke";
+  // Other programs may not be there, and are not ours to try.
+  std::erase_if(experiment.variants, [](const Variant& variant) {
+    return variant.mesher == Mesher::kCommand && variant.command.arguments.front() != "{deliso}";
+  });
   experiment.answers.clear();
   for (Plot& plot : experiment.plots) {
     if (plot.across_datasets) plot.series = {{"smoke", {tiny.name}}};

@@ -1,7 +1,8 @@
 // An experiment: data sets, variants of the parameters, repeats, and the table that answers its question.
 //
-// Every combination of data set, variant and repeat is one run; runs are numbered data set by data set, variant by
-// variant, repeat by repeat. Equal experiments give equal runs, whatever the machine, the order or the sharding.
+// Every combination of data set, variant and repeat is one run; runs are numbered data set by data set, repeat by
+// repeat, variant by variant, so that the variants take turns. Equal experiments give equal runs, whatever the machine,
+// the order or the sharding.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +29,22 @@ struct Dataset {
 };
 
 // What makes the mesh of a run: the mesher, or the baseline it is compared with.
-enum class Mesher { kDelIso, kMarchingCubes };
+enum class Mesher { kDelIso, kMarchingCubes, kCommand };
+
+// Another program that makes the mesh.
+struct MesherCommand {
+  std::vector<std::string> arguments;  // the program first; with placeholders in braces (command_mesher.h)
+  double timeout_seconds = 600;        // it is ended after this time
+  std::string mesh_format = "ply";     // the extension of the file that it writes
+  std::vector<int> exit_codes = {0};   // with which it has done its work
+};
 
 // One setting of the parameters.
 struct Variant {
   std::string name;
   Parameters parameters;  // marching cubes uses only `boundary` and `certify`
   Mesher mesher = Mesher::kDelIso;
+  MesherCommand command{};  // of kCommand alone
 };
 
 // A column of the table.
@@ -154,7 +164,8 @@ inline std::uint64_t seed_of(const Experiment& experiment, std::int32_t repeat) 
 // names no fields to replace them.
 Experiment builtin_form(Experiment experiment);
 
-// The same experiment small enough for a test: all its variants once, on one tiny built-in field.
+// The same experiment small enough for a test: all its variants once, but for those of other programs, on one tiny
+// built-in field.
 Experiment smoke_form(Experiment experiment);
 
 }  // namespace deliso

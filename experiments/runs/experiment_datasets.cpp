@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 
 void check_file_keys(const StrictObject& object) {
   if (!object.has("isovalue")) object.fail("isovalue", "is required for a file");
-  if (!object.has("get")) object.fail("get", "is required for a file: one sentence on how to get it");
   for (const std::string_view key : {"size", "seed"}) {
     if (object.has(key)) object.fail(key, "belongs to a built-in field, but the data set is a file");
   }
@@ -67,50 +66,62 @@ Dataset parse_dataset(const Json& value, const std::string& place) {
   return dataset;
 }
 
-std::vector<Dataset> parse_list(const Json& list, const std::string& place, const std::vector<Dataset>& manifest) {
+// The data set of the manifest with this name.
+Dataset from_manifest(const std::string& name, const std::vector<Dataset>& manifest, const std::string& place) {
+  std::vector<std::string> known;
+  known.reserve(manifest.size());
+  for (const Dataset& dataset : manifest) known.push_back(dataset.name);
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return manifest[static_cast<std::size_t>(found - known.begin())];
+  throw InputError(std::string(place).append(": the manifest has no data set '").append(name).append("'") +
+                   nearest_name_hint(name, known));
+}
+
+std::vector<Dataset> parse_list(const Json& list, const std::string& place, const std::vector<Dataset>& manifest,
+                                Mistakes& mistakes) {
   std::vector<Dataset> datasets;
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string here = std::string(place).append("/").append(std::to_string(i));
-    if (list[i].is_string()) {
-      // A name in the manifest.
-      const auto name = list[i].get<std::string>();
-      std::vector<std::string> known;
-      known.reserve(manifest.size());
-      for (const Dataset& dataset : manifest) known.push_back(dataset.name);
-      const auto found = std::find(known.begin(), known.end(), name);
-      if (found == known.end()) {
-        throw InputError(std::string(here).append(": the manifest has no data set '").append(name).append("'") +
-                         nearest_name_hint(name, known));
+    mistakes.gather([&] {
+      datasets.push_back(list[i].is_string() ? from_manifest(list[i].get<std::string>(), manifest, here)
+                                             : parse_dataset(list[i], here));
+      if (!names.insert(datasets.back().name).second) {
+        throw InputError(here + ": '" + datasets.back().name + "' is the name of two data sets");
       }
-      datasets.push_back(manifest[static_cast<std::size_t>(found - known.begin())]);
-    } else {
-      datasets.push_back(parse_dataset(list[i], here));
-    }
-    if (!names.insert(datasets.back().name).second) {
-      throw InputError(here + ": '" + datasets.back().name + "' is the name of two data sets");
-    }
+    });
   }
   return datasets;
 }
 
+std::vector<Dataset> parse_manifest(const StrictObject& object, const fs::path& folder, Mistakes& mistakes) {
+  if (!object.has("manifest")) return {};
+  const fs::path file = folder / object.get<std::string>("manifest", "");
+  const Json document = read_json(file);
+  const StrictObject list(document, file.string() + "#", kManifestKeys);
+  return parse_list(list.at("datasets"), list.place_of("datasets"), {}, mistakes);
+}
+
 }  // namespace
 
-void parse_datasets(const StrictObject& object, const fs::path& folder, Experiment& experiment) {
+bool parse_datasets(const StrictObject& object, const fs::path& folder, Experiment& experiment, Mistakes& mistakes) {
+  Mistakes found;
   std::vector<Dataset> manifest;
-  if (object.has("manifest")) {
-    const fs::path file = folder / object.get<std::string>("manifest", "");
-    const Json document = read_json(file);
-    const StrictObject list(document, file.string() + "#", kManifestKeys);
-    manifest = parse_list(list.at("datasets"), list.place_of("datasets"), {});
-  }
-  experiment.datasets = parse_list(object.at("datasets"), object.place_of("datasets"), manifest);
-  if (!object.has("builtin_datasets")) return;
-  experiment.builtin_datasets =
-      parse_list(object.at("builtin_datasets"), object.place_of("builtin_datasets"), manifest);
-  for (const Dataset& dataset : experiment.builtin_datasets) {
-    if (dataset.field.empty()) object.fail("builtin_datasets", "holds the file '" + dataset.file + "'");
-  }
+  const bool has_manifest = found.gather([&] { manifest = parse_manifest(object, folder, found); });
+  const auto parse_key = [&](const char* key) {
+    return object.has(key) && has_manifest ? parse_list(object.at(key), object.place_of(key), manifest, found)
+                                           : std::vector<Dataset>();
+  };
+  experiment.datasets = parse_key("datasets");
+  experiment.builtin_datasets = parse_key("builtin_datasets");
+  found.gather([&] {
+    for (const Dataset& dataset : experiment.builtin_datasets) {
+      if (dataset.field.empty()) object.fail("builtin_datasets", "holds the file '" + dataset.file + "'");
+    }
+  });
+  const bool knows_all = found.empty() && object.has("datasets");
+  mistakes.gather([&found] { found.throw_all(); });
+  return knows_all;
 }
 
 Json datasets_to_json(const std::vector<Dataset>& datasets) {
@@ -121,7 +132,7 @@ Json datasets_to_json(const std::vector<Dataset>& datasets) {
       item["file"] = dataset.file;
       if (!dataset.also.empty()) item["also"] = dataset.also;
       if (!dataset.sha256.empty()) item["sha256"] = dataset.sha256;
-      item["get"] = dataset.get;
+      if (!dataset.get.empty()) item["get"] = dataset.get;
     } else {
       item["field"] = dataset.field;
       item["size"] = dataset.size;
@@ -146,6 +157,11 @@ fs::path default_data_folder(const fs::path& experiment_file) {
 bool is_present(const Dataset& dataset, const fs::path& data_folder) {
   std::error_code error;
   return !dataset.field.empty() || fs::exists(dataset_path(dataset, data_folder), error);
+}
+
+std::string absence_text(const Dataset& dataset, const fs::path& data_folder) {
+  const std::string text = dataset.file + " is not in " + data_folder.string() + "; ";
+  return text + (dataset.get.empty() ? "put it there, or name its folder with --data" : dataset.get);
 }
 
 fs::path dataset_path(const Dataset& dataset, const fs::path& data_folder) {

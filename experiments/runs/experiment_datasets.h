@@ -2,18 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <string>
 #include <vector>
 
+#include "experiments/config/mistakes.h"
 #include "experiments/config/strict_object.h"
 #include "experiments/runs/experiment.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
 
-// Reads `datasets` and `builtin_datasets`, with the help of `manifest` (a file relative to `folder`). Throws
-// InputError.
-void parse_datasets(const StrictObject& object, const std::filesystem::path& folder, Experiment& experiment);
+// Reads `datasets` and `builtin_datasets`, with the help of `manifest` (a file relative to `folder`). Returns whether
+// the names of all are known, that is, whether there was no mistake.
+bool parse_datasets(const StrictObject& object, const std::filesystem::path& folder, Experiment& experiment,
+                    Mistakes& mistakes);
 
 Json datasets_to_json(const std::vector<Dataset>& datasets);
 
@@ -22,6 +24,9 @@ std::filesystem::path default_data_folder(const std::filesystem::path& experimen
 
 // Whether the data set is a built-in field or its file lies in the folder.
 bool is_present(const Dataset& dataset, const std::filesystem::path& data_folder);
+
+// "leg.nrrd is not in DIR; get it from ...".
+std::string absence_text(const Dataset& dataset, const std::filesystem::path& data_folder);
 
 // The file, or its substitute in a record ("field:sphere").
 std::filesystem::path dataset_path(const Dataset& dataset, const std::filesystem::path& data_folder);

@@ -51,7 +51,7 @@ inline constexpr std::array kDatasetKeys = {
     KeyInfo{"file", KeyType::kText, false, "looked for in the data folder"},
     KeyInfo{"also", KeyType::kText, false, "another name under which the file is taken"},
     KeyInfo{"sha256", KeyType::kText, false, "of the samples, little endian, x fastest; checked before a run"},
-    KeyInfo{"get", KeyType::kText, false, "how to get the file; required with file"},
+    KeyInfo{"get", KeyType::kText, false, "how to get the file, told where it is absent"},
     KeyInfo{"field", KeyType::kText, false, "a built-in field instead of a file"},
     KeyInfo{"size", KeyType::kInteger, false, "of the field, samples along each axis", 2, 2048},
     KeyInfo{"seed", KeyType::kInteger, false, "of the field; default 1", 0, kLargestSeed},
@@ -72,7 +72,21 @@ inline constexpr std::array kVariantKeys = {
     KeyInfo{"name", KeyType::kText, true, "of the variant in records and tables"},
     KeyInfo{"extends", KeyType::kText, false, "the base or an earlier variant; default: the base"},
     KeyInfo{"set", KeyType::kObject, false, "what it changes: values by key path"},
-    choice_key("mesher", "deliso (default), or marching_cubes: the baseline, on the same isosurface", kMesherNames),
+    KeyInfo{"mesher", KeyType::kAny, false,
+            "deliso (default), marching_cubes (the baseline, on the same isosurface), or an object: another program"},
+};
+
+inline constexpr double kMostSeconds = 1e6;
+inline constexpr int kLargestExitCode = 255;
+
+inline constexpr std::array kCommandKeys = {
+    KeyInfo{
+        "command", KeyType::kArray, true,
+        "the program, a path from this file's folder or a name in PATH, and its arguments; with {volume}, {isovalue}, "
+        "{mesh}, {report}, {vertices}, {seed}, {threads}, {deliso}"},
+    KeyInfo{"timeout", KeyType::kNumber, false, "seconds after which it is ended; default 600", 0.001, kMostSeconds},
+    KeyInfo{"mesh_format", KeyType::kText, false, "extension of the file that it writes; default ply"},
+    KeyInfo{"exit_codes", KeyType::kArray, false, "with which it has done its work; default 0"},
 };
 
 inline constexpr std::array kPlotKeys = {

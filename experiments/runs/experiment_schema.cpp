@@ -42,6 +42,10 @@ Json experiment_schema() {
   refine_key(base, "set", by_path(false));
   Json variant = keys_schema(kVariantKeys);
   refine_key(variant, "set", by_path(false));
+  Json command = keys_schema(kCommandKeys);
+  refine_key(command, "command", list_of(text_schema()));
+  refine_key(command, "exit_codes", list_of(Json{{"type", "integer"}, {"minimum", 0}, {"maximum", kLargestExitCode}}));
+  refine_key(variant, "mesher", either(Json{{"type", "string"}, {"enum", kMesherNames}}, command));
   const Json dataset = keys_schema(kDatasetKeys);
   Json reference = keys_schema(kReferenceKeys);
   const Json figures{{"type", "object"}, {"additionalProperties", Json{{"type", Json::array({"number", "string"})}}}};

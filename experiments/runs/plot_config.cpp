@@ -165,16 +165,18 @@ Json series_to_json(const std::vector<PlotSeries>& series) {
 
 }  // namespace
 
-std::vector<Plot> parse_plots(const StrictObject& object, const Experiment& experiment) {
+std::vector<Plot> parse_plots(const StrictObject& object, const Experiment& experiment, Mistakes& mistakes) {
   std::vector<Plot> plots;
   if (!object.has("plots")) return plots;
   std::set<std::string> names;
   for (std::size_t i = 0; i < object.at("plots").size(); ++i) {
     const std::string place = object.place_of("plots") + "/" + std::to_string(i);
-    plots.push_back(parse_plot(object.at("plots")[i], place, experiment));
-    if (!names.insert(plots.back().name).second) {
-      throw InputError(place + "/name '" + plots.back().name + "' is the name of two plots");
-    }
+    mistakes.gather([&] {
+      plots.push_back(parse_plot(object.at("plots")[i], place, experiment));
+      if (!names.insert(plots.back().name).second) {
+        throw InputError(place + "/name '" + plots.back().name + "' is the name of two plots");
+      }
+    });
   }
   return plots;
 }

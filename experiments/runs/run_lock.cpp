@@ -9,7 +9,7 @@
 
 namespace deliso {
 
-RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs) {
+RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs, Part part) {
   // If the folder is not writable this fails silently; it is reported when the records are opened.
   file_ = open((folder / ".run.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) return;
@@ -17,7 +17,10 @@ RunLock::RunLock(const std::filesystem::path& folder, const Shard& shard, std::s
     if (shard.count == 1) {
       lock_bytes(folder, 0, runs);
     } else {
-      for (std::size_t run = shard.index - 1; run < runs; run += shard.count) lock_bytes(folder, run, 1);
+      for (std::size_t run = 0; run < runs; ++run) {
+        const bool is_own = run % shard.count == shard.index - 1;
+        if (is_own == (part == Part::kOwn)) lock_bytes(folder, run, 1);
+      }
     }
   } catch (...) {
     close(file_);

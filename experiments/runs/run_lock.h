@@ -14,8 +14,9 @@ namespace deliso {
 // lock is taken.
 class RunLock {
  public:
-  // `runs`: how many the whole experiment has. Throws InputError when another process holds one of the shard's.
-  RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs);
+  enum class Part { kOwn, kOthers };  // the runs of the shard, or all others
+  // `runs`: how many the whole experiment has. Throws InputError when another process holds one of them.
+  RunLock(const std::filesystem::path& folder, const Shard& shard, std::size_t runs, Part part = Part::kOwn);
   ~RunLock();
   RunLock(const RunLock&) = delete;
   RunLock& operator=(const RunLock&) = delete;

@@ -42,6 +42,11 @@ std::string RunProgress::position() const {
   return text;
 }
 
+void RunProgress::plan(std::vector<std::size_t> datasets) {
+  count_ = datasets.size();
+  remaining_ = RemainingTime(std::move(datasets));
+}
+
 void RunProgress::begin(const std::string& run_name) {
   ++number_;
   name_ = run_name;
@@ -61,11 +66,6 @@ void RunProgress::show(const Progress& progress) {
 void RunProgress::finished(double seconds) {
   remaining_.finished(seconds);
   if (style_ == Style::kLines) stream_ << position() << " (took " << duration_text(seconds) << ")\n" << std::flush;
-}
-
-void RunProgress::skipped() {
-  ++number_;
-  remaining_.skipped();
 }
 
 void RunProgress::wipe() {

@@ -23,8 +23,6 @@ class RemainingTime {
 
   // The next run has ended.
   void finished(double seconds);
-  // The next run was not made (its file is absent).
-  void skipped() { ++next_; }
   [[nodiscard]] double seconds() const;
 
  private:
@@ -41,16 +39,16 @@ class RemainingTime {
 class RunProgress {
  public:
   enum class Style { kSilent, kBar, kLines };
-  RunProgress(std::ostream& stream, Style style, std::vector<std::size_t> datasets)
-      : stream_(stream), style_(style), count_(datasets.size()), remaining_(std::move(datasets)) {}
+  RunProgress(std::ostream& stream, Style style) : stream_(stream), style_(style) {}
   ~RunProgress() { wipe(); }
   RunProgress(const RunProgress&) = delete;
   RunProgress& operator=(const RunProgress&) = delete;
 
+  // The data set of each run to come, in their order.
+  void plan(std::vector<std::size_t> datasets);
   void begin(const std::string& run_name);
   void show(const Progress& progress);
   void finished(double seconds);
-  void skipped();
   // Removes the line, so that a message can be written.
   void wipe();
 
@@ -59,8 +57,8 @@ class RunProgress {
 
   std::ostream& stream_;
   Style style_;
-  std::size_t count_;
-  RemainingTime remaining_;
+  std::size_t count_ = 0;
+  RemainingTime remaining_{{}};
   std::size_t number_ = 0;  // of the current run, from 1
   std::string name_;
   bool drawn_ = false;

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 
+#include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
 #include "delaunay/base/stopwatch.h"
-#include "experiments/runs/isosurface_samples.h"
+#include "experiments/config/config.h"
+#include "experiments/runs/command_mesher.h"
+#include "experiments/runs/experiment_keys.h"
+#include "experiments/runs/judged_mesh.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/program_info.h"
 #include "surface/deliso.h"
 #include "surface/intersection/exact_tests.h"
-#include "surface/verification/surface_distance.h"
 #include "surface/verification/verification.h"
 #include "volume/marching_cubes/marching_cubes.h"
 #include "volume/topology/exact_topology.h"
@@ -19,37 +22,12 @@ namespace {
 
 constexpr const char* kRecordSchema = "deliso-record-1";
 
-// `samples`: the distances to the mesh from points of the isosurface inside cells. The verification uses grid-edge
-// crossings instead, which are the vertices of marching cubes.
-Json distances_json(const Verification& check, const DistanceFigure& samples) {
-  return Json{{"mesh_to_isosurface_max_voxels", check.distance.mesh_to_isosurface.max_voxels},
-              {"mesh_to_isosurface_mean_voxels", check.distance.mesh_to_isosurface.mean_voxels},
-              {"isosurface_to_mesh_max_voxels", check.distance.isosurface_to_mesh.max_voxels},
-              {"isosurface_to_mesh_mean_voxels", check.distance.isosurface_to_mesh.mean_voxels},
-              {"isosurface_samples_to_mesh_max_voxels", samples.max_voxels},
-              {"isosurface_samples_to_mesh_mean_voxels", samples.mean_voxels},
-              {"vertex_residual_max_voxels", check.residual.distance.max_voxels},
-              {"crossing_pairs", check.self_intersection.found.crossing_pairs},
-              {"fraction_normals_against", check.normals.fraction_against}};
-}
-
-Json measured_distances(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
-  const Verification check = verify_mesh(mesh, grid, isovalue);
-  const std::vector<Vec3> samples = isosurface_samples(grid, check.isovalue_used);
-  DistanceFigure figure = points_to_mesh(samples, mesh, norm(grid.box().high - grid.box().low));
-  const Vec3& step = grid.spacing();
-  const double voxel = std::min({step.x, step.y, step.z});
-  figure.max_voxels /= voxel;
-  figure.mean_voxels /= voxel;
-  return distances_json(check, figure);
-}
-
 // One entry for each kind of component.
 std::vector<TopologyCount> counted(const std::vector<ComponentTopology>& components) {
   return certify(TriangleMesh{}, components).isosurface;
 }
 
-Json topology_report(const RunInput& input, double isovalue) {
+Json topology_report(const RunInput& input, double isovalue, std::uint64_t seed) {
   const Stopwatch stopwatch;
   const double used = regular_isovalue(input.grid, isovalue);
   const std::vector<TopologyCount> counts = counted(exact_topology(input.grid, used).components);
@@ -59,6 +37,7 @@ Json topology_report(const RunInput& input, double isovalue) {
               {"volume", volume_json(input.path, input.grid)},
               {"isovalue", isovalue},
               {"isovalue_used", used},
+              {"seed", seed},
               {"components", sum.components},
               {"euler_characteristic", sum.euler_characteristic},
               {"boundary_loops", sum.boundary_loops},
@@ -74,7 +53,9 @@ MeshedField meshed_field_of(const RunInput& input, double isovalue, const Parame
 }
 
 // The part of the mesher's report that also applies to marching cubes.
-Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, TriangleMesh& mesh) {
+// The seed changes nothing; it tells the repeats apart.
+Json marching_cubes_report(const RunInput& input, double isovalue, const Parameters& parameters, std::uint64_t seed,
+                           TriangleMesh& mesh) {
   const Stopwatch stopwatch;
   const MeshedField field = meshed_field_of(input, isovalue, parameters);
   const double used = regular_isovalue(field.grid, field.isovalue);
@@ -89,6 +70,8 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
               {"volume", volume_json(input.path, input.grid)},
               {"isovalue", isovalue},
               {"isovalue_used", used},
+              {"parameters", parameters_to_json(parameters)},
+              {"seed", seed},
               {"vertices", mesh.points.size()},
               {"triangles", mesh.triangles.size()},
               {"components", sum.components},
@@ -98,6 +81,31 @@ Json marching_cubes_report(const RunInput& input, double isovalue, const Paramet
               {"peak_memory_bytes", peak_memory_bytes()},
               {"certificate", certificate_json(certificate)},
               {"quality", quality_json(measure_quality(mesh))}};
+}
+
+// The part of the mesher's report that also applies to another program; all of it is judged by the verification.
+Json command_report(const RunInput& input, double isovalue, const Variant& variant, std::uint64_t seed,
+                    const CommandOutcome& outcome, const JudgedMesh& judged) {
+  const TopologySum sum = sum_of(judged.check.topology.mesh);
+  const Json command = command_json(outcome);
+  return Json{{"mesher", mesher_json(variant)},
+              {"program", program_json()},
+              {"volume", volume_json(input.path, input.grid)},
+              {"isovalue", isovalue},
+              {"isovalue_used", judged.check.isovalue_used},
+              {"parameters", parameters_to_json(variant.parameters)},
+              {"seed", seed},
+              {"threads", input.threads},
+              {"vertices", judged.check.vertices},
+              {"triangles", judged.check.triangles},
+              {"components", sum.components},
+              {"euler_characteristic", sum.euler_characteristic},
+              {"boundary_loops", sum.boundary_loops},
+              {"total_seconds", command["cold_seconds"].is_null() ? command["wall_seconds"] : command["cold_seconds"]},
+              {"peak_memory_bytes", command["peak_memory_bytes"]},
+              {"command", command},
+              {"certificate", certificate_json(judged.check.topology)},
+              {"quality", quality_json(judged.check.quality)}};
 }
 
 // The record has a schema of its own, so the report's is left out.
@@ -114,6 +122,14 @@ Json header(const std::string& experiment, const std::string& dataset, const std
 }
 
 }  // namespace
+
+Json mesher_json(const Variant& variant) {
+  if (variant.mesher != Mesher::kCommand) return kMesherNames[static_cast<std::size_t>(variant.mesher)];
+  return Json{{"command", variant.command.arguments},
+              {"timeout", variant.command.timeout_seconds},
+              {"mesh_format", variant.command.mesh_format},
+              {"exit_codes", variant.command.exit_codes}};
+}
 
 Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status) {
   return header(experiment.name, experiment.datasets[run.dataset].name, experiment.variants[run.variant].name,
@@ -152,19 +168,27 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
   Json record = run_header(experiment, run, kStatusDone);
   reset_peak_memory();  // so that the peak is that of this run
   const double isovalue = experiment.datasets[run.dataset].isovalue;
+  const std::uint64_t seed = seed_of(experiment, run.repeat);
   if (experiment.task == Task::kTopology) {
-    append_report(topology_report(input, isovalue), record);
+    append_report(topology_report(input, isovalue, seed), record);
     return record;
   }
   const Variant& variant = experiment.variants[run.variant];
+  std::optional<CommandOutcome> outcome;
   TriangleMesh mesh;
-  if (variant.mesher == Mesher::kMarchingCubes) {
-    append_report(marching_cubes_report(input, isovalue, variant.parameters, mesh), record);
+  if (variant.mesher == Mesher::kCommand) {
+    DELISO_CHECK(input.launcher != nullptr, "a run of another program has a launcher");
+    outcome =
+        run_command_mesher(variant.command, {input.grid, isovalue, seed, input.threads, input.stop}, *input.launcher);
+    if (outcome->is_stopped) return std::nullopt;
+    mesh = std::move(outcome->mesh);
+  } else if (variant.mesher == Mesher::kMarchingCubes) {
+    append_report(marching_cubes_report(input, isovalue, variant.parameters, seed, mesh), record);
   } else {
     // Mesh as `deliso mesh` does.
     MeshingOptions options;
     options.parameters = variant.parameters;
-    options.seed = seed_of(experiment, run.repeat);
+    options.seed = seed;
     options.threads = input.threads;
     options.stop = input.stop;
     options.progress = input.progress;
@@ -173,24 +197,29 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
     append_report(mesh_report({input.path, input.grid, isovalue, options}, result), record);
     mesh = std::move(result.mesh);
   }
-  if (experiment.distances) {
-    const MeshedField field = meshed_field_of(input, isovalue, variant.parameters);
-    record["distances"] = measured_distances(mesh, field.grid, field.isovalue);
-  }
+  if (!experiment.distances && !outcome) return record;
+  const MeshedField field = meshed_field_of(input, isovalue, variant.parameters);
+  const JudgedMesh judged = judge_mesh(mesh, field.grid, field.isovalue);
+  if (outcome) append_report(command_report(input, isovalue, variant, seed, *outcome, judged), record);
+  record["distances"] = distances_json(judged);
+  record["verification"] = verification_json(judged);
   return record;
 }
 
 Json empty_record(Task task, bool distances) {
   const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
-  const RunInput input{"", grid, 1, nullptr, {}};
+  const RunInput input{"", grid, 1, nullptr, {}, nullptr};
   Json record = header("", "", "", 1, kStatusDone);
   if (task == Task::kTopology) {
-    append_report(topology_report(input, 0.5), record);
+    append_report(topology_report(input, 0.5, 1), record);
     return record;
   }
   const MeshingOptions options;
   append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
-  if (distances) record["distances"] = distances_json(Verification{}, {});
+  record["command"] = command_json(CommandOutcome{});
+  if (!distances) return record;
+  record["distances"] = distances_json(JudgedMesh{});
+  record["verification"] = verification_json(JudgedMesh{});
   return record;
 }
 

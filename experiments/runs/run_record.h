@@ -9,6 +9,7 @@
 
 #include "experiments/config/json.h"
 #include "experiments/runs/experiment.h"
+#include "experiments/system/program_launcher.h"
 #include "surface/base/controls.h"
 #include "volume/scalar_grid.h"
 
@@ -21,6 +22,9 @@ inline constexpr const char* kStatusAbsent = "absent";  // the file of the data 
 
 // The beginning of a run's record: schema, experiment, dataset, variant, repeat, status.
 Json run_header(const Experiment& experiment, const PlannedRun& run, const std::string& status);
+
+// What makes the mesh, as a config and a record say it: a name, or an object with the command.
+Json mesher_json(const Variant& variant);
 
 // A key that identifies a run within its experiment.
 std::string run_key(const Experiment& experiment, const PlannedRun& run);
@@ -36,9 +40,11 @@ struct RunInput {
   std::int32_t threads = 1;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
+  ProgramLauncher* launcher = nullptr;  // needed where another program makes the mesh
 };
 
-// Does the run. Returns nothing when it was stopped from outside. Throws what the mesher throws.
+// Does the run. Returns nothing when it was stopped from outside. Throws what the mesher throws, and InputError when
+// another program fails to make a mesh.
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input);
 
 // A record with all its keys and no values of a run.

@@ -1,4 +1,4 @@
-// Does the runs of an experiment, one after the other, and writes each record as its run ends.
+// Does the runs of an experiment, one after the other or several at a time, and writes each record as its run ends.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,9 @@ struct RunnerOptions {
   std::filesystem::path data_folder;
   std::filesystem::path out_folder;  // created if necessary
   Shard shard;
-  bool resume = false;  // continue an interrupted experiment
+  bool resume = false;  // take the records in the folder that still hold
   std::int32_t threads = 1;
+  int jobs = 1;  // runs at a time, each in a process of its own when there are several
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -32,8 +33,9 @@ struct RunnerSummary {
 
 // Throws InputError when the out folder holds another experiment, holds records although `resume` is off, or cannot be
 // written, or when another process is making these runs in it. A run that fails (also because its file is not the
-// expected data set) is recorded as failed, and the next run begins. `resume` repeats failed runs, and runs whose data
-// sets were absent.
+// expected data set) is recorded as failed, and the next run begins. `resume` takes every record that still holds,
+// whatever the config said when it was made (earlier_records.h); it repeats failed runs, and runs whose data sets were
+// absent.
 RunnerSummary run_experiment(const Experiment& experiment, const RunnerOptions& options, RunProgress& progress);
 
 // The runs of the shard that `resume` would still make: those without a finished record in the out folder.

@@ -144,7 +144,7 @@ TEST_F(RunCommand, RecordsAreNotOverwritten) {
   Json document = small_document();
   document["title"] = "Changed";
   write_file(folder_ / "small.json", json_text(document));
-  const ProgramResult other = run("out", {"--resume"});
+  const ProgramResult other = run("out");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_MESSAGE(other.err, "another experiment");
   EXPECT_EQ(read_file(folder_ / "out/records.jsonl"), before);
@@ -153,7 +153,7 @@ TEST_F(RunCommand, RecordsAreNotOverwritten) {
 TEST_F(RunCommand, ADamagedExperimentInTheFolderIsToldOfAsDamaged) {
   run("out");
   write_file(folder_ / "out/experiment.json", "{\"title\": ");
-  const ProgramResult result = run("out", {"--resume"});
+  const ProgramResult result = run("out");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
   EXPECT_MESSAGE(result.err, (folder_ / "out/experiment.json") + ": not valid JSON, ");
@@ -276,7 +276,7 @@ TEST_F(RunCommand, ADryRunListsTheRunsAndWritesNothing) {
   const ProgramResult result = run("out", {"--dry-run", "--shard", "2/3"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 4);
-  EXPECT_MESSAGE(result.out, "ball, fine, repeat 2, seed 2");
+  EXPECT_MESSAGE(result.out, "ball, coarse, repeat 1, seed 1");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

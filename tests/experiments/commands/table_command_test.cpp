@@ -240,13 +240,9 @@ TEST(TableCommand, ARecordThatDoesNotBelongHereIsNamedWithItsPlaceAndWhatIsWrong
     Json record = first;
     record[key] = value;
     write_file(folder / "out/records.2-of-2.jsonl", first.dump() + "\n" + record.dump() + "\n");
-    for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"table", folder / "out"},
-          {"run", folder / "small.json", "--out", folder / "out", "--resume"}}) {
-      const ProgramResult result = run_deliso(command);
-      EXPECT_EQ(result.exit_code, 2);
-      EXPECT_EQ(result.err, "deliso: " + place + sentence + "\n");
-    }
+    const ProgramResult result = run_deliso({"table", folder / "out"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, "deliso: " + place + sentence + "\n");
   };
   expect_refused("repeat", 99, "its repeat 99 is none of the experiment small, whose repeats are 1 to 3");
   expect_refused("repeat", 0, "its repeat 0 is none of the experiment small, whose repeats are 1 to 3");

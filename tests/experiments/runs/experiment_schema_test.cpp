@@ -63,6 +63,10 @@ Json full_document() {
                                       {"get", "ask"}});
   document["base"]["set"] = Json{{"stage1.rho", 3}};
   document["variants"].push_back(Json{{"name", "cubes"}, {"mesher", "marching_cubes"}});
+  document["variants"].push_back(Json{
+      {"name", "other"},
+      {"mesher",
+       {{"command", {"sh", "{volume}", "{mesh}"}}, {"timeout", 3}, {"mesh_format", "off"}, {"exit_codes", {0, 1}}}}});
   document["sweep"] = Json{{"stage1.epsilon", {0.2, 0.3}}};
   document["seed"] = 5;
   document["rows"] = "runs";
@@ -117,6 +121,7 @@ TEST(ExperimentSchema, TheFullDocumentNamesEveryKeyAndIsTaken) {
   expect_all(kDatasetKeys, datasets);
   expect_all(kBaseKeys, Json::array({document["base"]}));
   expect_all(kVariantKeys, document["variants"]);
+  expect_all(kCommandKeys, Json::array({document["variants"].back()["mesher"]}));
   expect_all(kMetricKeys, document["metrics"]);
   expect_all(kPlotKeys, document["plots"]);
   expect_all(kSeriesKeys, document["plots"][0]["series"]);
