@@ -50,6 +50,7 @@ Pipeline::Pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshin
       controls_(parameters_.budget, options.stop, options.progress),
       result_(result),
       promise_{.max_distance = promised_distance(parameters_)} {
+  controls_.set_observer(options.observer);
   result_.promised_distance = promise_.max_distance;
 }
 

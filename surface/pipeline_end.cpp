@@ -175,6 +175,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.mesh_off = last_.geometry.mesh_off;
   figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_crossings.size());
   result_.certificate.broken = broken_promises(figures, promise_);
+  if (options_.observer != nullptr) options_.observer->certified(figures, promise_);
 }
 
 }  // namespace deliso

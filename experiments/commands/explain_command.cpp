@@ -14,6 +14,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/commands/field_options.h"
 #include "experiments/config/config.h"
+#include "experiments/lesson/lesson_experiments.h"
 #include "experiments/lesson/lesson_figure.h"
 #include "experiments/lesson/lesson_page.h"
 #include "experiments/lesson/lesson_run.h"
@@ -40,6 +41,7 @@ struct ExplainCommandOptions {
   std::string seed = "1";
   bool text = false;
   bool answers = false;
+  bool without_experiments = false;
 };
 
 MeshingOptions meshing_options(const ExplainCommandOptions& options) {
@@ -110,6 +112,11 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   }
   if (options.output.empty()) return ExitCode::kDone;
   lesson.runs = &runs;
+  Json experiments;
+  if (options.figure.empty() && !options.without_experiments) {
+    experiments = lesson_experiments(&catch_stop_signals());
+    lesson.experiments = &experiments;
+  }
   const std::string page = options.figure.empty() ? lesson_page(lesson) : lesson_figure(lesson, options.figure);
   write_text(page, options.output);
   if (options.text) return ExitCode::kDone;
@@ -140,6 +147,8 @@ void add_explain_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_name);
   command.add_flag("--text", options->text, "Say every step of the run in a sentence, on stdout");
   command.add_flag("--answers", options->answers, "The page shows the answers of its exercises at once");
+  command.add_flag("--without-experiments", options->without_experiments,
+                   "Leave chapter 11 out, whose experiments take some seconds");
   command.add_option("--config", options->config, "Parameters in a JSON file")
       .type_name("FILE")
       .check(refuse_empty_name);

@@ -20,6 +20,14 @@ std::string modules_of_kind(std::string_view ending) {
   return text;
 }
 
+// The one module of this file.
+std::string module_text(std::string_view file) {
+  for (const LessonModule& module : lesson_modules()) {
+    if (module.name.ends_with(file)) return std::string(module.text);
+  }
+  throw InternalError("no module " + std::string(file));
+}
+
 // Puts a text in the place of the mark, which occurs once.
 void put(std::string& page, std::string_view mark, const std::string& text) {
   const std::size_t at = page.find(mark);
@@ -59,10 +67,15 @@ std::string lesson_page(const LessonOptions& options, std::size_t most_bytes) {
   Json data = {{"title", options.title},
                {"seed", std::to_string(options.seed)},
                {"answers", options.shows_answers},
+               {"glossary", module_text("glossary.md")},
                {"runs", Json::array()}};
+  if (options.experiments != nullptr) {
+    data["experiments"] = *options.experiments;
+    data["errata"] = module_text("errata.md");
+  }
   if (!options.figure.empty()) data["figure"] = options.figure;
   const std::string scripts = modules_of_kind(".js");
-  std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size());
+  std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size() + data.dump().size());
   const std::size_t count = options.runs == nullptr ? 0 : options.runs->size();
   // The main run may take most of the page; the others get what it leaves.
   for (std::size_t i = 0; i < count; ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/json.h"
 #include "experiments/lesson/lesson_run.h"
 
 namespace deliso {
@@ -14,6 +15,7 @@ struct LessonOptions {
   std::uint64_t seed = 1;                        // of what is random in the page: fields, instances of exercises
   bool shows_answers = false;                    // of exercises, before they are tried
   std::string figure = {};                       // the address of the one picture that is shown instead of the page
+  const Json* experiments = nullptr;             // of lesson_experiments.h, with their tables; none: without chapter 11
   const std::vector<LessonRun>* runs = nullptr;  // that the page plays: the main one, then others
 };
 

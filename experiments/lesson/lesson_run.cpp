@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "experiments/lesson/lesson_cells.h"
 #include "experiments/lesson/lesson_rays.h"
 #include "experiments/lesson/trace/trace_writer.h"
 #include "experiments/runs/record.h"
@@ -34,11 +35,11 @@ void round_numbers(Json& json) {
   }
 }
 
-Json array_of(const Vec3& p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
+Json rounded_array_of(const Vec3& p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
 
 // What the page draws of the field: samples less the isovalue, for slices; and marching cubes' surface, for the eye.
 Json volume_of(const ScalarGrid& grid, double isovalue, const Vec3& step) {
-  Json volume = {{"dims", grid.dims()}, {"step", array_of(step)}, {"samples", Json::array()}};
+  Json volume = {{"dims", grid.dims()}, {"step", rounded_array_of(step)}, {"samples", Json::array()}};
   const auto [nx, ny, nz] = grid.dims();
   if (std::size_t(nx) * std::size_t(ny) * std::size_t(nz) > kMostSamples) return volume;
   for (std::int32_t k = 0; k < nz; ++k) {
@@ -51,7 +52,7 @@ Json volume_of(const ScalarGrid& grid, double isovalue, const Vec3& step) {
   volume["points"] = Json::array();
   const Vec3 &spacing = grid.spacing(), per_step{1 / spacing.x, 1 / spacing.y, 1 / spacing.z};
   for (const Vec3& p : surface.points) {
-    volume["points"].push_back(array_of(scaled(scaled(p - grid.origin(), per_step), step)));
+    volume["points"].push_back(rounded_array_of(scaled(scaled(p - grid.origin(), per_step), step)));
   }
   volume["triangles"] = surface.triangles;
   return volume;
@@ -95,6 +96,7 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
   run.limits = {{"epsilon", options.parameters.stage1.epsilon}, {"rho", options.parameters.stage1.rho}};
   const Vec3 spacing = spacing_to_use(options.parameters, grid.spacing());
   run.rays = lesson_rays(grid, run.result.isovalue_used, spacing, options.seed);
+  run.cells = lesson_cells(grid, run.result.isovalue_used);
   run.volume = volume_of(grid, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
   return run;
 }
@@ -102,24 +104,24 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
 Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_bytes) {
   Json events = Json::array(), rays = part == LessonPart::kWhole ? run.rays : Json::array();
   round_numbers(rays);
-  std::size_t bytes = run.volume.dump().size() + rays.dump().size(), left_out = 0;
+  std::size_t bytes = run.volume.dump().size() + rays.dump().size() + run.cells.dump().size(), left_out = 0;
   bool is_cut = false;
   for (Json event : run.events) {
     const std::string& kind = event.at("e").get_ref<const std::string&>();
     if (part == LessonPart::kStage2 && (kind == "initial" || kind == "insert" || kind == "refuse")) continue;
     round_numbers(event);
     const std::size_t its = event.dump().size() + 1;
-    // What follows a cut cannot be replayed. The last event is the outcome; stage 1 is short enough.
+    // What follows a cut cannot be replayed. The last two events are the outcome; stage 1 is short enough.
     is_cut = is_cut || (is_of_stage_2(event) && bytes + its > most_bytes);
-    if (is_cut && event.at("e") != "end") {
+    if (is_cut && event.at("e") != "certify" && event.at("e") != "end") {
       ++left_out;
       continue;
     }
     bytes += its;
     events.push_back(std::move(event));
   }
-  return {{"name", run.name}, {"volume", run.volume},        {"limits", run.limits},
-          {"rays", rays},     {"events", std::move(events)}, {"left_out", left_out}};
+  return {{"name", run.name},   {"volume", run.volume},        {"limits", run.limits}, {"rays", rays},
+          {"cells", run.cells}, {"events", std::move(events)}, {"left_out", left_out}};
 }
 
 }  // namespace deliso

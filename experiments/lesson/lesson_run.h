@@ -18,6 +18,7 @@ struct LessonRun {
   MeshingResult result;
   Json limits;  // of stage 1: epsilon, rho
   Json rays;    // see lesson_rays.h
+  Json cells;   // see lesson_cells.h
   Json
       volume;  // dims, step (of the grid in mesh space), samples less the isovalue; and an approximation of the surface
 };

@@ -15,6 +15,8 @@
 
 namespace deliso {
 
+class Observer;
+
 // What a caller may watch. Called now and then from the mesher's own thread.
 struct Progress {
   std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "shape", "certify"
@@ -26,6 +28,10 @@ class Controls {
  public:
   Controls(const BudgetParameters& budget, const std::atomic<bool>* stop, std::function<void(const Progress&)> progress)
       : budget_(budget), stop_(stop), progress_(std::move(progress)) {}
+
+  // Who is told of the steps of repair; null: nobody.
+  void set_observer(Observer* observer) { observer_ = observer; }
+  [[nodiscard]] Observer* observer() const { return observer_; }
 
   // Announces that a stage begins.
   void enter(std::string_view stage) {
@@ -87,6 +93,7 @@ class Controls {
   BudgetParameters budget_;
   const std::atomic<bool>* stop_;
   std::function<void(const Progress&)> progress_;
+  Observer* observer_ = nullptr;
   Stopwatch watch_;
   std::uint32_t calls_ = 0;
   std::string_view stage_, stopped_in_;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "delaunay/base/vec3.h"
 #include "delaunay/ids.h"
@@ -17,9 +18,14 @@ namespace deliso {
 
 struct Criteria;
 struct DualEdge;
+struct IsosurfaceTopology;
+struct MatchedMesh;
+struct Promise;
+struct PromiseFigures;
 struct RefinementCandidate;
 struct RefinementMesh;
 struct SurfaceMesh;
+class CellLevels;
 class RefinementDisk;
 class RestrictedDelaunay;
 
@@ -34,6 +40,14 @@ struct ObservedViolation {
   VertexId umbrella = {};              // of kExtractManifold: q; else none
   std::span<const FacetId> disk = {};  // D_q, seen from the tetrahedra above the isovalue
   const Criteria* limits = nullptr;
+};
+
+// What repair compares before and after a round: a mesh of the whole isosurface with the exact topology.
+struct ObservedComparison {
+  const MatchedMesh& mesh;  // and how its pieces match the components
+  const IsosurfaceTopology& topology;
+  const std::vector<bool>& done;  // of each exact component: some mesh so far has it right
+  const CellLevels& levels;       // of the cells that are sampled by a lattice
 };
 
 class Observer {
@@ -56,6 +70,10 @@ class Observer {
   // Vertices got new numbers after parts have joined: that of each old one.
   virtual void renamed(std::span<const VertexId> /*renamed*/) {}
 
+  // A round of repair begins: it refines these voxel cells (CellLevels::cell() tells where they are).
+  virtual void round_begins(const ObservedComparison& /*comparison*/, std::span<const std::uint64_t> /*cells*/) {}
+  virtual void round_ends(const ObservedComparison& /*comparison*/) {}
+
   // The mesh that RefineGeom begins with, with pole heights.
   virtual void meshed(const SurfaceMesh& /*mesh*/, const Criteria& /*limits*/) {}
   // E is about to be replaced by the star of the candidate's point, the next vertex.
@@ -72,6 +90,8 @@ class Observer {
   virtual void refined(const RefinementMesh& /*mesh*/) {}
   // The mesh of stage 2 after steps of another kind: those of the stage `shape`.
   virtual void reshaped(const SurfaceMesh& /*mesh*/) {}
+  // What was found of the mesh that leaves the program, and what it has to keep.
+  virtual void certified(const PromiseFigures& /*figures*/, const Promise& /*promise*/) {}
 };
 
 }  // namespace deliso

@@ -61,7 +61,8 @@ const std::map<std::string, Floors> kFloors = {
      {{"experiments/system", "experiments/python"},
       {"experiments/config", "experiments/pictures"},
       {"experiments/runs", "experiments/lesson/trace"},
-      {"experiments/results", "experiments/lesson"},
+      {"experiments/results"},
+      {"experiments/lesson"},
       {"experiments/commands"},
       {"experiments"}}},
 };

@@ -2,7 +2,7 @@
 Lesson.CodingLab = class {
   constructor(seed) {
     this.name = "coding";
-    this.title = "Coding lab";
+    this.title = "Coding";
     this.seed = seed;
     this.codes = new Map(Lesson.codingTasks.map((task) => [task.name, task.skeleton]));
     this.solved = new Set();

@@ -31,16 +31,18 @@ Lesson.cards = (() => {
   };
 
   // The question instead of the answer.
-  const question = (card, chapter, predict, answer) => {
+  const question = (card, chapter, step, predict, answer) => {
+    const choices = chapter.choices?.(step);
     const buttons = Object.entries(chapter.kinds)
-                        .filter(([, kind]) => kind.key)
+                        .filter(([name, kind]) => kind.key && (!choices || choices.includes(name)))
                         .map(
                             ([name, kind]) => element(
                                 "button", {onclick: () => answer(name), "data-kind": name}, markIcon(kind), kind.title,
                                 element("kbd", {}, kind.key.toUpperCase())));
     card.replaceChildren(
-        element("h2", {}, "What kind of step is next?"), element("div", {class: "answers"}, ...buttons),
-        element("p", {class: "score"}, predict.scoreText()));
+        element("h2", {}, "What kind of step is next?"),
+        ...(chapter.question ? [element("p", {}, chapter.question(step))] : []),
+        element("div", {class: "answers"}, ...buttons), element("p", {class: "score"}, predict.scoreText()));
   };
 
   // A fact has a value alone; a guard is no reason, but has to hold.

@@ -49,7 +49,7 @@ Lesson.Page = class {
     this.help = this.buildHelp();
     root.append(
         element(
-            "header", {}, element("strong", {}, Lesson.data.title), this.tabs, element("span", {class: "gap"}),
+            "header", {}, element("strong", {}, Lesson.data.title), this.tabs,
             button("SVG", "save the picture as SVG", "svg"), button("◐", "dark or light", "theme"),
             button("?", "keys", "help")),
         this.live, this.stepped, this.plain, this.help);
@@ -119,7 +119,7 @@ Lesson.Page = class {
     this.stage.show(this.player);
     Lesson.cards.now(this.cards.now, chapter, step);
     if (hides)
-      Lesson.cards.question(this.cards.next, chapter, predict, (kind) => this.player.answer(kind));
+      Lesson.cards.question(this.cards.next, chapter, step, predict, (kind) => this.player.answer(kind));
     else
       Lesson.cards.next(this.cards.next, chapter, step);
     this.showResult(predict, chapter, step);

@@ -2,7 +2,7 @@
 Lesson.Laboratory = class {
   constructor(seed) {
     this.name = "plane";
-    this.title = "2D laboratory";
+    this.title = "2D lab";
     this.kinds = Lesson.planeStory.kinds;
     this.layers = Lesson.planePicture.layers;
     this.shownLayers = [1, 2, 4, 5, 6, 7, 8, 9];

@@ -57,7 +57,9 @@
       const restricted = new Set(replay.restricted().map(Lesson.Replay.keyOf));
       for (const key of replay.hits.keys()) {
         for (const p of picture.hitsOf(replay, key)) {
-          check(Math.abs(Lesson.slice.value(run.volume, p)) < 0.01 * largest, `event ${n}: the hit of ${key} is off the surface`);
+          check(
+              Math.abs(Lesson.slice.value(run.volume, p)) < 0.01 * largest,
+              `event ${n}: the hit of ${key} is off the surface`);
         }
         check(
             (replay.hits.get(key).t.length % 2 === 1) === restricted.has(key), `event ${n}: hits and signs of ${key}`);
@@ -148,7 +150,8 @@
       return false;
     };
     for (let trial = 0; trial < 30; ++trial) {
-      chapter.values = [random.between(0.1, 1), random.between(-1, -0.1), random.between(-1, -0.1), random.between(0.1, 1)];
+      chapter.values =
+          [random.between(0.1, 1), random.between(-1, -0.1), random.between(-1, -0.1), random.between(0.1, 1)];
       // Too near to a tie for the grid to tell.
       if (Math.abs(chapter.saddle().value) < 0.02) continue;
       const says = chapter.sentence().includes("the corners 00 and 11");

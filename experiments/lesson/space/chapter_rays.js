@@ -23,17 +23,6 @@ Lesson.RaysChapter = class extends Lesson.SpaceChapter {
 
   at({origin, direction}, t) { return Lesson.vectors.add(origin, Lesson.vectors.scale(t, direction)); }
 
-  // The box of the cells from low to high.
-  box(picture, low, high, role) {
-    const {step} = this.run.volume;
-    const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high[axis] + 1 : low[axis]) * step[axis]);
-    for (let bits = 0; bits < 8; ++bits) {
-      for (let axis = 0; axis < 3; ++axis) {
-        if (!((bits >> axis) & 1)) picture.line([corner(bits), corner(bits | (1 << axis))], role, 7);
-      }
-    }
-  }
-
   draw(picture, step) {
     const {kind, node, cell} = this.list[step];
     const ray = this.ray(step);
@@ -43,11 +32,11 @@ Lesson.RaysChapter = class extends Lesson.SpaceChapter {
     if (kind === "line") return;
     if (node !== undefined) {
       const {low, high, pruned} = ray.nodes[node];
-      this.box(picture, low, high, pruned ? "wrong" : "target");
+      picture.box(low, high, pruned ? "wrong" : "target", 7);
       return;
     }
     const its = ray.cells[cell];
-    this.box(picture, its.cell, its.cell, "target");
+    picture.box(its.cell, its.cell, "target", 7);
     for (const root of its.roots) picture.mark(this.at(ray, its.in + root * (its.out - its.in)), "star", "point", 6, 8);
     this.drawCubic(picture, its);
   }

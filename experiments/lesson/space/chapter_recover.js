@@ -5,6 +5,7 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     this.keepKinds(
         ["initial", "multi_intersect", "extract_manifold", "approximate_geometry", "coverage", "refuse", "mesh"]);
     for (let i = 0; i <= Math.max(0, run.meshAt); ++i) {
+      if (run.events[i].e === "compare" || run.events[i].e === "sample") continue;  // chapter 10
       this.list.push({kind: Lesson.spaceStory.kindOf(run.events[i]), event: i});
     }
     this.explode = 0;

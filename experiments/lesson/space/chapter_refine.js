@@ -2,7 +2,7 @@
 Lesson.RefineChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
     super(run, {name: "refine", title: "7 Refine", code: Lesson.spaceCode.stage2, shownLayers: [1, 5, 7, 8]});
-    this.keepKinds(["mesh", "refine", "keep", "restart", "refined", "shape", "end"]);
+    this.keepKinds(["mesh", "refine", "keep", "restart", "refined", "shape", "certify", "end"]);
     for (let i = run.meshAt; i >= 0 && i < run.events.length; ++i) {
       this.list.push({kind: Lesson.spaceStory.kindOf(run.events[i]), event: i});
     }

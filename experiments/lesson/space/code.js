@@ -62,7 +62,7 @@ Lesson.spaceCode = (() => {
     },
     {text: "(ours) take back what came to meet", ...at("surface/refine/refine.cpp", "take_back"), kinds: ["restart"]},
     {text: "(ours) better angles", ...at("surface/shape/shape.h", "improve_shape"), kinds: ["shape"]},
-    {text: "return T", ...at("surface/deliso.cpp", "certify"), kinds: ["refined", "end"]},
+    {text: "return T", ...at("surface/deliso.cpp", "certify"), kinds: ["refined", "certify", "end"]},
   ];
   const make = (title, lines) =>
       ({title, lines, lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))});

@@ -50,15 +50,26 @@ Lesson.SpacePicture = (() => {
       this.scene.onLayer(layer).label(this.camera.toPlane(p), text, "label", weight);
     }
 
+    // The box of the voxel cells from low to high.
+    box(low, high, role, layer) {
+      const {step} = this.run.volume;
+      const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high[axis] + 1 : low[axis]) * step[axis]);
+      this.edgesOfBox(corner, role, layer);
+    }
+
+    edgesOfBox(corner, role, layer) {
+      for (let bits = 0; bits < 8; ++bits) {
+        for (let axis = 0; axis < 3; ++axis) {
+          if (!((bits >> axis) & 1)) this.line([corner(bits), corner(bits | (1 << axis))], role, layer);
+        }
+      }
+    }
+
     // The box of the volume, the slice and the surface itself.
     context(sliceAt) {
       const {volume, box: [low, high]} = this.run;
       const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high : low)[axis]);
-      for (let bits = 0; bits < 8; ++bits) {
-        for (let axis = 0; axis < 3; ++axis) {
-          if (!((bits >> axis) & 1)) this.line([corner(bits), corner(bits | (1 << axis))], "frame", 1);
-        }
-      }
+      this.edgesOfBox(corner, "frame", 1);
       for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
       this.flush();
       if (sliceAt !== null) {

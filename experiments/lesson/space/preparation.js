@@ -11,8 +11,15 @@ Lesson.preparations = [
         ...(run.rays.length ? [new Lesson.RaysChapter(run)] : []), new Lesson.DelaunayChapter(run),
         new Lesson.RestrictedChapter(run), new Lesson.RecoverChapter(run), new Lesson.PolesChapter(run),
         new Lesson.RefineChapter(run));
-    const guards = Lesson.data.runs[1];
-    if (guards) Lesson.chapters.push(new Lesson.GuardsChapter(new Lesson.SpaceRun(guards)));
+    const noise = Lesson.data.runs[1] && new Lesson.SpaceRun(Lesson.data.runs[1]);
+    if (noise) Lesson.chapters.push(new Lesson.GuardsChapter(noise));
+    // Few cells of a smooth surface have saddles; of noise, many.
+    const swept =
+        [run, noise].find((other) => other?.cells.some(({pieces}) => pieces.some((chi) => chi !== 1))) ?? noise ?? run;
+    if (swept.cells.length) Lesson.chapters.push(new Lesson.SweepChapter(swept));
     Lesson.chapters.push(new Lesson.CertificateChapter(run));
+    // Repair acts in few runs.
+    const repaired = [run, noise].find((other) => other?.events.some((event) => event.e === "sample"));
+    if (repaired) Lesson.chapters.push(new Lesson.RepairChapter(repaired));
   }
 ];

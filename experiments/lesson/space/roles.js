@@ -11,7 +11,13 @@ Lesson.shadeOf = (() => {
   shades("conflictFace", "orange", 0.35, 0.15, "orange", 1);
   shades("diskFace", "red", 0.55, 0.3, "red", 2.5);
   shades("starFace", "green", 0.5, 0.25, "green", 1.5);
+  shades("askedFace", "orange", 0.5, 0.2, "orange", 1);
+  shades("rightFace", "green", 0.5, 0.2, "green", 1);
+  shades("wrongFace", "red", 0.5, 0.2, "red", 1);
+  roles.boundaryCurve = {stroke: "ink", width: 3};
   roles.frame = {stroke: "faint", width: 1};
+  roles.sweptArc = {stroke: "sky", width: 1.5, opacity: 0.8};
+  roles.slicePlane = {stroke: "purple", width: 1.5, fill: "purple", fillOpacity: 0.1};
   roles.slice = {stroke: "purple", width: 2};
 
   // The number of the shade of a face.

@@ -1,7 +1,7 @@
 // A run of the program with what its chapters share: the trace, its replay, and where the reader stands.
 Lesson.SpaceRun = class {
-  constructor({name, volume, events, limits, rays, left_out: leftOut}) {
-    Object.assign(this, {name, volume, events, leftOut, rays: rays ?? []});
+  constructor({name, volume, events, limits, rays, cells, left_out: leftOut}) {
+    Object.assign(this, {name, volume, events, leftOut, rays: rays ?? [], cells: cells ?? []});
     const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
     this.box = [[0, 0, 0], last];
     this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));
@@ -40,24 +40,4 @@ Lesson.SpaceRun = class {
     }
     return -1;
   }
-};
-
-// An exercise: a question with a number as its answer, which is computed from the state when it is asked for.
-Lesson.exercise = ({question, answer, because}) => {
-  const {element} = Lesson;
-  const reply = element("p", {class: "score", "aria-live": "polite"});
-  const field = element("input", {type: "number", step: 1, "aria-label": question});
-  const check = () => {
-    if (field.value === "") return;
-    const right = answer();
-    reply.textContent =
-        Number(field.value) === right ? `Right: ${because(right)}` : "Not so. Look again, or ask for the answer.";
-  };
-  const show = () => (reply.textContent = `${answer()}: ${because(answer())}`);
-  field.addEventListener("keydown", (event) => event.key === "Enter" && check());
-  const box = element(
-      "div", {class: "exercise"}, element("h2", {}, "Exercise"), element("p", {}, question), field, " ",
-      element("button", {onclick: check}, "Check"), " ", element("button", {onclick: show}, "Answer"), reply);
-  if (Lesson.data.answers) show();
-  return box;
 };

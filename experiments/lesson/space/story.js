@@ -17,6 +17,7 @@ Lesson.spaceStory = (() => {
     restart: {title: "taken back", key: "t", mark: "diamond", role: "refused"},
     refined: {title: "the end of stage 2", mark: "bar", role: "plain"},
     shape: {title: "shape (ours)", mark: "star", role: "plain"},
+    certify: {title: "certificate (ours)", mark: "square", role: "plain"},
     end: {title: "the end", key: "n", mark: "bar", role: "plain"},
   };
 
@@ -66,6 +67,8 @@ Lesson.spaceStory = (() => {
         return "Badly shaped triangles are improved (not in the paper).";
       case "refined":
         return "No triangle is left that can be refined.";
+      case "certify":
+        return "The certificate: the mesh is compared with the exact topology, crossings and distances are looked for.";
       case "end":
         return "Nothing is left to do.";
       default:
@@ -97,6 +100,10 @@ Lesson.spaceStory = (() => {
         return "Everything since BuildTriMesh was taken back.";
       case "shape":
         return "Flips, moves and merges have improved small angles.";
+      case "certify":
+        return `Certificate: topology ${e.homeomorphic ? "equal" : "different"}, ${
+            count(e.crossing, "pair of triangles crosses", "pairs of triangles cross")}, ${
+            count(e.vertices_off + e.mesh_off + e.isosurface_off, "place", "places")} too far off.`;
       case "end":
         return `The end: ${e.vertices} vertices, ${e.triangles} triangles, ${e.verdict}` +
             `${e.proven ? ", proven" : ""}.`;

@@ -14,14 +14,6 @@ namespace deliso {
 
 namespace {
 
-TraceEvent array_of(const Vec3& p) { return TraceEvent::array({p.x, p.y, p.z}); }
-
-TraceEvent array_of(std::span<const Vec3> points) {
-  TraceEvent all = TraceEvent::array();
-  for (const Vec3& p : points) all.push_back(array_of(p));
-  return all;
-}
-
 const char* step_name(RecoverStep step) {
   switch (step) {
     case RecoverStep::kMultiIntersect:
@@ -175,6 +167,16 @@ void TraceWriter::renamed(std::span<const VertexId> renamed) {
   number_ = std::move(numbers);
 }
 
+void TraceWriter::round_begins(const ObservedComparison& comparison, std::span<const std::uint64_t> cells) {
+  if (!has_compared_) sink_(comparison_event(comparison));
+  sink_(sampling_event(comparison.levels, cells));
+}
+
+void TraceWriter::round_ends(const ObservedComparison& comparison) {
+  sink_(comparison_event(comparison));
+  has_compared_ = true;
+}
+
 void TraceWriter::meshed(const SurfaceMesh& mesh, const Criteria& limits) {
   limits_ = limits;
   has_restarted_ = false;
@@ -253,6 +255,10 @@ void TraceWriter::refined(const RefinementMesh& mesh) {
 
 void TraceWriter::reshaped(const SurfaceMesh& mesh) {
   sink_({{"e", "shape"}, {"points", array_of(mesh.points)}, {"triangles", mesh.triangles}});
+}
+
+void TraceWriter::certified(const PromiseFigures& figures, const Promise& promise) {
+  sink_(certificate_event(figures, promise));
 }
 
 }  // namespace deliso

@@ -4,12 +4,15 @@
 //   initial   points, virtual (numbers of guards), tets, above (one character each), facets
 //   insert    why, its measures, v, p, gone (the conflict region), above, facets
 //   refuse    why, its measures, cause
+//   compare   points, triangles, components, pieces, error: the mesh that repair has, and how its pieces match
+//   sample    cells, levels: the voxel cells that a round of repair refines, and how fine each is before
 //   mesh      points, poles, triangles, limits: what stage 2 begins with
 //   refine    t, why, h, r, l, pole, v, p, gone (E), rim, closed
 //   keep      t, cause: a coarse triangle whose refinement is refused for now; p and gone (E) where x_sigma was tried
 //   restart   all insertions since `mesh` are taken back
 //   refined   vertices, triangles (counts), and the mesh itself after a restart
 //   shape     the mesh after steps of another kind
+//   certify   what was found of the mesh that leaves the program, and the bounds
 //
 // New tetrahedra are not written: they are the star of v over the rim of what is gone. Their signs, `above`, stand in
 // the order of the rim's facets, each sorted, all sorted. A facet is [a, b, c, [hits]]: its dual edge is new or
@@ -19,16 +22,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "experiments/lesson/trace/repair_events.h"
 #include "surface/base/observer.h"
 #include "surface/refine/refine_options.h"
 
 namespace deliso {
 
-using TraceEvent = nlohmann::ordered_json;
 using TraceSink = std::function<void(const TraceEvent&)>;
 
 class TraceWriter : public Observer {
@@ -41,6 +43,8 @@ class TraceWriter : public Observer {
   void inserted(const RestrictedDelaunay& del_s) override;
   void refused(const RestrictedDelaunay& del_s, std::string_view cause) override;
   void renamed(std::span<const VertexId> renamed) override;
+  void round_begins(const ObservedComparison& comparison, std::span<const std::uint64_t> cells) override;
+  void round_ends(const ObservedComparison& comparison) override;
   void meshed(const SurfaceMesh& mesh, const Criteria& limits) override;
   void disk(const RefinementMesh& mesh, const RefinementDisk& e, const RefinementCandidate& candidate) override;
   void attempt_refused(const RefinementMesh& mesh, const RefinementDisk& e,
@@ -49,6 +53,7 @@ class TraceWriter : public Observer {
   void restarted() override;
   void refined(const RefinementMesh& mesh) override;
   void reshaped(const SurfaceMesh& mesh) override;
+  void certified(const PromiseFigures& figures, const Promise& promise) override;
 
  private:
   [[nodiscard]] int number(VertexId v) const;
@@ -65,6 +70,7 @@ class TraceWriter : public Observer {
   std::vector<bool> rim_had_hits_;  // of rim()[i]
   Criteria limits_;                 // of stage 2
   bool has_restarted_ = false;
+  bool has_compared_ = false;  // the mesh that the next round begins with is written
 };
 
 }  // namespace deliso

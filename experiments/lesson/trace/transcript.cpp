@@ -1,5 +1,7 @@
 #include "experiments/lesson/trace/transcript.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 
 namespace deliso {
@@ -58,6 +60,25 @@ std::string refinement(const TraceEvent& event) {
          count_of(gone, "triangle", "triangles") + " gives way to D of " + std::to_string(star) + ".";
 }
 
+std::string comparison(const TraceEvent& event) {
+  const TraceEvent& components = event.at("components");
+  const auto right = std::count_if(components.begin(), components.end(),
+                                   [](const TraceEvent& component) { return component.at("is") == "exact"; });
+  return "Compared with the exact topology: " + std::to_string(right) + " of " +
+         count_of(components.size(), "component is", "components are") + " right; the mesh has " +
+         count_of(event.at("triangles").size(), "triangle", "triangles") + " in " +
+         count_of(event.at("pieces").size(), "piece", "pieces") + ".";
+}
+
+std::string certificate(const TraceEvent& event) {
+  const auto figure = [&](const char* key) { return std::to_string(event.at(key).get<std::int64_t>()); };
+  return "Certificate: topology " + std::string(event.at("homeomorphic").get<bool>() ? "equal" : "different") +
+         ", pairs of crossing triangles: " + figure("crossing") +
+         ", vertices off the isosurface: " + figure("vertices_off") +
+         ", points too far from it: " + figure("mesh_off") +
+         ", points of it too far from the mesh: " + figure("isosurface_off") + ".";
+}
+
 std::string ending(const TraceEvent& event) {
   return "The end: " + std::to_string(event.at("vertices").get<std::int64_t>()) + " vertices, " +
          std::to_string(event.at("triangles").get<std::int64_t>()) + " triangles, verdict " +
@@ -74,6 +95,12 @@ std::string sentence_of(const TraceEvent& event) {
   }
   if (kind == "insert") return insertion(event);
   if (kind == "refuse") return reason_of(event) + ": refused, " + event.at("cause").get<std::string>() + ".";
+  if (kind == "compare") return comparison(event);
+  if (kind == "sample") {
+    return "Repair: " + count_of(event.at("cells").size(), "voxel cell is", "voxel cells are") +
+           " sampled anew where the mesh is wrong; this is not in the paper.";
+  }
+  if (kind == "certify") return certificate(event);
   if (kind == "mesh") {
     return "ComputePoles, BuildTriMesh: a mesh of " + count_of(event.at("points").size(), "vertex", "vertices") +
            " and " + count_of(event.at("triangles").size(), "triangle", "triangles") +

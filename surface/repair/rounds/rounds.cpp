@@ -6,6 +6,7 @@
 
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
+#include "surface/base/observer.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/defect_cells.h"
@@ -64,6 +65,8 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
 
 // Makes a round in which these cells are refined.
 void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
+  Observer* const observer = controls.observer();
+  if (observer != nullptr) observer->round_begins({*mesh_, surface_.topology, kept_.done(), cell_levels_}, cells);
   cell_levels_.refine(std::move(cells));
   resample();
   release_free_memory();
@@ -71,6 +74,7 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   release_free_memory();
   try_signs(controls);
   ++stats_.rounds;
+  if (observer != nullptr) observer->round_ends({*mesh_, surface_.topology, kept_.done(), cell_levels_});
 }
 
 void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {

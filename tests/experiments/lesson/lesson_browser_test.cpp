@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/lesson/lesson_experiments.h"
 #include "experiments/lesson/lesson_page.h"
 #include "experiments/lesson/lesson_run.h"
 #include "tests/support/program_runner.h"
@@ -46,8 +47,9 @@ const std::vector<LessonRun>& runs() {
 
 // What the browser makes of a page of this seed, once it is loaded; while its self-test runs, it counts as loading.
 ProgramResult browse(const fs::path& browser, std::uint64_t seed, const std::string& address) {
+  static const Json kExperiments = lesson_experiments(nullptr);
   const TemporaryFolder folder;
-  write_file(folder / "lesson.html", lesson_page({.seed = seed, .runs = &runs()}));
+  write_file(folder / "lesson.html", lesson_page({.seed = seed, .experiments = &kExperiments, .runs = &runs()}));
   return run_program_at(browser,
                         {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                          "--user-data-dir=" + folder / "profile", "--window-size=1280,720", "--enable-logging=stderr",
@@ -87,10 +89,11 @@ TEST_F(LessonBrowser, TheSelfTestPasses) {
 TEST_F(LessonBrowser, EveryAddressOpens) {
   for (const std::string address :
        {"", "#overview", "#delaunay/4", "#restricted/3", "#recover/16", "#recover/9999", "#poles/7", "#refine/900",
-        "#guards/5", "#plane/12", "#plane/99999", "#plane/x", "#coding/disk", "#nowhere"}) {
+        "#guards/5", "#sweep/3", "#certificate", "#repair/5", "#configs/errata", "#plane/12", "#plane/99999",
+        "#plane/x", "#coding/disk", "#nowhere"}) {
     SCOPED_TRACE(address);
     const ProgramResult result = browse(*browser_, 7, address);
-    EXPECT_NE(result.out.find("2D laboratory"), std::string::npos) << result.err;
+    EXPECT_NE(result.out.find(">2D lab</a>"), std::string::npos) << result.err;
     EXPECT_EQ(result.out.find("role=\"alert\""), std::string::npos) << text_of_page(result.out);
     expect_no_console_error(result);
   }
