@@ -20,6 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BENCH_PAGE = "configs/bench/README.md"
 ABLATIONS_PAGE = "configs/ablation/README.md"
+COMPARE_PAGE = "configs/compare/README.md"
 ANSWERS = "configs/ablation/answers.txt"
 
 # Sections that show the table of one experiment as it is: name, page, experiment.
@@ -33,6 +34,11 @@ PLAIN = [
     ("seven_volumes", BENCH_PAGE, "configs/bench/seven_volumes.json"),
     ("noisy_isovalues", BENCH_PAGE, "configs/bench/noisy_isovalues.json"),
 ]
+
+# Sections that put other meshers beside ours: name and experiment. The first also stands on the first page.
+COMPARED = [("compare_" + name, f"configs/compare/{name}.json")
+            for name in ("fields_vertices", "fields_error", "volumes_vertices", "volumes_error")]
+OURS = "DelIso"
 
 
 class Failure(Exception):
@@ -63,24 +69,26 @@ class Program:
             raise Failure(f"deliso {' '.join(map(str, arguments))} ended with {done.returncode}")
         return done.stdout
 
-    def run(self, experiment, threads=1):
+    def run(self, experiment, threads=1, accepted=(0,)):
         """The folder with the table of an experiment, run as far as it has not been."""
         folder = self.out / f"{threads}_threads" / Path(experiment).with_suffix("").relative_to("configs")
         print(f"== {experiment}, threads {threads}", flush=True)
         self.call(["run", ROOT / experiment, "--data", self.data, "--out", folder, "--threads", threads, "--resume",
-                   "--progress"])
+                   "--progress"], accepted)
         return folder
 
 
 class Results:
     """What an experiment found: its table, as text and as figures."""
 
-    def __init__(self, folder, allow_absent):
+    def __init__(self, folder, allow_absent, allow_failed=False):
         self.text = (folder / "table.md").read_text(encoding="utf-8")
         self.table = read_json(folder / "table.json")
         self.rows = [row for row in self.table["rows"] if row["state"] != "absent"]
         unfinished = [row for row in self.rows if row["state"] != "done"]
-        if unfinished:
+        if not self.rows:
+            raise Failure(f"{folder.name}: all its data sets are absent")
+        if unfinished and not allow_failed:
             raise Failure(f"{folder}: {unfinished[0]['dataset']} is {unfinished[0]['state']}")
         absent = {row["dataset"] for row in self.table["rows"] if row["state"] == "absent"}
         manifest = read_json(ROOT / "configs/reference/datasets.json")["datasets"]
@@ -245,6 +253,147 @@ def two_threads_section(one, two):
     return markdown_table(header, rows) + f"\n\n{one.provenance()} {one.runs(with_spread=False)}"
 
 
+# ---- other meshers --------------------------------------------------------------------------------------------------
+
+
+def value(cells, metric):
+    """The median of a figure, or its text; None where there is none."""
+    cell = cells.get(metric, {})
+    return cell.get("median", cell.get("text"))
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values)) if values else None
+
+
+class Compared:
+    """The meshers of an experiment beside each other, over the data sets that each has done."""
+
+    def __init__(self, results):
+        self.results = results
+        self.meshers = results.variants()
+        self.done = {(row["dataset"], row["variant"]): {cell["metric"]: cell for cell in row["cells"]}
+                     for row in results.rows if row["state"] == "done"}
+
+    def cells(self, mesher):
+        return [self.done[dataset, mesher] for dataset in self.results.datasets() if (dataset, mesher) in self.done]
+
+    def over_ours(self, mesher, metric):
+        """The geometric mean of the quotients of a mesher's figures and ours; and on how many data sets ours is larger."""
+        pairs = []
+        for dataset in self.results.datasets():
+            if (dataset, mesher) in self.done and (dataset, OURS) in self.done:
+                theirs, ours = value(self.done[dataset, mesher], metric), value(self.done[dataset, OURS], metric)
+                if theirs and ours:
+                    pairs.append((theirs, ours))
+        return geometric_mean([a / b for a, b in pairs]), sum(b > a for a, b in pairs), len(pairs)
+
+
+def ratio_text(ratio):
+    if ratio is None:
+        return "–"
+    return f"{ratio:.2g}" if ratio < 10 else f"{ratio:.0f}"
+
+
+def compared_summary(compared):
+    """A row for each mesher, over all data sets."""
+    rows = []
+    for mesher in compared.meshers:
+        cells = compared.cells(mesher)
+        if not cells:
+            rows.append([mesher, "no run ended well"] + ["–"] * 9)
+            continue
+
+        def total(metric):
+            return sum(value(one, metric) or 0 for one in cells)
+
+        right = sum(value(one, "topology is right") == "true" for one in cells)
+        proven = sum(value(one, "proven") == "true" for one in cells)
+        rows.append([
+            mesher, f"{right} of {len(cells)}", f"{total('components missed'):.0f} of {total('components'):.0f}",
+            f"{total('pairs of triangles that cross'):.0f}", f"{proven} of {len(cells)}",
+            *(ratio_text(compared.over_ours(mesher, metric)[0]) for metric in
+              ("vertices", "surface to mesh, mean (voxels)", "surface to mesh, max (voxels)")),
+            f"{min(value(one, 'smallest angle (degrees)') for one in cells):.2g}",
+            *(ratio_text(compared.over_ours(mesher, metric)[0]) for metric in
+              ("cold (s)", "whole program (s)", "peak memory (bytes)"))])
+    header = ["mesher", "topology is right", "components missed", "pairs that cross", "proven", "vertices, over ours",
+              "mean distance, over ours", "largest distance, over ours", "smallest angle (°)", "seconds, over ours",
+              "whole program, over ours", "memory, over ours"]
+    return markdown_table(header, rows)
+
+
+def compared_datasets(compared):
+    """A row for each data set, a column for each mesher: what it misses, its mean distance, smallest angle and time."""
+    rows = []
+    for dataset in compared.results.datasets():
+        row = [dataset]
+        for mesher in compared.meshers:
+            cells = compared.done.get((dataset, mesher))
+            if cells is None:
+                row.append("failed")
+                continue
+            missed = value(cells, "components missed")
+            wrong = "" if value(cells, "topology is right") == "true" else "**wrong**, "
+            if missed:
+                wrong += f"misses {missed:.0f}, "
+            seconds = value(cells, "cold (s)") or value(cells, "whole program (s)")
+            row.append(f"{wrong}{figure_text(value(cells, 'vertices'))} v, "
+                       f"{figure_text(value(cells, 'surface to mesh, mean (voxels)'), 2)}, "
+                       f"{value(cells, 'smallest angle (degrees)'):.2g}°, {figure_text(seconds, 2)} s")
+        rows.append(row)
+    return markdown_table(["data set"] + compared.meshers, rows)
+
+
+def compared_losses(compared):
+    """Where another mesher is better than ours, in sentences."""
+    sentences = []
+    for metric, words in (("cold (s)", "faster"), ("peak memory (bytes)", "smaller in memory"),
+                          ("vertices", "smaller in vertices"), ("surface to mesh, mean (voxels)", "nearer on the mean"),
+                          ("surface to mesh, max (voxels)", "nearer at the worst point")):
+        better = []
+        for mesher in compared.meshers:
+            ratio, losses, count = compared.over_ours(mesher, metric)
+            if mesher != OURS and losses and metric != "vertices" or (metric == "vertices" and ratio and ratio < 0.97):
+                better.append(f"{mesher} on {losses} of {count} ({ratio_text(ratio)} of ours on the mean)")
+        if better:
+            sentences.append(f"{words}: " + "; ".join(better))
+    shape = []
+    ours = {dataset: compared.done[dataset, OURS] for dataset in compared.results.datasets()
+            if (dataset, OURS) in compared.done}
+    for mesher in compared.meshers:
+        count = sum((dataset, mesher) in compared.done and
+                    value(compared.done[dataset, mesher], "smallest angle (degrees)") >
+                    value(cells, "smallest angle (degrees)") for dataset, cells in ours.items())
+        if count and mesher != OURS:
+            shape.append(f"{mesher} on {count} of {len(ours)}")
+    if shape:
+        sentences.append("better in the smallest angle: " + "; ".join(shape))
+    wrong = [dataset for dataset, cells in ours.items() if value(cells, "proven") != "true"]
+    if wrong:
+        sentences.append(f"not proven, ours: {', '.join(wrong)}")
+    return "Where ours loses: " + ". ".join(sentences) + "." if sentences else "Ours loses nowhere."
+
+
+def compared_section(results, whole):
+    compared = Compared(results)
+    text = compared_summary(compared)
+    if whole:
+        text += ("\n\nEach cell: vertices, mean distance from the surface to the mesh in voxels, smallest angle, seconds.\n\n" +
+                 compared_datasets(compared))
+    failed = [f"{row['dataset']} with {row['variant']}" for row in results.rows if row["state"] != "done"]
+    text += "\n\n" + compared_losses(compared)
+    absent = {row["dataset"] for row in results.table["rows"] if row["state"] == "absent"}
+    if absent:
+        text += f"\n\nAbsent: {', '.join(sorted(absent))}."
+    if failed:
+        text += f"\n\nFailed or not run: {', '.join(failed)}."
+    return text + f"\n\n{results.provenance()} {results.runs(with_spread=False)}"
+
+
+# ---- more sections --------------------------------------------------------------------------------------------------
+
+
 def read_answers():
     """name -> sentence, from lines `name: sentence`; an indented line goes on with the one before."""
     answers = {}
@@ -319,7 +468,7 @@ def replace_section(page, name, text):
     if first < 0 or last < first:
         raise Failure(f"{page}: has no section '{name}'")
     page.write_text(content[:first + len(begin)] + "\n" + text + "\n\n" + content[last:], encoding="utf-8")
-    print(f"   {page.relative_to(page.parents[2])}: {name}", flush=True)
+    print(f"   {page}: {name}", flush=True)
 
 
 def main():
@@ -332,8 +481,13 @@ def main():
     parser.add_argument("--only", nargs="+", metavar="NAME", help="these sections alone")
     parser.add_argument("--allow-absent", action="store_true", help="for trials: leave absent volumes out")
     parser.add_argument("--allow-dirty", action="store_true", help="for trials: any program will do")
+    parser.add_argument("--list", action="store_true", help="name the sections and do nothing else")
     options = parser.parse_args()
     names = [name for name, _, _ in PLAIN] + ["two_threads", "verification", "fidelity", "ablations"]
+    names += [name for name, _ in COMPARED]
+    if options.list:
+        print("\n".join(names))
+        return
     unknown = [name for name in options.only or [] if name not in names]
     if unknown:
         raise Failure(f"there is no section '{unknown[0]}', but {', '.join(names)}")
@@ -361,6 +515,12 @@ def main():
     if is_wanted("fidelity"):
         section = fidelity_section(results_of("configs/ablation/fidelity.json"))
         replace_section(options.pages / ABLATIONS_PAGE, "fidelity", section)
+    for name, experiment in COMPARED:
+        if is_wanted(name):
+            results = Results(program.run(experiment, accepted=(0, 1)), options.allow_absent, allow_failed=True)
+            replace_section(options.pages / COMPARE_PAGE, name, compared_section(results, whole=True))
+            if name == COMPARED[0][0]:
+                replace_section(options.pages / "README.md", "compare", compared_section(results, whole=False))
     if is_wanted("ablations"):
         all_results = {name: results_of(f"configs/ablation/{name}.json") for name in read_answers()}
         replace_section(options.pages / ABLATIONS_PAGE, "ablations", answers_section(all_results))

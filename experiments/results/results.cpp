@@ -4,8 +4,10 @@
 
 #include "delaunay/base/check.h"
 #include "experiments/results/answers.h"
+#include "experiments/results/comparison.h"
 #include "experiments/results/plot.h"
 #include "experiments/results/table.h"
+#include "experiments/results/table_files.h"
 #include "experiments/runs/experiment_config.h"
 #include "experiments/runs/record_file.h"
 #include "experiments/system/files.h"
@@ -13,6 +15,16 @@
 namespace deliso {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+void make_target(const fs::path& target) {
+  std::error_code error;
+  fs::create_directories(target, error);
+  if (error) throw InputError("cannot make the folder " + target.string() + ": " + error.message());
+}
+
+}  // namespace
 
 Experiment experiment_of(const std::vector<fs::path>& folders) {
   const fs::path first = folders.front() / "experiment.json";
@@ -57,16 +69,28 @@ PrintedTable write_tables(const Experiment& experiment, const std::vector<fs::pa
   const Table table = make_table(experiment, records);
   PrintedTable printed{table_markdown(experiment, table), {}};
   const AnswerText answer = answers ? answer_text(experiment, table) : AnswerText();
-  std::error_code error;
-  fs::create_directories(target, error);
-  if (error) throw InputError("cannot make the folder " + target.string() + ": " + error.message());
+  make_target(target);
   write_text(printed.markdown, target / "table.md");
   write_text(table_csv(experiment, table), target / "table.csv");
   write_text(json_text(table_json(experiment, table)), target / "table.json");
+  write_text(table_latex(experiment, table), target / "table.tex");
+  write_text(table_script(experiment), target / "table.py");
   for (const PlotFile& plot : draw_plots(experiment, table, records)) write_text(plot.svg, target / plot.name);
   printed.markdown += answer.markdown;
   printed.untrue = answer.untrue;
   return printed;
+}
+
+std::string write_comparison(const Experiment& experiment, const std::vector<fs::path>& folders, const fs::path& target,
+                             const std::string& by) {
+  const Comparison comparison = compare_programs(experiment, folders, by);
+  make_target(target);
+  std::string markdown = comparison_markdown(experiment, comparison);
+  write_text(markdown, target / "comparison.md");
+  write_text(comparison_csv(experiment, comparison), target / "comparison.csv");
+  write_text(json_text(comparison_json(experiment, comparison)), target / "comparison.json");
+  write_text(comparison_latex(experiment, comparison), target / "comparison.tex");
+  return markdown;
 }
 
 }  // namespace deliso

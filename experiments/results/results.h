@@ -23,10 +23,16 @@ struct PrintedTable {
   std::vector<std::string> untrue;
 };
 
-// Merges the records of the folders, writes table.md, table.csv, table.json and the plots (SVG) into `target` and
-// returns the Markdown. Adds remarks about the merging to `notes`. With `answers`, the experiment's answers follow the
-// Markdown; the files do not have them. Throws InputError where there are none.
+// Merges the records of the folders, writes table.md, table.csv, table.json, table.tex (LaTeX), table.py (matplotlib)
+// and the plots (SVG) into `target` and returns the Markdown. Adds remarks about the merging to `notes`. With
+// `answers`, the experiment's answers follow the Markdown; the files do not have them. Throws InputError where there
+// are none.
 PrintedTable write_tables(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
                           const std::filesystem::path& target, bool answers, std::vector<std::string>& notes);
+
+// Compares the programs that made the records of the folders, writes comparison.md, .csv, .json and .tex into `target`
+// and returns the Markdown. Throws InputError like compare_programs (comparison.h).
+std::string write_comparison(const Experiment& experiment, const std::vector<std::filesystem::path>& folders,
+                             const std::filesystem::path& target, const std::string& by);
 
 }  // namespace deliso

@@ -114,6 +114,7 @@ ChildResult run_child(const std::filesystem::path& program, const std::vector<st
   const pid_t child = fork();
   if (child == 0) become(program, arguments, out.writer(), err.writer());
   if (child < 0) throw InputError(program.string() + " cannot be started: " + std::strerror(errno));
+  setpgid(child, child);  // here, too: it may have to be ended before it came to that
   out.close_writer();
   err.close_writer();
   ChildResult result;

@@ -117,10 +117,24 @@ TEST(Pages, GeneratedSectionsNameTheirCommit) {
       EXPECT_TRUE(!is_made || std::regex_search(text, kCommit)) << page << ", " << name;
     }
   }
-  const std::set<std::string> expected = {"parameters",  "table1",        "table2",          "table3",
-                                          "table4",      "fidelity",      "ablations",       "error_against_size",
-                                          "two_threads", "seven_volumes", "noisy_isovalues", "time_by_stage",
-                                          "verification"};
+  const std::set<std::string> expected = {"parameters",
+                                          "table1",
+                                          "table2",
+                                          "table3",
+                                          "table4",
+                                          "fidelity",
+                                          "ablations",
+                                          "error_against_size",
+                                          "two_threads",
+                                          "seven_volumes",
+                                          "noisy_isovalues",
+                                          "time_by_stage",
+                                          "verification",
+                                          "compare",
+                                          "compare_fields_vertices",
+                                          "compare_fields_error",
+                                          "compare_volumes_vertices",
+                                          "compare_volumes_error"};
   EXPECT_EQ(names, expected);
 }
 
