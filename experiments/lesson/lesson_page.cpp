@@ -7,9 +7,14 @@
 #include "delaunay/base/check.h"
 #include "experiments/config/json.h"
 #include "experiments/lesson/lesson_modules.h"
+#include "experiments/lesson/packed_text.h"
 
 namespace deliso {
 namespace {
+
+// Of the data of a page: what a browser unpacks and reads in a moment.
+constexpr std::size_t kMostUnpacked = 8'000'000;
+constexpr int kMostAttempts = 4;
 
 // All modules whose names end like this, one after the other.
 std::string modules_of_kind(std::string_view ending) {
@@ -35,13 +40,6 @@ void put(std::string& page, std::string_view mark, const std::string& text) {
   page.replace(at, mark.size(), text);
 }
 
-// JSON within HTML: "</" would end the element that holds it.
-std::string json_for_html(const Json& json) {
-  std::string text = json.dump();
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) text.insert(at + 1, "\\");
-  return text;
-}
-
 // Titles come from the program, but may name files.
 std::string escaped_for_html(const std::string& text) {
   std::string escaped;
@@ -55,6 +53,17 @@ std::string escaped_for_html(const std::string& text) {
     }
   }
   return escaped;
+}
+
+// All that the page knows, in about so many bytes. The main run may take most of them; the others get what it leaves.
+std::string data_text(Json data, const std::vector<LessonRun>& runs, std::size_t most_bytes) {
+  std::size_t room = most_bytes - std::min(most_bytes, data.dump().size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t share = i + 1 < runs.size() ? room * 3 / 5 : room;
+    data["runs"].push_back(lesson_data(runs[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, share));
+    room -= std::min(room, data["runs"].back().dump().size());
+  }
+  return data.dump();
 }
 
 }  // namespace
@@ -75,15 +84,18 @@ std::string lesson_page(const LessonOptions& options, std::size_t most_bytes) {
   }
   if (!options.figure.empty()) data["figure"] = options.figure;
   const std::string scripts = modules_of_kind(".js");
-  std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size() + data.dump().size());
-  const std::size_t count = options.runs == nullptr ? 0 : options.runs->size();
-  // The main run may take most of the page; the others get what it leaves.
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t share = i + 1 < count ? room * 3 / 5 : room;
-    data["runs"].push_back(lesson_data((*options.runs)[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, share));
-    room -= std::min(room, data["runs"].back().dump().size());
+  const std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size());
+  // How far the data can be packed is known when they are.
+  std::string text, packed;
+  std::size_t unpacked = kMostUnpacked;
+  for (int attempt = 0; attempt < kMostAttempts && (attempt == 0 || packed.size() > room); ++attempt) {
+    text = data_text(data, options.runs == nullptr ? std::vector<LessonRun>() : *options.runs, unpacked);
+    packed = packed_text(text);
+    unpacked = static_cast<std::size_t>(0.95 * static_cast<double>(text.size()) * static_cast<double>(room) /
+                                        static_cast<double>(packed.size()));
   }
-  put(page, "@DATA@", json_for_html(data));
+  put(page, "@LENGTH@", std::to_string(text.size()));
+  put(page, "@DATA@", packed);
   put(page, "@SCRIPTS@", scripts);
   return page;
 }

@@ -91,6 +91,10 @@ Lesson.cards = (() => {
 
   // The kinds of this run with their marks; how many there are is part of what predict mode asks for.
   const legend = (line, chapter, hidesCounts) => {
+    // It stays as it is from step to step.
+    const shown = {chapter, steps: chapter.steps(), hidesCounts, dark: Lesson.theme.isDark()};
+    if (line.shown && Object.keys(shown).every((key) => shown[key] === line.shown[key])) return;
+    line.shown = shown;
     const counts = new Map();
     for (const {kind} of chapter.steps()) counts.set(kind, (counts.get(kind) ?? 0) + 1);
     const items = Object.entries(chapter.kinds)

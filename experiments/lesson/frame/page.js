@@ -52,7 +52,7 @@ Lesson.Page = class {
             "header", {}, element("strong", {}, Lesson.data.title), this.tabs,
             button("SVG", "save the picture as SVG", "svg"), button("◐", "dark or light", "theme"),
             button("?", "keys", "help")),
-        this.live, this.stepped, this.plain, this.help);
+        this.live, this.stepped, this.plain, this.help, Lesson.glossary.tip);
   }
 
   buildHelp() {
@@ -78,7 +78,15 @@ Lesson.Page = class {
         this.draw();
     } else if (chapter.show) {
       chapter.show(rest);
+      this.explain(this.plain);
     }
+  }
+
+  // Words of the glossary at their first use: in what is shown of the chapter.
+  explain(...roots) {
+    Lesson.glossary.hide();
+    const seen = new Set();
+    for (const root of roots) Lesson.glossary.mark(root, seen, this.chapter.otherWords);
   }
 
   open(chapter) {
@@ -94,6 +102,7 @@ Lesson.Page = class {
     document.querySelector("[data-command=svg]").hidden = Boolean(chapter.page);
     if (chapter.page) {
       this.plain.replaceChildren(chapter.page());
+      this.explain(this.plain);
       return;
     }
     if (!this.players.has(chapter)) {
@@ -129,6 +138,7 @@ Lesson.Page = class {
     Lesson.cards.layers(this.cards.layers, chapter.layers, layers, (layer) => this.player.toggleLayer(layer));
     Lesson.cards.legend(this.legend, chapter, predict.isOn);
     this.timeline.draw(chapter.steps(), chapter.kinds, step, chapter.sentence(step), predict.isOn);
+    this.explain(this.cards.now, this.cards.next, this.cards.why);
     const coming = hides ? null : chapter.next(step);
     this.live.textContent = chapter.sentence(step) + (coming ? ` Next: ${coming.sentence}` : "");
   }

@@ -93,10 +93,15 @@ Lesson.markStrokes = (shape, x, y, size) => {
 // Draws a scene with a painter: one with path(), circle() and text(). Layers that are off are left out. Returns the
 // boxes of the labels.
 Lesson.paint = (scene, view, painter, {layers, dark, fontSize = 13}) => {
+  const styles = new Map();
+  const styleOf = (role) => {
+    if (!styles.has(role)) styles.set(role, Lesson.theme.style(role, dark));
+    return styles.get(role);
+  };
   const isShown = (item) => item.layer === 0 || !layers || layers.has(item.layer);
   for (const item of scene.items) {
     if (!isShown(item)) continue;
-    const style = Lesson.theme.style(item.role, dark);
+    const style = styleOf(item.role);
     if (item.kind === "path") {
       painter.path(item.points.map((p) => view.toScreen(p)), item.closed, style);
     } else if (item.kind === "circle") {

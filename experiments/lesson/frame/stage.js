@@ -20,7 +20,7 @@ Lesson.Stage = class {
 
   scene() {
     const {chapter, step} = this.player;
-    return chapter.scene(step, {preview: !this.player.hidesNext()});
+    return chapter.scene(step, {preview: !this.player.hidesNext(), layers: this.player.layers});
   }
 
   draw() {

@@ -4,7 +4,8 @@ window.addEventListener("error", (event) => {
   root.prepend(Lesson.element("p", {class: "failure", role: "alert"}, `This page has a bug: ${event.message}`));
 });
 
-Lesson.data = JSON.parse(document.getElementById("lesson-data").textContent);
+const packed = document.getElementById("lesson-data");
+Lesson.data = Lesson.unpack(packed.textContent, Number(packed.dataset.length));
 Lesson.theme.apply();
 for (const prepare of Lesson.preparations ?? []) prepare();
 if (window.location.hash === "#selftest")

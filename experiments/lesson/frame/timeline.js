@@ -52,7 +52,12 @@ Lesson.Timeline = class {
     scene.line([[12, middle], [width - 12, middle]], "grid");
     // A long run has more ticks than pixels to tell them apart by, so marks shrink, but not out of sight.
     const size = Math.max(2.5, Math.min(7, (width - 24) / steps.length / 1.6));
+    const drawn = new Set();
     steps.forEach((event, i) => {
+      // Of equal ticks at one place the first is enough.
+      const place = `${Math.round(xOf(i))} ${hidesFuture && i > step ? "" : event.kind}`;
+      if (drawn.has(place)) return;
+      drawn.add(place);
       const isHidden = hidesFuture && i > step;
       const kind = kinds[event.kind];
       scene.mark(

@@ -29,8 +29,9 @@
   test("a state is a triangulation", () => {
     const run = main();
     if (!run) return;
-    for (let n = 0; n < run.meshAt; n += 7) {
-      const {replay} = {replay: run.at(n)};
+    // Enough states of long runs, too.
+    for (let n = 0; n < run.meshAt; n += Math.max(7, Math.ceil(run.meshAt / 20))) {
+      const replay = run.at(n);
       for (const [key, tets] of replay.sides)
         check(tets.length === 2, `event ${n}: facet ${key} has ${tets.length} sides`);
       const pairs = [...replay.tets.values()];
@@ -52,7 +53,7 @@
     if (!run || !run.volume.samples.length) return;
     const largest = run.volume.samples.reduce((most, f) => Math.max(most, Math.abs(f)), 0);
     const picture = new Lesson.SpacePicture(run, run.camera);
-    for (let n = 0; n < run.meshAt; n += 11) {
+    for (let n = 0; n < run.meshAt; n += Math.max(11, Math.ceil(run.meshAt / 20))) {
       const replay = run.at(n);
       const restricted = new Set(replay.restricted().map(Lesson.Replay.keyOf));
       for (const key of replay.hits.keys()) {

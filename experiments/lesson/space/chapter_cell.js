@@ -53,6 +53,8 @@ Lesson.CellChapter = class {
     this.words.textContent = this.sentence();
   }
 
+  redraw() { this.draw(); }
+
   // The value of f00 at which the arcs change partners, others as they are.
   turning() {
     const [, f10, f01, f11] = this.values;

@@ -3,16 +3,16 @@
 Lesson.OverviewChapter = class {
   constructor(run) { Object.assign(this, {run, name: "overview", title: "0 Overview"}); }
 
-  // The events whose states are shown.
+  // The events whose states are shown; the second is searched for.
   frames() {
     const {run} = this;
-    const right = run.homeomorphicAt();
-    const end = run.events.length - 1;
     return [
-      [0, "InitTriangulation"], [Math.max(right, 0), right < 0 ? "Recover" : "Recover: χ is right"],
-      [run.meshAt, "Recover has ended"], [end, "Refine has ended"]
-    ].filter(([event]) => event >= 0);
+      [() => 0, "InitTriangulation"], [() => Math.max(run.homeomorphicAt(), 0), "Recover: χ is right"],
+      [() => run.meshAt, "Recover has ended"], [() => run.events.length - 1, "Refine has ended"]
+    ].filter((_, i) => i !== 2 || run.meshAt >= 0);
   }
+
+  redraw() { this.drawn?.forEach(([event, canvas]) => this.draw(event, canvas)); }
 
   whatItIs(event) {
     const {run} = this;
@@ -23,7 +23,7 @@ Lesson.OverviewChapter = class {
   }
 
   draw(event, canvas) {
-    const picture = new Lesson.SpacePicture(this.run, this.run.camera);
+    const picture = new Lesson.SpacePicture(this.run, this.run.camera, new Set([1, 2, 5]));
     picture.context(null);
     const replay = this.run.at(event);
     if (replay.mesh)
@@ -49,27 +49,44 @@ Lesson.OverviewChapter = class {
           answer: () => first.chi,
           because: (chi) => `χ = ${chi} in ${Lesson.countText(first.components, "component")}.`,
         }));
-    const canvases = [];
-    for (const [event, title] of this.frames()) {
-      const its = this.whatItIs(event);
-      const canvas = element("canvas", {
-        class: "frame",
-        role: "img",
-        "aria-label": title,
-        style: "display: block; width: min(100%, 560px); height: 320px"
-      });
-      canvases.push([event, canvas]);
-      const stage = event < this.run.meshAt ? "recover" : "refine";
-      const step = event < this.run.meshAt ? event : event - this.run.meshAt;
-      box.append(
-          element("h2", {}, title), canvas,
-          element(
-              "p", {},
-              `${its.points} points, ${its.triangles} triangles, χ = ${its.chi}, ` +
-                  `${Lesson.countText(its.components, "component")}. `,
-              element("a", {href: `#${stage}/${step}`}, "Step through it")));
-    }
-    requestAnimationFrame(() => canvases.forEach(([event, canvas]) => this.draw(event, canvas)));
+    this.drawn = [];
+    const places = this.frames().map(([event, title]) => [event, title, element("section", {})]);
+    box.append(...places.map(([, , place]) => place));
+    const fill = ([event, title, place]) => this.fill(event(), title, place);
+    requestAnimationFrame(() => places.filter((_, i) => i !== 1).forEach(fill));
+    places[1][2].append(element("h2", {}, places[1][1]), element("p", {class: "soft"}, "looking for it …"));
+    // A long run is searched piece by piece, so that the page stays awake.
+    const search = () => {
+      if (!this.run.searchHomeomorphic(performance.now() + 30)) return setTimeout(search, 0);
+      if (this.run.firstRight < 0)
+        return places[1][2].replaceChildren(
+            element("h2", {}, "Recover does not make χ right"),
+            element("p", {}, "Not in this run: repair has to act (chapter 10)."));
+      return fill(places[1]);
+    };
+    setTimeout(search, 0);
     return box;
+  }
+
+  fill(event, title, place) {
+    const {element} = Lesson;
+    const its = this.whatItIs(event);
+    const words = `${its.points} points, ${its.triangles} triangles, χ = ${its.chi}, ${
+        Lesson.countText(its.components, "component")}. `;
+    const canvas = element("canvas", {
+      class: "frame",
+      role: "img",
+      "aria-label": `${title}: ${words}`,
+      style: "display: block; width: min(100%, 560px); height: 320px"
+    });
+    const isStage1 = event < this.run.meshAt;
+    const address = isStage1 ? `#recover/${event}` : `#refine/${event - this.run.meshAt}`;
+    place.replaceChildren(
+        element("h2", {}, title), canvas,
+        element(
+            "p", {}, words,
+            element("a", {href: address, "aria-label": `${title}: step through it`}, "Step through it")));
+    this.drawn.push([event, canvas]);
+    this.draw(event, canvas);
   }
 };

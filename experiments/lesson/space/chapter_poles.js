@@ -10,20 +10,36 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
       mesh: {title: "BuildTriMesh", mark: "pentagon", role: "plain"},
     };
     this.last = Math.max(0, run.meshAt - 1);
-    this.list.push({kind: "start", event: this.last});
+    this.found = new Map();  // q -> its poles
+  }
+
+  // Made when it is asked for: the whole of stage 1 comes before it.
+  get list() { return (this.made ??= this.makeList()); }
+
+  set list(_) {}
+
+  makeList() {
+    const {run} = this;
+    const list = [{kind: "start", event: this.last}];
     const replay = run.at(this.last);
-    for (let q = 0; q < replay.points.length && this.list.length < 60; ++q) {
+    for (let q = 0; q < replay.points.length && list.length < 60; ++q) {
       const poles = this.poles(replay, q);
       if (!poles.above && !poles.below) continue;
       const counts = !poles.below || (poles.above && poles.above.distance <= poles.below.distance) ? "above" : "below";
-      this.list.push({kind: counts, event: this.last, q});
+      list.push({kind: counts, event: this.last, q});
     }
-    if (run.meshAt >= 0) this.list.push({kind: "mesh", event: run.meshAt});
+    if (run.meshAt >= 0) list.push({kind: "mesh", event: run.meshAt});
+    return list;
   }
 
   // The Voronoi vertices of q: its tetrahedra's circumcenters. At the hull the cell is not bounded, and the box limits
   // it.
   poles(replay, q) {
+    if (!this.found.has(q)) this.found.set(q, this.findPoles(replay, q));
+    return this.found.get(q);
+  }
+
+  findPoles(replay, q) {
     const found = {above: null, below: null};
     for (const {v, above} of replay.tets.values()) {
       if (!v.includes(q) || v.some((corner) => replay.isVirtual(corner))) continue;
@@ -42,11 +58,10 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     for (const f of replay.restricted()) picture.face(f.map((v) => replay.points[v]), "meshFace", 5);
     picture.flush();
     if (q === undefined) return picture.vertices(replay.points, -1);
-    for (const key of [...replay.sides.keys()].sort()) {
-      const v = key.split(",").map(Number);
-      if (v.includes(q) && !v.some((corner) => replay.isVirtual(corner))) {
-        picture.line(picture.dualEdge(replay, key), "voronoi", 9);
-      }
+    const isAtQ = new RegExp(`(^|,)${q}(,|$)`);
+    for (const key of [...replay.sides.keys()].filter((facet) => isAtQ.test(facet)).sort()) {
+      if (key.split(",").some((corner) => replay.isVirtual(Number(corner)))) continue;
+      picture.line(picture.dualEdge(replay, key), "voronoi", 9);
     }
     const poles = this.poles(replay, q);
     for (const side of ["above", "below"]) {

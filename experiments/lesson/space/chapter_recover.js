@@ -21,7 +21,27 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     picture.triangulation(replay);
     const next = this.nextEvent(step);
     if (preview && next) this.drawAction(picture, replay, next);
+    this.drawLink(picture, replay, step, preview);
     return picture.vertices(replay.points, this.event(step).v);
+  }
+
+  // The link of the umbrella in question; else that of the newest vertex.
+  linkOf(replay, step, preview) {
+    const next = preview ? this.nextEvent(step) : null;
+    if (next?.why === "extract_manifold" && next.disk.length)
+      return {q: next.q, pieces: Lesson.link.of(next.disk, next.q)};
+    const {v} = this.event(step);
+    const facets = v === undefined ? [] : replay.restricted().filter((f) => f.includes(v));
+    return facets.length ? {q: v, pieces: Lesson.link.of(facets, v)} : null;
+  }
+
+  drawLink(picture, replay, step, preview) {
+    const link = this.linkOf(replay, step, preview);
+    if (!link) return;
+    const [left, bottom, right] = this.run.camera.bounds();
+    const size = 0.055 * (right - left);
+    Lesson.link.draw(picture.scene, link.pieces, [left, bottom], size);
+    picture.scene.label([left, bottom + 3 * size], `link of ${link.q}`, "label", 7);
   }
 
   // What is about to happen: the element in question, the conflict region, and the star over its rim.
@@ -57,13 +77,14 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
 
   exercises() {
     const {run} = this;
-    const steps = run.homeomorphicAt();
-    const insertions = steps < 0 ? 0 : run.events.slice(0, steps + 1).filter((event) => event.e === "insert").length;
-    if (steps < 0) return [];
+    const insertions = () =>
+        run.events.slice(0, run.homeomorphicAt() + 1).filter((event) => event.e === "insert").length;
     return [{
-      question: "After how many insertions do χ and the number of components become those of the surface?",
-      answer: () => insertions,
-      because: () => `address #recover/${steps}; everything that Recover does after it serves umbrellas and shape.`,
+      question: "After how many insertions do χ and the number of components become those of the surface? (Never: 0.)",
+      answer: insertions,
+      because: () => run.homeomorphicAt() < 0 ?
+          "never in stage 1; repair has to act, chapter 10." :
+          `address #recover/${run.homeomorphicAt()}; everything that Recover does after it serves umbrellas and shape.`,
     }];
   }
 

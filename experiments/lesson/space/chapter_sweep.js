@@ -2,7 +2,9 @@
 // changes at few heights only, in four ways, and the program counts the pieces below it.
 Lesson.SweepChapter = class {
   constructor(run) {
-    Object.assign(this, {run, name: "sweep", title: "9 Sweep", shownLayers: [1, 2, 3, 4]});
+    Object.assign(
+        this,
+        {run, name: "sweep", title: "9 Sweep", otherWords: ["height", "conflict region"], shownLayers: [1, 2, 3, 4]});
     this.layers = {1: "cell", 2: "surface below", 3: "slice", 4: "slice from above", 5: "surface above"};
     this.kinds = Lesson.SweepChapter.kinds;
     this.code = Lesson.SweepChapter.code;

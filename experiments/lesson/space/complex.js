@@ -1,34 +1,48 @@
 // What a set of triangles is: components, Euler characteristic, boundary. A vertex or an edge where several sheets meet
 // counts once for each sheet, as BuildTriMesh separates them.
 Lesson.complexOf = (() => {
-  const edgeKey = (a, b) => (a < b ? `${a},${b}` : `${b},${a}`);
-
-  // Corners are numbered 3 t + i. Union by the smaller number.
+  // Corners are numbered 3 t + i.
   const unionFind = (count) => {
     const parent = Int32Array.from({length: count}, (_, i) => i);
     const root = (i) => {
       while (parent[i] !== i) i = parent[i] = parent[parent[i]];
       return i;
     };
-    return {root, join: (a, b) => (parent[root(b)] = root(a))};
+    const roots = () => {
+      let found = 0;
+      for (let i = 0; i < count; ++i) found += parent[i] === i ? 1 : 0;
+      return found;
+    };
+    return {join: (a, b) => (parent[root(b)] = root(a)), roots};
+  };
+
+  // Edges as numbers: triangles by edge, in the order of the triangles.
+  const trianglesAtEdges = (triangles) => {
+    const size = triangles.reduce((most, t) => Math.max(most, t[0], t[1], t[2]), 0) + 1;
+    const atEdge = new Map();
+    triangles.forEach((t, index) => {
+      for (let i = 0; i < 3; ++i) {
+        const [a, b] = [t[i], t[i === 2 ? 0 : i + 1]];
+        const key = a < b ? a * size + b : b * size + a;
+        const all = atEdge.get(key);
+        if (all)
+          all.push(index);
+        else
+          atEdge.set(key, [index]);
+      }
+    });
+    return {size, atEdge};
   };
 
   // `pairUp(edge, triangles)` says which triangles at an edge with more than two continue each other: a list of pairs.
   return (triangles, pairUp = (edge, all) => [all]) => {
-    const atEdge = new Map();
-    triangles.forEach((t, index) => {
-      for (let i = 0; i < 3; ++i) {
-        const key = edgeKey(t[(i + 1) % 3], t[(i + 2) % 3]);
-        if (!atEdge.has(key)) atEdge.set(key, []);
-        atEdge.get(key).push(index);
-      }
-    });
+    const {size, atEdge} = trianglesAtEdges(triangles);
     const corners = unionFind(3 * triangles.length);
     const pieces = unionFind(triangles.length);
     let edges = 0;
     let open = 0;
     for (const [key, all] of atEdge) {
-      const ends = key.split(",").map(Number);
+      const ends = [Math.floor(key / size), key % size];
       for (const pair of all.length > 2 ? pairUp(ends, all) : [all]) {
         ++edges;
         if (pair.length < 2) ++open;
@@ -40,18 +54,13 @@ Lesson.complexOf = (() => {
         }
       }
     }
-    const roots = (sets, count) => {
-      const seen = new Set();
-      for (let i = 0; i < count; ++i) seen.add(sets.root(i));
-      return seen.size;
-    };
-    const vertices = roots(corners, 3 * triangles.length);
+    const vertices = corners.roots();
     return {
       vertices,
       edges,
       triangles: triangles.length,
       chi: vertices - edges + triangles.length,
-      components: roots(pieces, triangles.length),
+      components: pieces.roots(),
       open
     };
   };

@@ -15,14 +15,17 @@ Lesson.SpacePicture = (() => {
   };
 
   class SpacePicture {
-    constructor(run, camera) {
-      this.run = run;
-      this.camera = camera;
+    // Of layers that are not shown nothing is drawn; null: all are.
+    constructor(run, camera, layers = null) {
+      Object.assign(this, {run, camera, layers});
       this.faces = [];
       this.scene = new Lesson.Scene(camera.bounds());
     }
 
+    isShown(layer) { return layer === 0 || this.layers === null || this.layers.has(layer); }
+
     face(points, name, layer) {
+      if (!this.isShown(layer)) return;
       const {camera} = this;
       const normal = vectors.cross(vectors.sub(points[1], points[0]), vectors.sub(points[2], points[0]));
       this.faces.push({
@@ -42,9 +45,13 @@ Lesson.SpacePicture = (() => {
       this.faces = [];
     }
 
-    line(points, role, layer) { this.scene.onLayer(layer).line(points.map((p) => this.camera.toPlane(p)), role); }
+    line(points, role, layer) {
+      if (this.isShown(layer)) this.scene.onLayer(layer).line(points.map((p) => this.camera.toPlane(p)), role);
+    }
 
-    mark(p, shape, role, layer, size) { this.scene.onLayer(layer).mark(this.camera.toPlane(p), shape, role, size); }
+    mark(p, shape, role, layer, size) {
+      if (this.isShown(layer)) this.scene.onLayer(layer).mark(this.camera.toPlane(p), shape, role, size);
+    }
 
     label(p, text, weight, layer = 0) {
       this.scene.onLayer(layer).label(this.camera.toPlane(p), text, "label", weight);
@@ -70,8 +77,10 @@ Lesson.SpacePicture = (() => {
       const {volume, box: [low, high]} = this.run;
       const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high : low)[axis]);
       this.edgesOfBox(corner, "frame", 1);
-      for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
-      this.flush();
+      if (this.isShown(2)) {
+        for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
+        this.flush();
+      }
       if (sliceAt !== null) {
         for (const line of Lesson.slice.curves(volume, sliceAt)) this.line(line, "slice", 1);
       }
@@ -125,10 +134,14 @@ Lesson.SpacePicture = (() => {
     }
 
     triangulation(replay) {
-      for (const [a, b] of SpacePicture.edgesOf(replay)) this.line([replay.points[a], replay.points[b]], "delaunay", 4);
+      if (this.isShown(4)) {
+        for (const [a, b] of SpacePicture.edgesOf(replay))
+          this.line([replay.points[a], replay.points[b]], "delaunay", 4);
+      }
       const facets = replay.restricted();
       for (const f of facets) this.face(f.map((v) => replay.points[v]), "meshFace", 5);
       this.flush();
+      if (!this.isShown(3) && !this.isShown(6)) return;
       for (const f of facets) {
         const key = Lesson.Replay.keyOf(f);
         this.line(this.dualEdge(replay, key), "voronoi", 3);

@@ -16,11 +16,12 @@ Lesson.Replay = (() => {
       this.events = events;
       this.points = [];
       this.virtual = new Set([-1]);
-      this.tets = new Map();   // key -> {v, above}
-      this.sides = new Map();  // key of a facet -> the keys of the tetrahedra at it
-      this.hits = new Map();   // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
-      this.mesh = null;        // of stage 2: {points, triangles: key -> corners, poles}
-      this.undo = [];          // of each event that is applied
+      this.tets = new Map();     // key -> {v, above}
+      this.sides = new Map();    // key of a facet -> the keys of the tetrahedra at it
+      this.between = new Set();  // the keys of facets whose two tetrahedra differ in sign
+      this.hits = new Map();     // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
+      this.mesh = null;          // of stage 2: {points, triangles: key -> corners, poles}
+      this.undo = [];            // of each event that is applied
     }
 
     get position() { return this.undo.length - 1; }
@@ -59,7 +60,7 @@ Lesson.Replay = (() => {
       for (const facet of event.facets) this.setHits(facet);
       return () => {
         this.points = [];
-        for (const map of [this.tets, this.sides, this.hits]) map.clear();
+        for (const map of [this.tets, this.sides, this.between, this.hits]) map.clear();
       };
     }
 
@@ -120,10 +121,12 @@ Lesson.Replay = (() => {
       for (const f of facetsOf(v)) {
         const side = keyOf(f);
         const keys = this.sides.get(side);
-        if (keys)
-          keys.push(key);
-        else
+        if (!keys) {
           this.sides.set(side, [key]);
+        } else {
+          keys.push(key);
+          if (this.tets.get(keys[0]).above !== above) this.between.add(side);
+        }
       }
       return key;
     }
@@ -135,6 +138,7 @@ Lesson.Replay = (() => {
       for (const f of facetsOf(tet.v)) {
         const side = keyOf(f);
         const left = this.sides.get(side).filter((other) => other !== key);
+        this.between.delete(side);
         if (left.length)
           this.sides.set(side, left);
         else
@@ -167,8 +171,7 @@ Lesson.Replay = (() => {
     // The facets whose two tetrahedra differ in sign, those with virtual vertices left out; sorted.
     restricted() {
       const found = [];
-      for (const [key, tets] of this.sides) {
-        if (this.tets.get(tets[0]).above === this.tets.get(tets[1]).above) continue;
+      for (const key of this.between) {
         const v = key.split(",").map(Number);
         if (!v.some((corner) => this.isVirtual(corner))) found.push(v);
       }

@@ -23,8 +23,8 @@ Lesson.SpaceChapter = class {
   // The event that comes after a step, or null.
   nextEvent(step) { return step + 1 < this.list.length ? this.event(step + 1) : null; }
 
-  scene(step, {preview}) {
-    const picture = new Lesson.SpacePicture(this.run, this.run.camera);
+  scene(step, {preview, layers}) {
+    const picture = new Lesson.SpacePicture(this.run, this.run.camera, layers);
     picture.context(this.sliceAt);
     this.draw(picture, step, preview);
     return picture.scene;

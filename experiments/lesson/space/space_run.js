@@ -31,13 +31,26 @@ Lesson.SpaceRun = class {
     return sum;
   }
 
-  // The first event of stage 1 after which the Euler characteristic and the number of components are right.
+  // The first event of stage 1 after which the Euler characteristic and the number of components are right; -1: none.
   homeomorphicAt() {
+    while (!this.searchHomeomorphic(Infinity)) continue;
+    return this.firstRight;
+  }
+
+  // Looks for it until some time (of performance.now()), and says whether it is known now.
+  searchHomeomorphic(until) {
     const {chi, components} = this.exact();
-    for (let i = 0; i < this.meshAt; ++i) {
-      const found = this.complex(i);
-      if (found.chi === chi && found.components === components && !found.open) return i;
+    this.searched ??= 0;
+    while (this.firstRight === undefined) {
+      if (performance.now() >= until) return false;
+      const i = this.searched++;
+      if (i >= this.meshAt) {
+        this.firstRight = -1;
+      } else if (this.events[i].e === "initial" || this.events[i].e === "insert") {
+        const found = this.complex(i);
+        if (found.chi === chi && found.components === components && !found.open) this.firstRight = i;
+      }
     }
-    return -1;
+    return true;
   }
 };

@@ -122,7 +122,12 @@ Lesson.spaceStory = (() => {
         case "multi_intersect":
           return {title, rows: [row("hits of the dual edge", e.sigma[3].length, ">", 1)]};
         case "extract_manifold":
-          return {title, rows: [], remark: "Its facets do not form one cycle around it."};
+          return {
+            title,
+            rows: [],
+            remark: "A disk has one cycle for its link (at the box, one path). " +
+                `Here: ${Lesson.link.describe(Lesson.link.of(e.disk, e.q))}.`
+          };
         case "approximate_geometry":
           return {
             title,
