@@ -171,16 +171,11 @@ void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
   const std::vector<IndexRanges> boxes =
       differences_.find(mesh_, kept_.done(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
-  SignSearch search(*round_, surface_.topology, cell_levels_, boxes);
-  for (std::uint32_t c = 0; c < boxes.size(); ++c) {
-    if (kept_.done()[c] || boxes[c].all.empty()) continue;
-    const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
-      mesh_ = std::move(mesh);
-      kept_.keep(mesh_, round_->restricted().signs());
-      return static_cast<bool>(kept_.done()[c]);
-    };
-    search.mend(c, mesh_, improved, controls);
-  }
+  const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
+    mesh_ = std::move(mesh);
+    kept_.keep(mesh_, round_->restricted().signs());
+  };
+  SignSearch(*round_, surface_.topology, cell_levels_, boxes).mend(mesh_, kept_.done(), improved, controls);
 }
 
 }  // namespace deliso
