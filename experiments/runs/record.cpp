@@ -70,6 +70,7 @@ Json shape_json(const MeshingResult& result) {
 Json repair_json(const RepairStats& repair) {
   return Json{{"seconds", repair.seconds},
               {"rounds", repair.rounds},
+              {"cells_refined", repair.cells_refined},
               {"components_before", repair.components_before},
               {"components_mixed", repair.components_mixed},
               {"components_stray", repair.components_stray},

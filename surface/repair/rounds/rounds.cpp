@@ -65,6 +65,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
 // Makes a round in which these cells are refined.
 void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   cell_levels_.refine(std::move(cells));
+  stats_.cells_refined = static_cast<std::int64_t>(cell_levels_.levels().size());
   resample();
   release_free_memory();
   take_signs(controls);
