@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostSeconds = 120;
+constexpr double kMostPictureSeconds = 120;
 
 fs::path find_browser() {
   const char* const chosen = std::getenv("DELISO_BROWSER");
@@ -71,7 +71,7 @@ std::string lesson_figure(LessonOptions options, const std::string& address) {
       run_child(browser,
                 {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                  "--user-data-dir=" + (folder.path() / "profile").string(), "--dump-dom", "file://" + page.string()},
-                kMostSeconds);
+                kMostPictureSeconds);
   if (const auto svg = text_of_element(result.out, "figure")) return *svg;
   if (const auto refusal = text_of_element(result.out, "figure-refusal")) throw InputError("--figure: " + *refusal);
   throw InputError("--figure: " + browser.string() + " has drawn nothing (exit code " +

@@ -25,6 +25,7 @@ auto timed(StageStats& stage, Body body) {
 
 struct RepairStats : StageStats {
   std::int64_t rounds = 0;             // rounds of resampling
+  std::int64_t cells_refined = 0;      // voxel cells that are sampled by a lattice
   std::int64_t components_before = 0;  // exact components that disagreed with the mesh of stage 1
   // Accepted at the end although their piece has vertices of another component.
   std::int64_t components_mixed = 0;

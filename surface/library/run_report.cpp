@@ -72,6 +72,7 @@ JsonTree shape_json(const MeshingResult& result) {
 JsonTree repair_json(const RepairStats& repair) {
   return JsonTree{{"seconds", repair.seconds},
                   {"rounds", repair.rounds},
+                  {"cells_refined", repair.cells_refined},
                   {"components_before", repair.components_before},
                   {"components_mixed", repair.components_mixed},
                   {"components_stray", repair.components_stray},

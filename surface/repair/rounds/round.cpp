@@ -113,8 +113,8 @@ void RepairRound::take_signs_before() {
   settle_signs();
 }
 
-void RepairRound::flip_sign(TetId t) {
-  restricted_->flip_sign(t);
+void RepairRound::flip_signs(std::span<const TetId> tets) {
+  for (const TetId t : tets) restricted_->flip_sign(t);
   settle_signs();
 }
 

@@ -50,8 +50,9 @@ class RepairRound {
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Frees data that can be computed again. Called before meshes are assembled, after which a further round is rare.
   void drop_pairing() { pairing_.reset(); }
-  // Flips a sign, then makes the same two corrections.
-  void flip_sign(TetId t);
+  // Flips signs, then makes the same two corrections.
+  void flip_signs(std::span<const TetId> tets);
+  void flip_sign(TetId t) { flip_signs({&t, 1}); }
   // By how much a flip of the sign of t alone would change the Euler characteristic (euler_change.h).
   [[nodiscard]] std::int64_t euler_change(TetId t) { return deliso::euler_change(*restricted_, t); }
 

@@ -68,6 +68,7 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   Observer* const observer = controls.observer();
   if (observer != nullptr) observer->round_begins({*mesh_, surface_.topology, kept_.done(), cell_levels_}, cells);
   cell_levels_.refine(std::move(cells));
+  stats_.cells_refined = static_cast<std::int64_t>(cell_levels_.levels().size());
   resample();
   release_free_memory();
   take_signs(controls);
@@ -175,16 +176,11 @@ void RepairRounds::try_signs(Controls& controls) {
   if (kept_.is_done() || controls.poll()) return;
   const std::vector<IndexRanges> boxes =
       differences_.find(mesh_, kept_.done(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
-  SignSearch search(*round_, surface_.topology, cell_levels_, boxes);
-  for (std::uint32_t c = 0; c < boxes.size(); ++c) {
-    if (kept_.done()[c] || boxes[c].all.empty()) continue;
-    const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
-      mesh_ = std::move(mesh);
-      kept_.keep(mesh_, round_->restricted().signs());
-      return static_cast<bool>(kept_.done()[c]);
-    };
-    search.mend(c, mesh_, improved, controls);
-  }
+  const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
+    mesh_ = std::move(mesh);
+    kept_.keep(mesh_, round_->restricted().signs());
+  };
+  SignSearch(*round_, surface_.topology, cell_levels_, boxes).mend(mesh_, kept_.done(), improved, controls);
 }
 
 }  // namespace deliso

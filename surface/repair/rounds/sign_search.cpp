@@ -1,8 +1,11 @@
 #include "surface/repair/rounds/sign_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "surface/base/parallel_blocks.h"
@@ -15,8 +18,12 @@ namespace {
 
 // Tetrahedra within this many layers of the boxes are tried.
 constexpr std::int32_t kReach = 3;
-// The largest number of meshes built for one component.
+// How many tetrahedra of a component are tried, at most.
 constexpr int kMostTrials = 16;
+// A component that lacks more than this (Euler characteristic) is left to the next round: trials would not mend it.
+constexpr std::int64_t kMostLacking = 2 * kMostTrials;
+// Cells along the side of a block of cells.
+constexpr std::int32_t kBlock = 16;
 
 Vec3 centre_of(const SignedDelaunay& restricted, TetId t) {
   Vec3 sum;
@@ -42,6 +49,29 @@ bool touches_box(const SignedDelaunay& restricted, TetId t) {
                      [&](VertexId v) { return !restricted.is_virtual(v) && restricted.is_on_box(v); });
 }
 
+// The blocks of cells near which some boxes lie, each with the boxes' owners, ascending.
+using Block = std::array<std::int32_t, 3>;
+using OwnersNearBlocks = std::map<Block, std::vector<std::uint32_t>>;
+
+void add_boxes(const std::vector<IndexBox>& boxes, std::uint32_t owner, const CellLevels& cells,
+               OwnersNearBlocks& owners) {
+  for (const IndexBox& box : boxes) {
+    Block low{}, high{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::max(box[axis].first - kReach, 0) / kBlock;
+      high[axis] = std::min(box[axis].last + kReach, cells.dims()[axis] - 1) / kBlock;
+    }
+    for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+      for (std::int32_t j = low[1]; j <= high[1]; ++j) {
+        for (std::int32_t i = low[0]; i <= high[0]; ++i) {
+          std::vector<std::uint32_t>& here = owners[{i, j, k}];
+          if (here.empty() || here.back() != owner) here.push_back(owner);
+        }
+      }
+    }
+  }
+}
+
 // The size of the difference.
 std::int64_t amount(const ComponentTopology& missing) {
   return std::abs(missing.euler_characteristic) + std::abs(missing.boundary_loops);
@@ -59,59 +89,127 @@ ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t com
   return missing;
 }
 
-// Finds them for all components in one pass, because most of the time is spent on the distances of tetrahedra.
-void SignSearch::find_undecided() {
-  const SignedDelaunay& restricted = round_.restricted();
-  const std::span<const std::uint8_t> constraints = round_.sign_constraints();
-  std::vector<std::pair<std::uint32_t, DistanceFromRanges>> distances;  // from the boxes of each component
+// What each component adds to ComponentMatch::error.
+std::vector<std::int64_t> SignSearch::errors(const MatchedMesh& mesh) const {
+  std::vector<std::int64_t> errors(topology_.components.size(), -1);
+  for (const MeshPiece& piece : mesh.match.pieces) {
+    if (piece.component != kNoComponent) ++errors[piece.component];
+  }
+  for (std::uint32_t c = 0; c < errors.size(); ++c) {
+    const bool is_exact = mesh.match.agreement[c] == Agreement::kExact;
+    errors[c] = is_exact ? 0 : 1 + std::max<std::int64_t>(errors[c], 0) + std::abs(missing(mesh, c).euler_characteristic);
+  }
+  return errors;
+}
+
+// The components that lack little and are not done, each with its undecided tetrahedra. Those of all components are
+// found in one pass, because most of the time is spent on the distances of tetrahedra.
+std::vector<SignSearch::Queue> SignSearch::queues(const MatchedMesh& mesh, const std::vector<bool>& done) const {
+  std::vector<Queue> queues;
+  std::vector<DistanceFromRanges> distances;  // from the boxes of each queue's component
+  OwnersNearBlocks owners;
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
     const std::vector<IndexBox>& likely = boxes_[c].likely;
-    if (!likely.empty()) distances.emplace_back(c, DistanceFromRanges(likely, cells_.dims(), kReach));
+    const std::int64_t lacks = std::abs(missing(mesh, c).euler_characteristic);
+    if (done[c] || likely.empty() || lacks == 0 || lacks > kMostLacking) continue;
+    add_boxes(likely, static_cast<std::uint32_t>(queues.size()), cells_, owners);
+    queues.push_back({c, {}, 0, 0});
+    distances.emplace_back(likely, cells_.dims(), kReach);
   }
+  if (queues.empty()) return queues;
   struct Near {
     TetId tet;
-    std::uint32_t component;
+    std::uint32_t queue;
     std::int32_t layers;
   };
+  const SignedDelaunay& restricted = round_.restricted();
+  const std::span<const std::uint8_t> constraints = round_.sign_constraints();
   const auto append_if_near = [&](std::size_t i, std::vector<Near>& near) {
     const TetId t(i);
     const bool is_decided = constraints[i] == kAbove || constraints[i] == kBelow;
     if (is_decided || !restricted.delaunay().is_live(t) || restricted.delaunay().is_ghost(t)) return;
     const CellIndex cell = cells_.cell_of(centre_of(restricted, t));
-    for (const auto& [component, distance] : distances) {
-      const std::int32_t layers = distance(cell);
-      if (layers <= kReach) near.push_back({t, component, layers});
+    const auto here = owners.find({cell[0] / kBlock, cell[1] / kBlock, cell[2] / kBlock});
+    if (here == owners.end()) return;
+    for (const std::uint32_t queue : here->second) {
+      const std::int32_t layers = distances[queue](cell);
+      if (layers <= kReach) near.push_back({t, queue, layers});
     }
   };
   std::vector<Near> near = collect_in_blocks<Near>(constraints.size(), round_.threads(), append_if_near);
   std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.layers < b.layers; });
-  undecided_.resize(boxes_.size());
-  for (const Near& one : near) undecided_[one.component].push_back(one.tet);
+  for (const Near& one : near) queues[one.queue].tets.push_back(one.tet);
+  return queues;
 }
 
-void SignSearch::mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved,
+void SignSearch::mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>& done, const Improved& improved,
                       Controls& controls) {
-  if (undecided_.empty()) find_undecided();
-  TetSigns signs = round_.restricted().signs();
-  int trials = 0;
-  for (const TetId t : undecided_[component]) {
-    const ComponentTopology lacks = missing(*mesh, component);
-    if (lacks.euler_characteristic == 0 || trials == kMostTrials || controls.poll()) return;
-    if (!is_worth_trying(t, lacks)) continue;
-    ++trials;
-    round_.flip_sign(t);
-    const auto is_better = [&](const MatchedMesh& trial) {
-      return amount(missing(trial, component)) < amount(lacks) && trial.match.error <= mesh->match.error;
-    };
-    std::optional<MatchedMesh> trial = round_.assemble(is_better);
-    if (trial && is_better(*trial)) {
-      mesh = std::make_shared<MatchedMesh>(*std::move(trial));
-      signs = round_.restricted().signs();
-      if (improved(mesh)) return;
-    } else {
+  std::vector<Queue> queues = this->queues(*mesh, done);
+  while (!controls.poll()) {
+    const TetSigns signs = round_.restricted().signs();
+    std::vector<Flip> flips = next_flips(*mesh, done, queues);
+    if (flips.empty()) return;
+    // Those that help are tried once more without the others.
+    while (!flips.empty()) {
+      const std::shared_ptr<MatchedMesh> trial = flipped(flips, *mesh);
+      const std::vector<Flip> helpful = trial ? helpful_of(flips, *mesh, *trial) : std::vector<Flip>();
+      const bool all_help = helpful.size() == flips.size();
+      if (all_help && trial->match.error <= mesh->match.error) {
+        mesh = trial;
+        improved(mesh);
+        break;
+      }
       round_.set_signs(signs);
+      if (all_help) break;
+      flips = helpful;
     }
   }
+}
+
+// The next tetrahedron of each queue that is worth trying.
+std::vector<SignSearch::Flip> SignSearch::next_flips(const MatchedMesh& mesh, const std::vector<bool>& done,
+                                                     std::vector<Queue>& queues) {
+  std::vector<Flip> flips;
+  for (Queue& queue : queues) {
+    const ComponentTopology lacks = missing(mesh, queue.component);
+    if (done[queue.component] || lacks.euler_characteristic == 0 || queue.trials == kMostTrials) continue;
+    while (queue.next < queue.tets.size() && !is_worth_trying(queue.tets[queue.next], lacks)) ++queue.next;
+    if (queue.next == queue.tets.size()) continue;
+    ++queue.trials;
+    flips.push_back({queue.component, queue.tets[queue.next++]});
+  }
+  return flips;
+}
+
+// The mesh with some signs flipped. Nothing if none of these flips helps.
+std::shared_ptr<MatchedMesh> SignSearch::flipped(const std::vector<Flip>& flips, const MatchedMesh& before) {
+  std::vector<TetId> tets;
+  for (const Flip& flip : flips) tets.push_back(flip.tet);
+  round_.flip_signs(tets);
+  std::optional<MatchedMesh> trial =
+      round_.assemble([&](const MatchedMesh& mesh) { return !helpful_of(flips, before, mesh).empty(); });
+  return trial ? std::make_shared<MatchedMesh>(*std::move(trial)) : nullptr;
+}
+
+// The flips whose component comes nearer to its topology, while that and the components at the tetrahedron are together
+// no worse.
+std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
+                                                     const MatchedMesh& trial) const {
+  const SignedDelaunay& restricted = round_.restricted();
+  const std::vector<std::int64_t> errors_before = errors(before), errors_now = errors(trial);
+  std::vector<Flip> helpful;
+  for (const Flip& flip : flips) {
+    if (amount(missing(trial, flip.component)) >= amount(missing(before, flip.component))) continue;
+    std::set<std::uint32_t> met = {flip.component};
+    for (const VertexId v : restricted.delaunay().vertices(flip.tet)) {
+      if (!restricted.is_virtual(v)) met.insert(round_.component_of_vertex()[v.index()]);
+    }
+    met.erase(kNoComponent);
+    std::int64_t change = 0;
+    for (const std::uint32_t c : met) change += errors_now[c] - errors_before[c];
+    if (change <= 0) helpful.push_back(flip);
+  }
+  return helpful;
 }
 
 // Whether a flip changes the Euler characteristic in the right direction, by no more than what is missing. A larger

@@ -27,15 +27,33 @@ class SignSearch {
              const std::vector<IndexRanges>& boxes)
       : round_(round), topology_(topology), cells_(cells), boxes_(boxes) {}
 
-  // Called with a mesh that is better than the one before; the round's signs are those of this mesh. Returns whether it
-  // is good enough.
-  using Improved = std::function<bool(std::shared_ptr<MatchedMesh>)>;
-  // Tries flips near the likely boxes of a component. `mesh` is the mesh of the round's present signs; afterwards the
-  // signs are those of the best mesh.
-  void mend(std::uint32_t component, std::shared_ptr<MatchedMesh> mesh, const Improved& improved, Controls& controls);
+  // Called with a mesh that is better than the one before; the round's signs are those of this mesh.
+  using Improved = std::function<void(std::shared_ptr<MatchedMesh>)>;
+  // Tries flips near the likely boxes of the components that are not done and lack little; one tetrahedron of each of
+  // these components at a time, all with one mesh. `mesh` is the mesh of the round's present signs; afterwards the signs
+  // are those of the best mesh. `done`: of each component; may change while improved() is called.
+  void mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>& done, const Improved& improved,
+            Controls& controls);
 
  private:
-  void find_undecided();
+  // The tetrahedra near the boxes of a component without a sign constraint, the nearest first.
+  struct Queue {
+    std::uint32_t component;
+    std::vector<TetId> tets;
+    std::size_t next;
+    int trials;
+  };
+  // A tetrahedron whose sign is flipped for the sake of a component.
+  struct Flip {
+    std::uint32_t component;
+    TetId tet;
+  };
+  [[nodiscard]] std::vector<Queue> queues(const MatchedMesh& mesh, const std::vector<bool>& done) const;
+  std::vector<Flip> next_flips(const MatchedMesh& mesh, const std::vector<bool>& done, std::vector<Queue>& queues);
+  std::shared_ptr<MatchedMesh> flipped(const std::vector<Flip>& flips, const MatchedMesh& before);
+  [[nodiscard]] std::vector<Flip> helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
+                                             const MatchedMesh& trial) const;
+  [[nodiscard]] std::vector<std::int64_t> errors(const MatchedMesh& mesh) const;
   [[nodiscard]] bool is_worth_trying(TetId t, const ComponentTopology& lacks);
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
 
@@ -43,9 +61,6 @@ class SignSearch {
   const IsosurfaceTopology& topology_;
   const CellLevels& cells_;
   const std::vector<IndexRanges>& boxes_;
-  // Of each component: the tetrahedra near its boxes without a sign constraint, the nearest first. Filled when first
-  // needed.
-  std::vector<std::vector<TetId>> undecided_;
 };
 
 }  // namespace deliso

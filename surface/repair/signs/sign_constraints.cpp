@@ -41,8 +41,11 @@ class Collector {
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
   TetId note(const Vec3& p, std::uint8_t side);
+  // A corner of the current cell; each is located once.
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
-    return note(position(cell, corner_position(corner)), side);
+    TetId& at = at_corner_[corner];
+    if (at.is_none()) at = note(position(cell, corner_position(corner)), side);
+    return hint_ = at;
   }
   void note_located(const Vec3& p, std::uint8_t side);
   // Several collectors may call this at the same time; the result does not depend on the order.
@@ -65,11 +68,13 @@ class Collector {
   std::vector<CriticalPoint> critical_;
   // State of the current cell:
   Vec3 center_;
+  std::array<TetId, 8> at_corner_;
   std::vector<TetId> trace_;
 };
 
 std::vector<TetId> Collector::collect(const CellIndex& cell) {
   trace_.clear();
+  at_corner_.fill(TetId::none());
   center_ = position(cell, {0.5, 0.5, 0.5});
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
   collect_edges(cell, corners);

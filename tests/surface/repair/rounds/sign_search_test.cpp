@@ -126,15 +126,17 @@ TEST(SignSearch, CorrectsAFlippedSign) {
         if (amount_missing(*mesh, want, c) <= amount_missing(before, want, c)) continue;
         if (mesh->match.error < before.match.error) continue;  // the flip improved other components
         std::shared_ptr<MatchedMesh> best;
+        std::vector<bool> done(scene->topology.components.size(), true);
+        done[c] = false;
         const auto improved = [&](std::shared_ptr<MatchedMesh> better) {
           best = std::move(better);
-          return amount_missing(*best, want, c) <= amount_missing(before, want, c);
+          done[c] = amount_missing(*best, want, c) <= amount_missing(before, want, c);
         };
         Controls controls(BudgetParameters{}, nullptr, {});
         std::vector<IndexRanges> boxes(scene->topology.components.size());
         boxes[c] = boxes_at(cells, delaunay, flipped);
         SignSearch(round, scene->topology, cells, boxes)
-            .mend(c, std::make_shared<MatchedMesh>(*mesh), improved, controls);
+            .mend(std::make_shared<MatchedMesh>(*mesh), done, improved, controls);
         ASSERT_NE(best, nullptr) << "seed " << seed << " tetrahedron " << i;
         EXPECT_LE(amount_missing(*best, want, c), amount_missing(before, want, c));
         EXPECT_LE(best->match.error, mesh->match.error);
