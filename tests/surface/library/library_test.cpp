@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -331,7 +333,16 @@ TEST(Library, FilesKeepVolumesAndMeshes) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(Library, VersionsAgree) { EXPECT_EQ(version(), DELISO_VERSION_TEXT); }
+TEST(Library, VersionsAgree) {
+  EXPECT_EQ(version(), DELISO_VERSION_TEXT);
+  const auto text_of = [](const std::string& name) {
+    std::ostringstream text;
+    text << std::ifstream(std::filesystem::path(DELISO_SOURCE_DIR) / name).rdbuf();
+    return text.str();
+  };
+  EXPECT_NE(text_of("CHANGELOG.md").find("\n## [" + version() + "]"), std::string::npos);
+  EXPECT_NE(text_of("CITATION.cff").find("\nversion: " + version() + "\n"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace deliso::testing
