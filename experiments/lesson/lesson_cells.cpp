@@ -43,7 +43,7 @@ std::vector<SweepEvent> events_of(const CellCorners& corners, const CellSweep& s
   for (std::size_t c = 0; c < 4; ++c) {
     const double low = corners[c], high = corners[c + 4];
     if ((low < 0) == (high < 0)) continue;
-    events.push_back({low / (low - high), "", static_cast<double>(c % 2), static_cast<double>(c / 2)});
+    events.push_back({low / (low - high), "", static_cast<double>(c & 1u), static_cast<double>(c >> 1u)});
   }
   for (int i = 0; i < sweep.saddle_count(); ++i) {
     const Vec3& p = sweep.saddle(i).uvw;

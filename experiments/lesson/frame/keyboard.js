@@ -9,6 +9,7 @@ Lesson.keyboard = (() => {
     {key: "Home", command: "first", help: "Home", does: "to the start"},
     {key: "End", command: "last", help: "End", does: "to the end"},
     {key: "p", command: "predict", help: "P", does: "predict the kind of the next step"},
+    {key: "e", command: "exercise", help: "E", does: "to the exercise of the chapter"},
     {key: "s", command: "svg", help: "S", does: "save the picture as SVG"},
     {key: "t", command: "theme", help: "T", does: "dark or light"},
     {key: "?", command: "help", help: "?", does: "this list"},

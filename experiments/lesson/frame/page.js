@@ -49,10 +49,20 @@ Lesson.Page = class {
     this.help = this.buildHelp();
     root.append(
         element(
-            "header", {}, element("strong", {}, Lesson.data.title), this.tabs,
-            button("SVG", "save the picture as SVG", "svg"), button("◐", "dark or light", "theme"),
-            button("?", "keys", "help")),
+            "header", {},
+            element("button", {class: "skip", onclick: () => this.skip()}, "Skip the chapters: to the steps"),
+            element("strong", {}, Lesson.data.title), this.tabs, button("SVG", "save the picture as SVG", "svg"),
+            button("◐", "dark or light", "theme"), button("?", "keys", "help")),
         this.live, this.stepped, this.plain, this.help, Lesson.glossary.tip);
+  }
+
+  // What is shown of the chapter.
+  root() { return this.player ? this.stepped : this.plain; }
+
+  // For those who come by the keyboard.
+  skip() {
+    if (this.player) return this.timeline.canvas.focus();
+    return this.plain.querySelector("a, button, input, textarea, dfn")?.focus();
   }
 
   buildHelp() {
@@ -172,6 +182,8 @@ Lesson.Page = class {
       this.help.showModal();
     else if (name === "theme")
       this.redress(Lesson.theme.isDark() ? "light" : "dark");
+    else if (name === "exercise")
+      this.root().querySelector(".exercise input, .exercise button")?.focus();
     else if (name === "svg" && this.player)
       this.save();
     else

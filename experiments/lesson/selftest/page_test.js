@@ -122,6 +122,11 @@
       pressIn(number, "ArrowRight");
       equal(player.step, 1, "a number keeps its keys");
       number.remove();
+      if (page.panel.querySelector(".exercise")) {
+        press("e");
+        check(document.activeElement?.closest(".exercise"), `${chapter.name}: E goes to the exercise`);
+        document.activeElement.blur();
+      }
       press(" ");
       player.pause();
     }

@@ -93,15 +93,15 @@ Lesson.CellChapter = class {
                                  this.draw();
                                }
                              })));
-    const box = element(
+    const words = element(
         "div", {}, element("h1", {}, "One face of a cell"),
         element(
             "p", {},
             "Samples less the isovalue stand at the corners. Along each side the field is linear, within it is " +
                 "bilinear, so the curve is a hyperbola. Where the signs alternate two arcs are possible in two ways; the " +
                 "value at the saddle decides (Nielson and Hamann 1991). Where two cells guess differently, the mesh has a hole."),
-        ...this.exercises().map(Lesson.exercise), element("div", {class: "settings"}, ...sliders), this.words,
-        this.canvas);
+        ...this.exercises().map(Lesson.exercise), element("div", {class: "settings"}, ...sliders), this.words);
+    const box = element("div", {class: "sided"}, words, this.canvas);
     requestAnimationFrame(() => this.draw());
     return box;
   }

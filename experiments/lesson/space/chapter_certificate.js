@@ -53,6 +53,21 @@ Lesson.CertificateChapter = class {
     ];
   }
 
+  // What else the certificate looks for, and what it has found.
+  demands() {
+    const its = this.run.events.find((event) => event.e === "certify");
+    if (!its) return [];
+    const rows = [
+      ["edges whose triangles disagree in orientation", its.misoriented],
+      ["components that face higher values", its.reversed], ["boundary edges off the box", its.off_box],
+      ["pairs of triangles that cross", its.crossing],
+      [`vertices more than ${its.max_residual} voxel off the surface`, its.vertices_off],
+      [`sampled points of the mesh more than ${its.max_distance} voxel off`, its.mesh_off],
+      [`crossings of the surface more than ${its.max_distance} voxel off the mesh`, its.isosurface_off]
+    ];
+    return [Lesson.element("h2", {}, "What else has to be 0"), this.table(["found in this mesh", "count"], rows)];
+  }
+
   page() {
     const {element, countText} = Lesson;
     const {end, leftOut} = this.run;
@@ -65,17 +80,21 @@ Lesson.CertificateChapter = class {
                 "topology of the surface, which it finds from the samples alone: in every cell from the signs at corners, on " +
                 "faces and at the saddles within, glued across faces. They are compared component by component."));
     box.append(...this.exercises().map(Lesson.exercise));
-    box.append(
+    const hidden = element("details", {}, element("summary", {}, "Both, counted (after the exercises)"));
+    hidden.open = Lesson.data.answers;
+    box.append(hidden);
+    hidden.append(
         element("h2", {}, "The surface, from the grid"),
         this.table(["components", "χ of each", "boundary loops"], exact));
     if (leftOut) {
-      box.append(
+      hidden.append(
           element("p", {}, `${leftOut} steps of the run are not in this page, so its last mesh is not counted here.`));
     } else {
       const rows = this.components().map((its, i) => [i + 1, its.vertices, its.edges, its.triangles, its.chi]);
-      box.append(
+      hidden.append(
           element("h2", {}, "The mesh, counted here"), this.table(["component", "V", "E", "F", "χ = V − E + F"], rows));
     }
+    box.append(...this.demands());
     box.append(element(
         "p", {},
         `The program's verdict: ${end.verdict}${end.proven ? ", proven" : ""}. ` +

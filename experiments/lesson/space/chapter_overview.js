@@ -51,7 +51,7 @@ Lesson.OverviewChapter = class {
         }));
     this.drawn = [];
     const places = this.frames().map(([event, title]) => [event, title, element("section", {})]);
-    box.append(...places.map(([, , place]) => place));
+    box.append(element("div", {class: "frames"}, ...places.map(([, , place]) => place)));
     const fill = ([event, title, place]) => this.fill(event(), title, place);
     requestAnimationFrame(() => places.filter((_, i) => i !== 1).forEach(fill));
     places[1][2].append(element("h2", {}, places[1][1]), element("p", {class: "soft"}, "looking for it …"));

@@ -57,6 +57,11 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     if (kind === "mesh") return picture.mesh(replay.mesh);
     for (const f of replay.restricted()) picture.face(f.map((v) => replay.points[v]), "meshFace", 5);
     picture.flush();
+    const asked = this.list[step + 1]?.q;
+    if (asked !== undefined) {
+      picture.mark(replay.points[asked], "diamond", "point", 0, 6);
+      picture.label(replay.points[asked], `${asked} ?`, 9);
+    }
     if (q === undefined) return picture.vertices(replay.points, -1);
     const isAtQ = new RegExp(`(^|,)${q}(,|$)`);
     for (const key of [...replay.sides.keys()].filter((facet) => isAtQ.test(facet)).sort()) {
@@ -87,6 +92,12 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     const text = (pole) => (pole ? Lesson.numberText(pole.distance) : "none (not bounded)");
     return `Vertex ${q}: the pole above is ${text(above)} away, the one below ${text(below)}. The nearer one counts: ${
         kind}.`;
+  }
+
+  question(step) {
+    const {q} = this.list[step + 1];
+    return q === undefined ? "What comes after the poles?" :
+                             `Vertex ${q}, marked with a diamond: which of its poles is nearer?`;
   }
 
   next(step) {

@@ -39,7 +39,7 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     const link = this.linkOf(replay, step, preview);
     if (!link) return;
     const [left, bottom, right] = this.run.camera.bounds();
-    const size = 0.055 * (right - left);
+    const size = 0.08 * (right - left);
     Lesson.link.draw(picture.scene, link.pieces, [left, bottom], size);
     picture.scene.label([left, bottom + 3 * size], `link of ${link.q}`, "label", 7);
   }

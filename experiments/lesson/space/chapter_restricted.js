@@ -44,6 +44,13 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
       });
       for (const p of picture.hitsOf(replay, key)) picture.mark(p, "cross", "hit", 0, 8);
     }
+    // What is asked about next, without the signs that answer it.
+    const asked = this.list[step + 1]?.key.split(",").map((v) => replay.points[Number(v)]);
+    if (asked) {
+      picture.line([...asked, asked[0]], "rim", 0);
+      picture.line(picture.dualEdge(replay, this.list[step + 1].key), "voronoi", 0);
+      picture.label(Lesson.vectors.mean(asked), "?", 9);
+    }
     picture.vertices(replay.points, -1);
   }
 
@@ -57,6 +64,8 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
     return `Facet ${key.replaceAll(",", "–")}: its circumcenters lie ${a} and ${b} the isovalue, the dual edge has ` +
         `${Lesson.countText(hits, "hit")}: ${kind === "restricted" ? "restricted" : "not restricted"}.`;
   }
+
+  question() { return "The facet with the dashed rim, marked with a question mark: is it restricted?"; }
 
   next(step) {
     if (step + 1 >= this.list.length) return null;

@@ -77,13 +77,24 @@ Lesson.SpacePicture = (() => {
       const {volume, box: [low, high]} = this.run;
       const corner = (bits) => [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high : low)[axis]);
       this.edgesOfBox(corner, "frame", 1);
-      if (this.isShown(2)) {
-        for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
-        this.flush();
-      }
+      if (this.isShown(2)) this.surface();
       if (sliceAt !== null) {
         for (const line of Lesson.slice.curves(volume, sliceAt)) this.line(line, "slice", 1);
       }
+    }
+
+    // The surface looks the same until the reader turns it.
+    surface() {
+      const {run: {volume}, camera, scene} = this;
+      const seen = this.run.surfaceSeen;
+      if (seen?.turn === camera.turn && seen.tilt === camera.tilt) {
+        for (const item of seen.items) scene.items.push(item);
+        return;
+      }
+      const first = scene.items.length;
+      for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
+      this.flush();
+      this.run.surfaceSeen = {turn: camera.turn, tilt: camera.tilt, items: scene.items.slice(first)};
     }
 
     // Where the dual edge of a facet ends: at circumcenters, and towards infinity at the rim of the picture.

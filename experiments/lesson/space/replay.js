@@ -20,6 +20,7 @@ Lesson.Replay = (() => {
       this.sides = new Map();    // key of a facet -> the keys of the tetrahedra at it
       this.between = new Set();  // the keys of facets whose two tetrahedra differ in sign
       this.hits = new Map();     // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
+      this.found = null;         // the restricted facets, once they were asked for
       this.mesh = null;          // of stage 2: {points, triangles: key -> corners, poles}
       this.undo = [];            // of each event that is applied
     }
@@ -28,6 +29,7 @@ Lesson.Replay = (() => {
 
     // The state after event n.
     goTo(n) {
+      if (this.position !== n) this.found = null;
       while (this.position < n) this.undo.push(this.apply(this.events[this.position + 1]));
       while (this.position > n) this.undo.pop()();
       return this;
@@ -169,7 +171,9 @@ Lesson.Replay = (() => {
     sidesOf(key) { return [...this.sides.get(key)].sort(); }
 
     // The facets whose two tetrahedra differ in sign, those with virtual vertices left out; sorted.
-    restricted() {
+    restricted() { return (this.found ??= this.findRestricted()); }
+
+    findRestricted() {
       const found = [];
       for (const key of this.between) {
         const v = key.split(",").map(Number);

@@ -10,7 +10,7 @@ Lesson.ConfigsChapter = class {
     const {element} = Lesson;
     const items =
         [...this.experiments.map(({name, title}) => [name, title]), ["errata", "Errata: what the paper leaves out"]];
-    this.links = items.map(([name, title]) => element("a", {href: `#configs/${name}`}, title));
+    this.links = items.map(([name, title]) => this.linkTo(name, title));
     this.shown = element("div", {class: "experiment"});
     this.show("");
     return element(
@@ -20,6 +20,14 @@ Lesson.ConfigsChapter = class {
             element("p", {class: "soft"}, "Ask first; then the table of real runs, made with this page."),
             ...this.links),
         this.shown);
+  }
+
+  // On a phone what stands before the colon has to do.
+  linkTo(name, title) {
+    const {element} = Lesson;
+    const at = title.indexOf(":");
+    const parts = at < 0 ? [title] : [title.slice(0, at), element("span", {class: "long"}, title.slice(at))];
+    return element("a", {href: `#configs/${name}`}, ...parts);
   }
 
   // `rest` is what follows #configs/ in the address.
