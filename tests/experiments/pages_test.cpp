@@ -130,7 +130,6 @@ TEST(Pages, GeneratedSectionsNameTheirCommit) {
                                           "noisy_isovalues",
                                           "time_by_stage",
                                           "verification",
-                                          "compare",
                                           "compare_fields_vertices",
                                           "compare_fields_error",
                                           "compare_volumes_vertices",

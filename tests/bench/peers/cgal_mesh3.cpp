@@ -72,7 +72,8 @@ TriangleMesh boundary_of(const Complex& complex, const Vec3& origin) {
   return mesh;
 }
 
-std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, double isovalue) {
+std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, const Arguments& arguments) {
+  const double isovalue = arguments.isovalue;
   using namespace CGAL::parameters;
   const auto image = image_of(grid);
   const Vec3 origin = grid.origin();

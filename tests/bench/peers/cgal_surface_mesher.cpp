@@ -1,8 +1,8 @@
 // CGAL Surface_mesher (make_surface_mesh) of the trilinear interpolant as an implicit function.
 //
 // As its manual recommends: an angular bound of 30 degrees, a sphere around the surface whose centre is inside, the
-// manifold tag. It starts from points on random rays; twenty are its default, and a thousand are asked for here, since
-// every component needs one.
+// manifold tag. It starts from points on random rays: twenty are its default, FIRST_POINTS others; every component
+// needs one, and a mesh has them all.
 #include <CGAL/Complex_2_in_triangulation_3.h>
 #include <CGAL/Implicit_surface_3.h>
 #include <CGAL/Surface_mesh_default_criteria_3.h>
@@ -23,6 +23,8 @@ using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
 using Complex = CGAL::Complex_2_in_triangulation_3<Triangulation>;
 using Traits = Triangulation::Geom_traits;
 using Point = Traits::Point_3;
+
+constexpr int kFirstPoints = 20;  // CGAL's default
 
 // Negative inside. Beyond the box everything is outside.
 class Field {
@@ -99,14 +101,15 @@ TriangleMesh surface_of(const Complex& complex, const Field& field) {
   return mesh;
 }
 
-std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, double isovalue) {
+std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, const Arguments& arguments) {
+  const double isovalue = arguments.isovalue;
+  const int first_points = arguments.first_points > 0 ? arguments.first_points : kFirstPoints;
   const Field field(grid, isovalue);
   const Point center = inner_point(grid, isovalue);
   const Vec3 across = grid.box().high - grid.box().low;
   const double radius = std::sqrt(across.x * across.x + across.y * across.y + across.z * across.z);
   const double voxel = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
-  return [field, center, radius, voxel](const Sizes& sizes) {
-    constexpr int kFirstPoints = 1000;
+  return [field, center, radius, voxel, first_points](const Sizes& sizes) {
     CGAL::get_default_random() = CGAL::Random(0);
     const auto begin = std::chrono::steady_clock::now();
     Triangulation triangulation;
@@ -114,7 +117,7 @@ std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, double isoval
     const CGAL::Implicit_surface_3<Traits, Field> surface(field, Traits::Sphere_3(center, radius * radius), 1e-6);
     const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(30, sizes.radius * voxel,
                                                                         sizes.distance * voxel);
-    CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag(), kFirstPoints);
+    CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag(), first_points);
     Trial trial;
     trial.mesh = surface_of(complex, field);
     trial.seconds = seconds_since(begin);
@@ -125,5 +128,5 @@ std::function<Trial(const Sizes&)> prepare(const ScalarGrid& grid, double isoval
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run(argc, argv, "CGAL " CGAL_VERSION_STR ", Surface_mesher", "angle 30, manifold, 1000 first points", prepare);
+  return run(argc, argv, "CGAL " CGAL_VERSION_STR ", Surface_mesher", "angle 30, manifold", prepare);
 }

@@ -25,11 +25,14 @@ struct Arguments {
   double isovalue = 0;
   std::int64_t vertices = 0;  // as many as these, by trials of the size; 0: the distance decides
   double distance = 0.1;      // the bound on the distance, in voxels
+  int first_points = 0;       // what the triangulation begins with; 0: the mesher's own choice
 };
 
-// VOLUME ISOVALUE MESH REPORT vertices N | distance D
+// VOLUME ISOVALUE MESH REPORT vertices N | distance D [FIRST_POINTS]
 inline Arguments parse_arguments(int argc, char** argv) {
-  if (argc != 7) throw std::runtime_error("usage: VOLUME ISOVALUE MESH REPORT vertices N | distance D");
+  if (argc != 7 && argc != 8) {
+    throw std::runtime_error("usage: VOLUME ISOVALUE MESH REPORT vertices N | distance D [FIRST_POINTS]");
+  }
   Arguments arguments;
   arguments.volume = argv[1];
   arguments.isovalue = std::stod(argv[2]);
@@ -43,6 +46,7 @@ inline Arguments parse_arguments(int argc, char** argv) {
   } else {
     throw std::runtime_error("expected 'vertices' or 'distance', found '" + by + "'");
   }
+  if (argc == 8) arguments.first_points = std::stoi(argv[7]);
   return arguments;
 }
 
@@ -131,11 +135,11 @@ inline double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 // Meshes as asked, once cold and, by a distance, once more warm; writes the mesh and the report.
 inline int run(int argc, char** argv, const std::string& version, const std::string& settings,
-               const std::function<std::function<Trial(const Sizes&)>(const ScalarGrid&, double)>& prepare) {
+               const std::function<std::function<Trial(const Sizes&)>(const ScalarGrid&, const Arguments&)>& prepare) {
   try {
     const Arguments arguments = parse_arguments(argc, argv);
     const ScalarGrid grid = read_volume(arguments.volume);
-    const auto mesh = prepare(grid, arguments.isovalue);
+    const auto mesh = prepare(grid, arguments);
     Outcome outcome = mesh_as_asked(arguments, mesh);
     const double warm = outcome.trials == 1 ? mesh(outcome.sizes).seconds : outcome.trial.seconds;
     drop_caps(outcome.trial.mesh, grid);

@@ -1,4 +1,4 @@
-// experiments/datasets.sh, in a checkout of its own with tiny volumes.
+// experiments/datasets.sh, in a checkout of its own with tiny volumes; and experiments/reproduce.sh.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -82,6 +82,26 @@ TEST_F(DatasetScript, SaysWhatIsMissingAndWhatIsWrong) {
   EXPECT_NE(run(), 0);
   EXPECT_NE(said_.find("SCAN 1, SCAN 2: missing; at the desk"), std::string::npos) << said_;
   EXPECT_NE(said_.find("OTHER: " + (folder_ / "data/other.nrrd") + " is another volume"), std::string::npos) << said_;
+}
+
+// With no section wanted: what is around the tables and figures themselves.
+TEST(ReproduceScript, SaysWhereItRanAndWhatItLeftOut) {
+  const TemporaryFolder folder;
+  const std::string command =
+      "OUT='" + (folder / "out") + "' DELISO='" DELISO_PROGRAM "' DELISO_DATA='" + (folder / "data") +
+      "' DELISO_ONLY=none '" DELISO_SOURCE_DIR "/experiments/reproduce.sh' > '" + (folder / "said") + "' 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder / "said");
+  const std::string environment = read_file(folder / "out/environment.txt");
+  for (const char* part : {"\ncommit ", "\ncompiler ", "\nprocessor ", "\nkernel ", "\ncheckout "}) {
+    EXPECT_NE(environment.find(part), std::string::npos) << part;
+  }
+  // The pages are copies with the sections that would be made, and each of these is accounted for.
+  const std::string page = read_file(folder / "out/pages/configs/paper/README.md");
+  EXPECT_EQ(page, read_file(fs::path(DELISO_SOURCE_DIR) / "configs/paper/README.md"));
+  const std::string left_out = read_file(folder / "out/left_out.txt");
+  for (const char* part : {"table table3: ", "table ablations: ", "table compare_fields_error: ", "figures: "}) {
+    EXPECT_NE(left_out.find(part), std::string::npos) << part;
+  }
 }
 
 }  // namespace
