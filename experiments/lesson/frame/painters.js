@@ -19,6 +19,7 @@ Lesson.CanvasPainter = class {
 
   text(x, y, text, {size, colour, halo}) {
     const context = this.context;
+    this.stroked = null;
     context.font = `${size}px system-ui, sans-serif`;
     context.lineJoin = "round";
     context.lineWidth = 3;
@@ -38,10 +39,14 @@ Lesson.CanvasPainter = class {
     }
     if (style.stroke) {
       context.globalAlpha = style.opacity;
-      context.strokeStyle = style.stroke;
-      context.lineWidth = style.width;
-      context.lineJoin = "round";
-      context.setLineDash(style.dash);
+      // Thousands of thin lines have the same style; nobody sees how these are joined.
+      if (this.stroked !== style) {
+        context.strokeStyle = style.stroke;
+        context.lineWidth = style.width;
+        context.lineJoin = style.width > 1.5 ? "round" : "bevel";
+        context.setLineDash(style.dash);
+      }
+      this.stroked = style;
       context.stroke();
     }
     context.globalAlpha = 1;
