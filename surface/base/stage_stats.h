@@ -24,10 +24,9 @@ auto timed(StageStats& stage, Body body) {
 }
 
 struct RepairStats : StageStats {
-  std::int64_t rounds = 0;               // rounds of resampling
-  std::int64_t cells_refined = 0;        // voxel cells that are sampled by a lattice
-  std::int64_t components_before = 0;    // exact components that disagreed with the mesh of stage 1
-  std::int64_t components_given_up = 0;  // for which no more rounds were made, because the last ones did not help
+  std::int64_t rounds = 0;             // rounds of resampling
+  std::int64_t cells_refined = 0;      // voxel cells that are sampled by a lattice
+  std::int64_t components_before = 0;  // exact components that disagreed with the mesh of stage 1
   // Accepted at the end although their piece has vertices of another component.
   std::int64_t components_mixed = 0;
   std::int64_t components_stray = 0;            // right after stray pieces were dropped

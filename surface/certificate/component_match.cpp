@@ -61,7 +61,6 @@ void find_agreements(const std::vector<ComponentTopology>& components, const std
                      ComponentMatch& match) {
   match.main_piece.assign(components.size(), kNoPiece);
   match.agreement.assign(components.size(), Agreement::kNone);
-  match.errors.assign(components.size(), 0);
   std::vector<bool> is_mixed(components.size(), false);
   for (std::size_t v = 0; v < component_of.size(); ++v) {
     if (component_of[v] == kNoComponent || match.piece_of[v] == kNoPiece) continue;
@@ -88,9 +87,8 @@ void find_agreements(const std::vector<ComponentTopology>& components, const std
                                               : Agreement::kExact;
     }
     if (match.agreement[c] == Agreement::kExact) continue;
-    match.errors[c] = 1 + std::max<std::int64_t>(0, pieces_on[c] - 1) +
-                      std::abs(topology.euler_characteristic - components[c].euler_characteristic);
-    match.error += match.errors[c];
+    match.error += 1 + std::max<std::int64_t>(0, pieces_on[c] - 1);
+    match.error += std::abs(topology.euler_characteristic - components[c].euler_characteristic);
   }
 }
 

@@ -34,7 +34,6 @@ struct ComponentMatch {
   std::vector<std::uint32_t> piece_of;    // of each mesh vertex; kNoPiece for one without triangles
   std::vector<std::uint32_t> main_piece;  // of each exact component; kNoPiece when it has none
   std::vector<Agreement> agreement;       // of each exact component
-  std::vector<std::int64_t> errors;       // of each exact component: its part of `error`
   // The number of components that do not agree exactly, plus the number of stray pieces, plus the differences in Euler
   // characteristic of the main pieces. Smaller is better; 0 when the mesh is right.
   std::int64_t error = 0;

@@ -74,7 +74,6 @@ JsonTree repair_json(const RepairStats& repair) {
                   {"rounds", repair.rounds},
                   {"cells_refined", repair.cells_refined},
                   {"components_before", repair.components_before},
-                  {"components_given_up", repair.components_given_up},
                   {"components_mixed", repair.components_mixed},
                   {"components_stray", repair.components_stray},
                   {"components_polygonized", repair.components_polygonized},

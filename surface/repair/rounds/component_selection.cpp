@@ -16,8 +16,6 @@ namespace {
 
 // A mesh is reduced to the pieces still needed if these have fewer vertices by this factor.
 constexpr std::int64_t kWorthCutting = 2;
-// A component is given up after so many rounds in a row that do not lessen its error.
-constexpr int kMostIdleRounds = 4;
 
 // The wanted pieces, and all pieces connected to them, directly or not, by copies of one vertex.
 std::vector<bool> with_pieces_touched(const MatchedMesh& mesh, const std::vector<bool>& wanted) {
@@ -45,8 +43,7 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
   MatchedMesh part;
   const std::vector<std::uint32_t>& piece_of = whole.match.piece_of;
   append_pieces(whole.built.mesh, piece_of, pieces, part.built.mesh);
-  part.match = {whole.match.pieces, {}, whole.match.main_piece, whole.match.agreement, whole.match.errors,
-                whole.match.error};
+  part.match = {whole.match.pieces, {}, whole.match.main_piece, whole.match.agreement, whole.match.error};
   std::vector<std::uint32_t> name(piece_of.size(), kNoPiece);
   for (std::size_t v = 0; v < piece_of.size(); ++v) {
     if (piece_of[v] == kNoPiece || !pieces[piece_of[v]]) continue;
@@ -131,8 +128,7 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 }  // namespace
 
 void ComponentSelection::reopen(std::uint32_t component) {
-  done_[component] = closed_[component] = false;
-  clocks_[component] = {};
+  done_[component] = false;
   best_[component] = Agreement::kPartial;
   drop_superseded();
 }
@@ -141,28 +137,14 @@ void ComponentSelection::reopen(std::uint32_t component) {
 void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
-    clocks_[c].error = std::min(clocks_[c].error, mesh->match.errors[c]);
     if (mesh->match.agreement[c] <= best_[c]) continue;
     best_[c] = std::min(mesh->match.agreement[c], Agreement::kWithStrays);
     done_[c] = best_[c] == Agreement::kWithStrays;
-    closed_[c] = closed_[c] || done_[c];
     helps = true;
   }
   if (!helps) return;
   kept_.push_back({std::move(mesh), std::move(signs)});
   drop_superseded();
-}
-
-std::int64_t ComponentSelection::end_round() {
-  std::int64_t given_up = 0;
-  for (std::size_t c = 0; c < closed_.size(); ++c) {
-    Clock& clock = clocks_[c];
-    clock.idle = clock.error < clock.error_before ? 0 : clock.idle + 1;
-    clock.error_before = clock.error;
-    closed_[c] = done_[c] || clock.idle >= kMostIdleRounds;
-    given_up += closed_[c] && !done_[c] ? 1 : 0;
-  }
-  return given_up;
 }
 
 // Every component is taken from the latest mesh that may give it. Drops the meshes that give no component, and reduces

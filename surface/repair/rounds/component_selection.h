@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -23,26 +22,13 @@ struct AssembledMesh {
 
 class ComponentSelection {
  public:
-  explicit ComponentSelection(std::size_t components)
-      : done_(components, false),
-        closed_(components, false),
-        clocks_(components),
-        best_(components, Agreement::kNone) {}
+  explicit ComponentSelection(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
 
   // Of each exact component: whether it is done.
   [[nodiscard]] const std::vector<bool>& done() const { return done_; }
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
-  // Of each exact component: whether no more rounds are made for it. It is done, or is given up because its last rounds
-  // did not lessen its error (ComponentMatch::errors). What is given up is taken from the latest mesh that agrees best,
-  // or, where no mesh has its topology, from marching cubes.
-  [[nodiscard]] const std::vector<bool>& closed() const { return closed_; }
-  [[nodiscard]] bool is_closed() const {
-    return std::all_of(closed_.begin(), closed_.end(), [](bool closed) { return closed; });
-  }
-  // Call after each round: moves the clocks of the components. Returns how many are given up.
-  std::int64_t end_round();
   // Whether every component is done, or has the right topology but foreign vertices.
   [[nodiscard]] bool is_done_but_for_mixing() const {
     return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
@@ -71,16 +57,7 @@ class ComponentSelection {
     return best_[component] > Agreement::kPartial && mesh.match.agreement[component] >= best_[component];
   }
 
-  // The least error of a component, also as of the round before; and the number of rounds since it became less.
-  struct Clock {
-    std::int64_t error = std::numeric_limits<std::int64_t>::max();
-    std::int64_t error_before = std::numeric_limits<std::int64_t>::max();
-    int idle = 0;
-  };
-
   std::vector<bool> done_;       // of each exact component
-  std::vector<bool> closed_;     // of each exact component
-  std::vector<Clock> clocks_;    // of each exact component
   std::vector<Agreement> best_;  // of each exact component: the best agreement of any mesh so far, at most kWithStrays
   std::vector<KeptMesh> kept_;   // in the order of keep()
 };

@@ -21,7 +21,6 @@ constexpr std::size_t kVerticesAtOnce = 2048;
 void make_partial(ComponentMatch& match, std::uint32_t component) {
   if (match.agreement[component] <= Agreement::kPartial) return;
   match.agreement[component] = Agreement::kPartial;
-  ++match.errors[component];
   ++match.error;
 }
 

@@ -47,18 +47,17 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
   kept_.keep(mesh_, round_->restricted().signs());
-  kept_.end_round();
 }
 
 bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls) {
-  while (stats_.rounds < max_rounds && !kept_.is_closed() && !controls.poll()) {
+  while (stats_.rounds < max_rounds && !kept_.is_done() && !controls.poll()) {
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
     const std::vector<IndexRanges>& boxes =
-        differences_.find(mesh_, kept_.closed(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
+        differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
     mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
-                            kept_.closed(), boxes, round != kRoundOfAllDefects, round_->located()}),
+                            kept_.done(), boxes, round != kRoundOfAllDefects, round_->located()}),
               controls);
   }
   return false;
@@ -75,7 +74,6 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   take_signs(controls);
   release_free_memory();
   try_signs(controls);
-  stats_.components_given_up = kept_.end_round();
   ++stats_.rounds;
   if (observer != nullptr) observer->round_ends({*mesh_, surface_.topology, kept_.done(), cell_levels_});
 }
@@ -175,14 +173,14 @@ bool RepairRounds::take_mesh() {
 
 // Tries to flip single signs near the boxes in which a component is wrong.
 void RepairRounds::try_signs(Controls& controls) {
-  if (kept_.is_closed() || controls.poll()) return;
+  if (kept_.is_done() || controls.poll()) return;
   const std::vector<IndexRanges> boxes =
-      differences_.find(mesh_, kept_.closed(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
+      differences_.find(mesh_, kept_.done(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
   const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
     mesh_ = std::move(mesh);
     kept_.keep(mesh_, round_->restricted().signs());
   };
-  SignSearch(*round_, surface_.topology, cell_levels_, boxes).mend(mesh_, kept_.closed(), improved, controls);
+  SignSearch(*round_, surface_.topology, cell_levels_, boxes).mend(mesh_, kept_.done(), improved, controls);
 }
 
 }  // namespace deliso

@@ -89,6 +89,19 @@ ComponentTopology SignSearch::missing(const MatchedMesh& mesh, std::uint32_t com
   return missing;
 }
 
+// What each component adds to ComponentMatch::error.
+std::vector<std::int64_t> SignSearch::errors(const MatchedMesh& mesh) const {
+  std::vector<std::int64_t> errors(topology_.components.size(), -1);
+  for (const MeshPiece& piece : mesh.match.pieces) {
+    if (piece.component != kNoComponent) ++errors[piece.component];
+  }
+  for (std::uint32_t c = 0; c < errors.size(); ++c) {
+    const bool is_exact = mesh.match.agreement[c] == Agreement::kExact;
+    errors[c] = is_exact ? 0 : 1 + std::max<std::int64_t>(errors[c], 0) + std::abs(missing(mesh, c).euler_characteristic);
+  }
+  return errors;
+}
+
 // The components that lack little and are not done, each with its undecided tetrahedra. Those of all components are
 // found in one pass, because most of the time is spent on the distances of tetrahedra.
 std::vector<SignSearch::Queue> SignSearch::queues(const MatchedMesh& mesh, const std::vector<bool>& done) const {
@@ -183,6 +196,7 @@ std::shared_ptr<MatchedMesh> SignSearch::flipped(const std::vector<Flip>& flips,
 std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
                                                      const MatchedMesh& trial) const {
   const SignedDelaunay& restricted = round_.restricted();
+  const std::vector<std::int64_t> errors_before = errors(before), errors_now = errors(trial);
   std::vector<Flip> helpful;
   for (const Flip& flip : flips) {
     if (amount(missing(trial, flip.component)) >= amount(missing(before, flip.component))) continue;
@@ -192,7 +206,7 @@ std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& fl
     }
     met.erase(kNoComponent);
     std::int64_t change = 0;
-    for (const std::uint32_t c : met) change += trial.match.errors[c] - before.match.errors[c];
+    for (const std::uint32_t c : met) change += errors_now[c] - errors_before[c];
     if (change <= 0) helpful.push_back(flip);
   }
   return helpful;

@@ -30,8 +30,8 @@ class SignSearch {
   // Called with a mesh that is better than the one before; the round's signs are those of this mesh.
   using Improved = std::function<void(std::shared_ptr<MatchedMesh>)>;
   // Tries flips near the likely boxes of the components that are not done and lack little; one tetrahedron of each of
-  // these components at a time, all with one mesh. `mesh` is the mesh of the round's present signs; afterwards the
-  // signs are those of the best mesh. `done`: of each component; may change while improved() is called.
+  // these components at a time, all with one mesh. `mesh` is the mesh of the round's present signs; afterwards the signs
+  // are those of the best mesh. `done`: of each component; may change while improved() is called.
   void mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>& done, const Improved& improved,
             Controls& controls);
 
@@ -53,6 +53,7 @@ class SignSearch {
   std::shared_ptr<MatchedMesh> flipped(const std::vector<Flip>& flips, const MatchedMesh& before);
   [[nodiscard]] std::vector<Flip> helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
                                              const MatchedMesh& trial) const;
+  [[nodiscard]] std::vector<std::int64_t> errors(const MatchedMesh& mesh) const;
   [[nodiscard]] bool is_worth_trying(TetId t, const ComponentTopology& lacks);
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
 

@@ -206,37 +206,5 @@ TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   EXPECT_GT(reopened, 3u);
 }
 
-// A mesh without a piece for its one component.
-std::shared_ptr<MatchedMesh> mesh_with_error(std::int64_t error) {
-  auto mesh = std::make_shared<MatchedMesh>();
-  mesh->match.main_piece = {kNoPiece};
-  mesh->match.agreement = {Agreement::kNone};
-  mesh->match.errors = {error};
-  mesh->match.error = error;
-  return mesh;
-}
-
-TEST(ComponentClock, GivesUpAComponentWhoseErrorStays) {
-  ComponentSelection selection(1);
-  const auto make_rounds = [&](std::int64_t error, int rounds) {
-    for (int i = 0; i < rounds; ++i) {
-      selection.keep(mesh_with_error(error), {});
-      selection.end_round();
-    }
-  };
-  make_rounds(9, 4);
-  EXPECT_FALSE(selection.is_closed());
-  make_rounds(7, 1);  // the clock begins again
-  make_rounds(8, 3);
-  EXPECT_FALSE(selection.is_closed());
-  make_rounds(7, 1);
-  EXPECT_TRUE(selection.is_closed());
-  EXPECT_FALSE(selection.is_done());
-  selection.reopen(0);
-  EXPECT_FALSE(selection.is_closed());
-  make_rounds(7, 4);
-  EXPECT_FALSE(selection.is_closed());
-}
-
 }  // namespace
 }  // namespace deliso
