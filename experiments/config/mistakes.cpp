@@ -44,7 +44,7 @@ class LineFinder {
         skip_space();
         ++at_;  // the colon
       }
-      const std::string inner = pointer + "/" + key;
+      const std::string inner = std::string(pointer).append("/").append(key);
       value(inner);
       if (close == '}') lines_[inner] = line;  // where the key stands
       skip_space();
@@ -92,7 +92,7 @@ std::string numbered(std::string sentence, const std::string& source, const Line
   constexpr std::string_view kUnknown = ": unknown key '";
   auto line = finder.lines().find(pointer);
   if (rest.starts_with(kUnknown)) {
-    const std::string key = rest.substr(kUnknown.size(), rest.find("'", kUnknown.size()) - kUnknown.size());
+    const std::string key = rest.substr(kUnknown.size(), rest.find('\'', kUnknown.size()) - kUnknown.size());
     line = finder.lines().find(std::string(pointer).append("/").append(key));
   } else if (pointer.empty()) {
     return sentence;  // it is about the whole file

@@ -113,6 +113,7 @@ Comparison::Other compare_two(const Experiment& experiment, const ComparedProgra
   ComparisonRow all;
   for (std::size_t i = 0; i < experiment.metrics.size(); ++i) {
     std::vector<ComparedCell> cells;
+    cells.reserve(order.size());
     for (const auto& name : order) cells.push_back(rows.at(name)[i]);
     all.figures.push_back(quotients_of(cells));
   }
@@ -151,7 +152,7 @@ Quotients summary_of(const std::vector<std::vector<double>>& rows) {
   }
   std::sort(means.begin(), means.end());
   const auto at = [&means](double share) {
-    return std::exp(means[static_cast<std::size_t>(share * static_cast<double>(means.size() - 1) + 0.5)]);
+    return std::exp(means[static_cast<std::size_t>(std::lround(share * static_cast<double>(means.size() - 1)))]);
   };
   quotients.interval = {at(kTail), at(1 - kTail)};
   return quotients;

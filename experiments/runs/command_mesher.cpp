@@ -74,7 +74,7 @@ std::int64_t crossed_edges(const ScalarGrid& grid, double isovalue) {
 
 // The program's file: a path as it is, a name as PATH has it.
 fs::path program_file(const std::string& name) {
-  const fs::path file = name.find('/') == std::string::npos ? find_program({name}).value_or("") : fs::path(name);
+  fs::path file = name.find('/') == std::string::npos ? find_program({name}).value_or("") : fs::path(name);
   if (!file.empty() && access(file.c_str(), X_OK) == 0) return file;
   throw InputError("the mesher '" + name + "' is no program that can be started");
 }

@@ -1,8 +1,8 @@
 // The JSON schema of experiments, from the tables that the parser uses.
 #include "experiments/config/config.h"
-#include "surface/base/parameter_table.h"
 #include "experiments/runs/experiment_config.h"
 #include "experiments/runs/experiment_keys.h"
+#include "surface/base/parameter_table.h"
 
 namespace deliso {
 namespace {

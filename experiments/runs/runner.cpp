@@ -273,8 +273,7 @@ std::string absent_text(const Dataset& dataset, const fs::path& data_folder) {
 }
 
 std::vector<PlannedRun> pending_runs(const Experiment& experiment, const RunnerOptions& options) {
-  const std::vector<PlannedRun> runs = runs_of(experiment, options.shard);
-  if (!options.resume) return runs;
+  if (!options.resume) return runs_of(experiment, options.shard);
   return pending_of(experiment, options, find_earlier_records(experiment, options.data_folder, options.out_folder));
 }
 

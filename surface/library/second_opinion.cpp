@@ -23,6 +23,7 @@ namespace {
 
 std::vector<ComponentCount> counts_of(const std::vector<TopologyCount>& counts) {
   std::vector<ComponentCount> given;
+  given.reserve(counts.size());
   for (const TopologyCount& entry : counts)
     given.push_back({entry.topology.euler_characteristic, entry.topology.boundary_loops, entry.count});
   return given;

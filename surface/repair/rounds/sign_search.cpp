@@ -21,7 +21,7 @@ constexpr std::int32_t kReach = 3;
 // How many tetrahedra of a component are tried, at most.
 constexpr int kMostTrials = 16;
 // A component that lacks more than this (Euler characteristic) is left to the next round: trials would not mend it.
-constexpr std::int64_t kMostLacking = 2 * kMostTrials;
+constexpr int kMostLacking = 2 * kMostTrials;
 // Cells along the side of a block of cells.
 constexpr std::int32_t kBlock = 16;
 
@@ -97,7 +97,8 @@ std::vector<std::int64_t> SignSearch::errors(const MatchedMesh& mesh) const {
   }
   for (std::uint32_t c = 0; c < errors.size(); ++c) {
     const bool is_exact = mesh.match.agreement[c] == Agreement::kExact;
-    errors[c] = is_exact ? 0 : 1 + std::max<std::int64_t>(errors[c], 0) + std::abs(missing(mesh, c).euler_characteristic);
+    errors[c] =
+        is_exact ? 0 : 1 + std::max<std::int64_t>(errors[c], 0) + std::abs(missing(mesh, c).euler_characteristic);
   }
   return errors;
 }
@@ -184,6 +185,7 @@ std::vector<SignSearch::Flip> SignSearch::next_flips(const MatchedMesh& mesh, co
 // The mesh with some signs flipped. Nothing if none of these flips helps.
 std::shared_ptr<MatchedMesh> SignSearch::flipped(const std::vector<Flip>& flips, const MatchedMesh& before) {
   std::vector<TetId> tets;
+  tets.reserve(flips.size());
   for (const Flip& flip : flips) tets.push_back(flip.tet);
   round_.flip_signs(tets);
   std::optional<MatchedMesh> trial =
