@@ -1,7 +1,9 @@
 #include "surface/shape/patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "delaunay/base/disjoint_sets.h"
@@ -22,28 +24,47 @@ struct PatchCrossing {
   Vec3 position;
 };
 
-// The boxes around bad triangles, and which patch each belongs to.
+// The boxes around bad triangles, and which patch each belongs to. Bad triangles of one small cube share a box: where
+// they crowd, as in masks of noise, boxes of their own would be as many as triangles, all over each other.
 struct Surroundings {
   BoxSet boxes;
+  std::vector<std::uint32_t> box_of;    // of each bad triangle
   std::vector<std::uint32_t> patch_of;  // of each box
 
-  Surroundings(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) : patch_of(bad.size()) {
-    for (const std::uint32_t t : bad) {
-      const double beyond = std::max(kLeastReach, reach * std::sqrt(squared_longest_edge(mesh, t)));
-      const Vec3 margin{beyond, beyond, beyond};
-      const Box3 box = box_of(mesh, t);
-      boxes.add({box.low - margin, box.high + margin});
-    }
-    DisjointSets groups(bad.size());
+  Surroundings(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) {
+    for (const Box3& box : shared_boxes(mesh, bad, reach)) boxes.add(box);
+    const auto count = static_cast<std::uint32_t>(boxes.boxes().size());
+    DisjointSets groups(count);
     std::vector<std::uint32_t> near;
-    for (std::uint32_t i = 0; i < bad.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
       boxes.for_each_meeting(boxes.boxes()[i], near, [&](std::uint32_t j) { groups.unite(i, j); });
     }
     std::uint32_t patches = 0;
-    for (std::uint32_t i = 0; i < bad.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t first = groups.find(i);  // not above i
-      patch_of[i] = first == i ? patches++ : patch_of[first];
+      patch_of.push_back(first == i ? patches++ : patch_of[first]);
     }
+  }
+
+ private:
+  std::vector<Box3> shared_boxes(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) {
+    constexpr double kCube = 1;  // mesh-space units
+    std::map<std::array<double, 3>, std::uint32_t> box_at;
+    std::vector<Box3> shared;
+    for (const std::uint32_t t : bad) {
+      const double beyond = std::max(kLeastReach, reach * std::sqrt(squared_longest_edge(mesh, t)));
+      const Vec3 margin{beyond, beyond, beyond};
+      Box3 box = deliso::box_of(mesh, t);
+      const Vec3 cube = box.low / kCube;
+      box = {box.low - margin, box.high + margin};
+      const auto [at, is_new] = box_at.try_emplace({std::floor(cube.x), std::floor(cube.y), std::floor(cube.z)},
+                                                   static_cast<std::uint32_t>(shared.size()));
+      box_of.push_back(at->second);
+      if (is_new) shared.emplace_back();
+      shared[at->second].extend(box.low);
+      shared[at->second].extend(box.high);
+    }
+    return shared;
   }
 };
 
@@ -90,12 +111,12 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
   const Surroundings around(mesh, bad, reach);
   const BoxMap map(around.boxes.boxes());
   std::vector<PatchPlan> plans;
-  for (std::uint32_t i = 0; i < bad.size(); ++i) {
+  for (std::uint32_t i = 0; i < around.patch_of.size(); ++i) {
     const std::uint32_t patch = around.patch_of[i];
     if (patch == plans.size()) plans.emplace_back();
     plans[patch].room.add(around.boxes.boxes()[i]);
-    plans[patch].bad.push_back(bad[i]);
   }
+  for (std::size_t i = 0; i < bad.size(); ++i) plans[around.patch_of[around.box_of[i]]].bad.push_back(bad[i]);
   for (const auto& [patch, t] : triangles_of_patches(mesh, around, map, surface.threads)) {
     plans[patch].triangles.push_back(t);
   }

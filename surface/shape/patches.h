@@ -17,14 +17,14 @@
 namespace deliso {
 
 struct PatchPlan {
-  BoxSet room;                           // a box around each bad triangle; boxes of different patches do not meet
+  BoxSet room;                           // boxes around the bad triangles; those of different patches do not meet
   std::vector<std::uint32_t> bad;        // triangles of the mesh
   std::vector<std::uint32_t> triangles;  // of the mesh, that meet the boxes, ascending
   std::vector<Vec3> crossings;           // of the isosurface with edges of the grid, in the boxes
 };
 
 // One patch for all bad triangles whose boxes overlap one after the other. A box reaches `reach` longest edges beyond
-// its triangle, and at least two voxels. The same for any number of threads.
+// its triangles, those that begin in one voxel, and at least two voxels. The same for any number of threads.
 std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
                                     const ExactSurface& surface);
 
