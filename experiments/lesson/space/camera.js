@@ -32,6 +32,24 @@ Lesson.Camera = class {
     this.update();
   }
 
+  // A pointer whose dragging turns the picture, half a turn across its width; `redraw` is called after each move.
+  dragging(redraw) {
+    let at = null;
+    return {
+      down: (p) => {
+        at = p;
+        return true;
+      },
+      move: (p) => {
+        const per = Math.PI / this.size;
+        this.rotate((at[0] - p[0]) * per, (at[1] - p[1]) * per);
+        at = p;
+        redraw();
+      },
+      up: () => {},
+    };
+  }
+
   toPlane(p) {
     const d = Lesson.vectors.sub(p, this.middle);
     return [Lesson.vectors.dot(d, this.right), Lesson.vectors.dot(d, this.up)];

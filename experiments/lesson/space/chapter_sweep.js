@@ -19,7 +19,7 @@ Lesson.SweepChapter = class {
       this.list.push({kind: "top", cell: c, done: cell.events.length});
     });
     this.surfaces = run.cells.map(({values}) => new Lesson.CellSurface(values));
-    this.pointer = this.turning();
+    this.pointer = this.camera.dragging(() => this.context.redraw());
   }
 
   open(context) { this.context = context; }
@@ -202,23 +202,6 @@ Lesson.SweepChapter = class {
     const done = cell.events.filter(({w}) => w < this.height).length;
     return `w = ${Lesson.numberText(this.height)}, after ${Lesson.countText(done, "event")}: ${
         this.counts(cell.below[done])}.`;
-  }
-
-  turning() {
-    let at = null;
-    return {
-      down: (p) => {
-        at = p;
-        return true;
-      },
-      move: (p) => {
-        const per = Math.PI / this.camera.size;
-        this.camera.rotate((at[0] - p[0]) * per, (at[1] - p[1]) * per);
-        at = p;
-        this.context.redraw();
-      },
-      up: () => {},
-    };
   }
 };
 

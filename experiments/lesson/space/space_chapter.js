@@ -8,7 +8,7 @@ Lesson.SpaceChapter = class {
     this.list = [];  // {kind, event}: the state after that event
     this.sliceAt = null;
     this.context = {redraw() {}, rerun() {}};
-    this.pointer = this.turning();
+    this.pointer = this.run.camera.dragging(() => this.context.redraw());
   }
 
   // The kinds of one stage: refusals of both have the same mark and the same key.
@@ -50,24 +50,6 @@ Lesson.SpaceChapter = class {
   line(step) {
     const event = this.nextEvent(step);
     return event ? this.code.lineOf(Lesson.spaceStory.kindOf(event)) : -1;
-  }
-
-  // Dragging turns the picture: half a turn across its width.
-  turning() {
-    let at = null;
-    return {
-      down: (p) => {
-        at = p;
-        return true;
-      },
-      move: (p) => {
-        const per = Math.PI / this.run.camera.size;
-        this.run.camera.rotate((at[0] - p[0]) * per, (at[1] - p[1]) * per);
-        at = p;
-        this.context.redraw();
-      },
-      up: () => {},
-    };
   }
 
   panel() { return Lesson.element("div", {}, ...this.exercises().map(Lesson.exercise), this.viewPanel()); }
