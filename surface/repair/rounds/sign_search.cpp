@@ -23,9 +23,6 @@ constexpr int kMostTrials = 16;
 constexpr std::size_t kMostTogether = 4;
 // A component that lacks more than this (Euler characteristic) is left to the next round: trials would not mend it.
 constexpr int kMostLacking = 2 * kMostTrials;
-// A mesh that lessens the error by less than this share of it ends the trials: where very much is wrong, the next round
-// mends more in the same time.
-constexpr std::int64_t kLeastShare = 64;
 // Cells along the side of a block of cells.
 constexpr std::int32_t kBlock = 16;
 
@@ -150,8 +147,7 @@ std::vector<SignSearch::Queue> SignSearch::queues(const MatchedMesh& mesh, const
 void SignSearch::mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>& done, const Improved& improved,
                       Controls& controls) {
   std::vector<Queue> queues = this->queues(*mesh, done);
-  for (std::int64_t gained = 0, least = 0; gained >= least && !controls.poll();) {
-    const std::int64_t error = mesh->match.error;
+  while (!controls.poll()) {
     const TetSigns signs = round_.restricted().signs();
     const std::vector<Flip> tried = next_flips(*mesh, done, queues);
     if (tried.empty()) return;
@@ -171,8 +167,6 @@ void SignSearch::mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>
       flips = std::move(helpful);
     }
     put_back(tried, flips, queues);
-    gained = error - mesh->match.error;
-    least = error / kLeastShare;
   }
 }
 
@@ -199,7 +193,7 @@ void SignSearch::append_flips(const MatchedMesh& mesh, std::size_t number, Queue
     if (change != 0) {
       if (std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return touched.contains(v); })) return;
       touched.insert(vertices.begin(), vertices.end());
-      flips.push_back({number, queue.component, t});
+      flips.push_back({number, queue.component, t, change});
       lacks -= change;
       ++queue.trials;
     }
@@ -232,8 +226,8 @@ std::shared_ptr<MatchedMesh> SignSearch::flipped(const std::vector<Flip>& flips,
   return trial ? std::make_shared<MatchedMesh>(*std::move(trial)) : nullptr;
 }
 
-// The flips whose component comes nearer to its topology, while that and the components at its flips are together no
-// worse.
+// The flips whose component comes nearer to its topology, several by half of what they should bring at least, while
+// that and the components at its flips are together no worse.
 std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
                                                      const MatchedMesh& trial) const {
   const SignedDelaunay& restricted = round_.restricted();
@@ -243,7 +237,9 @@ std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& fl
     const std::uint32_t component = first->component;
     const auto last = std::find_if(first, flips.end(), [&](const Flip& flip) { return flip.component != component; });
     std::set<std::uint32_t> met = {component};
+    std::int64_t hoped = 0;
     for (auto flip = first; flip != last; ++flip) {
+      hoped += std::abs(flip->change);
       for (const VertexId v : restricted.delaunay().vertices(flip->tet)) {
         if (!restricted.is_virtual(v)) met.insert(round_.component_of_vertex()[v.index()]);
       }
@@ -251,7 +247,8 @@ std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& fl
     met.erase(kNoComponent);
     std::int64_t change = 0;
     for (const std::uint32_t c : met) change += errors_now[c] - errors_before[c];
-    if (change <= 0 && amount(missing(trial, component)) < amount(missing(before, component))) {
+    const std::int64_t gained = amount(missing(before, component)) - amount(missing(trial, component));
+    if (change <= 0 && gained > 0 && (last - first == 1 || 2 * gained >= hoped)) {
       helpful.insert(helpful.end(), first, last);
     }
     first = last;

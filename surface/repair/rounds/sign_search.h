@@ -51,6 +51,7 @@ class SignSearch {
     std::size_t queue;
     std::uint32_t component;
     TetId tet;
+    std::int64_t change;  // of the Euler characteristic, if it were flipped alone
   };
   [[nodiscard]] std::vector<Queue> queues(const MatchedMesh& mesh, const std::vector<bool>& done) const;
   std::vector<Flip> next_flips(const MatchedMesh& mesh, const std::vector<bool>& done, std::vector<Queue>& queues);
