@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "delaunay/base/check.h"
+#include "surface/extract/edge_positions.h"
 
 namespace deliso {
 
@@ -44,7 +45,6 @@ class MeshBuilder {
   void make_room(std::size_t edges);
 
   [[nodiscard]] TriangleSide find_side(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const;
-  [[nodiscard]] std::vector<Vec3> places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const;
   Copy subdivide(TriangleSide side);
   std::pair<TriangleSide, TriangleSide> split_triangle(TriangleSide side, std::uint32_t m);
   void link(TriangleSide a, TriangleSide b);
@@ -171,41 +171,15 @@ TriangleSide MeshBuilder::find_side(std::uint32_t triangle, std::uint32_t a, std
   return kNoSide;
 }
 
-// Candidate positions for a vertex on an edge, near the surface. First the hits along the triangles' common normal or
-// down the gradient, from the middle of the edge to near its ends; then hits where the surface has the opposite
-// orientation; last the midpoint itself.
-std::vector<Vec3> MeshBuilder::places_on(const Vec3& a, const Vec3& b, const Vec3& normal) const {
-  const Isosurface& isosurface = restricted_.isosurface();
-  const Box3& box = isosurface.box();
-  std::vector<Vec3> places;
-  SearchCounters ignored;
-  for (const double facing : {1.0, -1.0}) {
-    for (const double weight : {0.5, 0.3, 0.7, 0.15, 0.85, 0.05, 0.95, 0.01, 0.99, 0.002, 0.998}) {
-      const Vec3 from = a + weight * (b - a);
-      for (Vec3 direction : {facing * normal, -facing * isosurface.gradient(from)}) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {  // a vertex on an edge in a face of the box stays in that face
-          if (a[axis] == b[axis] && (a[axis] == box.low[axis] || a[axis] == box.high[axis])) direction[axis] = 0;
-        }
-        if (!(norm(direction) > 0)) continue;
-        const Line line{from, direction / norm(direction)};
-        const auto hit = isosurface.nearest_falling_hit(line, distance(a, b), ignored);
-        if (hit && box.contains(line.at(*hit))) places.push_back(line.at(*hit));
-      }
-    }
-  }
-  places.push_back(0.5 * (a + b));
-  return places;
-}
-
 Copy MeshBuilder::subdivide(TriangleSide side) {
   const std::uint32_t t = side >> 2;
   const std::uint32_t a = mesh_.triangles[t][((side & 3u) + 1) % 3];
   const std::uint32_t b = mesh_.triangles[t][((side & 3u) + 2) % 3];
   const TriangleSide across = mesh_.neighbours[t][side & 3u];
   const Vec3 normal = normal_of(t) + (across == kNoSide ? Vec3{} : normal_of(across >> 2));
-  const std::vector<Vec3> places = places_on(mesh_.points[a], mesh_.points[b], normal);
+  const SubdividedEdge edge{mesh_.points[a], mesh_.points[b], normal};
   const auto m = static_cast<std::uint32_t>(mesh_.points.size());
-  mesh_.points.push_back(places.front());
+  mesh_.points.push_back(positions_on(edge, restricted_.isosurface(), 1).front());
   built_.vertex_of.push_back(built_.vertex_of[a]);
 
   const auto [to_middle, from_middle] = split_triangle(side, m);
@@ -214,7 +188,7 @@ Copy MeshBuilder::subdivide(TriangleSide side) {
     link(to_middle, back_from_middle);
     link(from_middle, back_to_middle);
   }
-  return {m, {places.begin() + 1, places.end()}, true};
+  return {m, {}, true, edge};
 }
 
 // Splits the triangle (c, a, b) at m on its side ab into (c, a, m), which takes its slot, and (c, m, b), which is
@@ -260,7 +234,7 @@ void MeshBuilder::group_copies() {
     const bool continues = built_.groups.size() > subdivided &&
                            built_.vertex_of[built_.groups.back().back().vertex] == built_.vertex_of[copy];
     if (!continues) built_.groups.emplace_back();
-    built_.groups.back().push_back({copy, {}, false});
+    built_.groups.back().push_back({copy, {}, false, {}});
   }
 }
 

@@ -14,12 +14,19 @@ namespace deliso {
 // Copies move less than this from their own position (mesh-space units).
 inline constexpr double kPinchSeparation = 9e-4;
 
-// A mesh vertex that shares its position, or nearly, with others; and other positions that it may start from, best
-// first. With has_position_off_surface the last of these may lie off the surface, because no better one was found.
+// An edge subdivided in each of the pairs of triangles that share it, and the common normal of the pair.
+struct SubdividedEdge {
+  Vec3 from, to;
+  Vec3 normal;
+};
+
+// A mesh vertex that shares its position, or nearly, with others. One on a subdivided edge has other positions that it
+// may start from (edge_positions.h); the last of these may lie off the surface, because no better one was found.
 struct Copy {
   std::uint32_t vertex = 0;
-  std::vector<Vec3> other_positions;
-  bool has_position_off_surface = false;
+  std::vector<Vec3> other_positions = {};  // best first; empty until find_other_positions() was called
+  bool is_on_edge = false;
+  SubdividedEdge edge = {};  // if it is on one
 };
 using PinchGroup = std::vector<Copy>;
 

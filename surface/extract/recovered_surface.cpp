@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "surface/extract/build_triangle_mesh.h"
+#include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/signs_from_facets.h"
@@ -27,6 +28,7 @@ void UnrepairedSurface::compute_poles() {
 SurfaceMesh UnrepairedSurface::build_triangle_mesh() {
   if (!bounds_a_solid_) return facets_alone(*restricted_);
   BuiltMesh built = deliso::build_triangle_mesh(*restricted_);
+  find_other_positions(built.groups, restricted_->isosurface());
   separate_pinches(built.mesh, built.groups, built.vertex_of, restricted_->isosurface().box());
   for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(pole_heights_[v.index()]);
   return std::move(built.mesh);

@@ -183,7 +183,7 @@ bool Repair::ends_without_foreign_vertices() {
 // Assembles the components, each from the latest mesh that agrees with it. Returns whether every component has such a
 // mesh.
 bool Repair::assemble() {
-  result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface.box(), surface_.threads, stats_);
+  result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface, surface_.threads, stats_);
   return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
 }
 

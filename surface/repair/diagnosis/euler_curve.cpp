@@ -15,6 +15,30 @@ constexpr std::int64_t kLasting = 6;
 // How far levels may exceed those of the start and the end.
 constexpr std::int64_t kSlack = 1;
 
+// The cheapest way to a level at a layer, over any level at the layer before.
+struct Step {
+  std::int64_t cost = 0;
+  std::uint32_t from = 0;
+};
+
+// Of each level: the least cost of coming there, kLasting for each jump by one included; of equal ones the lowest level
+// that it comes from. Nearer levels are passed on the way from farther ones, so two passes over the levels find it.
+std::vector<Step> cheapest_steps(const std::vector<std::int64_t>& cost) {
+  std::vector<Step> steps(cost.size());
+  for (std::uint32_t to = 0; to < cost.size(); ++to) {
+    steps[to] = {cost[to], to};
+    if (to > 0 && steps[to - 1].cost + kLasting <= cost[to])
+      steps[to] = {steps[to - 1].cost + kLasting, steps[to - 1].from};
+  }
+  Step above{cost.back(), static_cast<std::uint32_t>(cost.size() - 1)};
+  for (std::size_t to = cost.size() - 1; to-- > 0;) {
+    above.cost += kLasting;
+    if (cost[to] <= above.cost) above = {cost[to], static_cast<std::uint32_t>(to)};
+    if (above.cost < steps[to].cost) steps[to] = above;
+  }
+  return steps;
+}
+
 // The jumps of the piecewise constant function, from 0 to the last value, that fits `gap` best. Dynamic programming
 // over (layer, level); the cost is the sum of the deviations plus kLasting for each jump by one.
 std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
@@ -23,25 +47,19 @@ std::vector<std::int32_t> lasting_jumps(const std::vector<std::int64_t>& gap) {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 4;
   std::vector<std::int64_t> cost(levels, kNever);
   cost[static_cast<std::size_t>(-low)] = 0;
-  std::vector<std::vector<std::size_t>> from(gap.size(), std::vector<std::size_t>(levels));
-  for (std::size_t i = 0; i < gap.size(); ++i) {
-    std::vector<std::int64_t> next(levels, kNever);
+  std::vector<std::vector<Step>> steps;
+  steps.reserve(gap.size());
+  for (const std::int64_t value : gap) {
+    const std::vector<Step>& last = steps.emplace_back(cheapest_steps(cost));
     for (std::size_t to = 0; to < levels; ++to) {
-      for (std::size_t level = 0; level < levels; ++level) {
-        const auto jump = static_cast<std::int64_t>(level > to ? level - to : to - level);
-        if (cost[level] + kLasting * jump >= next[to]) continue;
-        next[to] = cost[level] + kLasting * jump;
-        from[i][to] = level;
-      }
-      next[to] += std::abs(gap[i] - (low + static_cast<std::int64_t>(to)));
+      cost[to] = last[to].cost + std::abs(value - (low + static_cast<std::int64_t>(to)));
     }
-    cost = std::move(next);
   }
   std::vector<std::int32_t> jumps;
   auto level = static_cast<std::size_t>(gap.back() - low);
   for (std::size_t i = gap.size(); i-- > 0;) {
-    if (from[i][level] != level) jumps.push_back(static_cast<std::int32_t>(i));
-    level = from[i][level];
+    if (steps[i][level].from != level) jumps.push_back(static_cast<std::int32_t>(i));
+    level = steps[i][level].from;
   }
   std::reverse(jumps.begin(), jumps.end());
   return jumps;

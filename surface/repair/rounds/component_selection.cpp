@@ -1,11 +1,13 @@
 #include "surface/repair/rounds/component_selection.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/parallel.h"
 #include "surface/certificate/mesh_pieces.h"
+#include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
@@ -67,13 +69,13 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
 // The positions on the surface of those copies that also have a position off the surface.
 class PositionsOnSurface {
  public:
-  // Precondition: every copy is still at its own position.
-  explicit PositionsOnSurface(const BuiltMesh& built) {
-    for (const PinchGroup& group : built.groups) {
+  // Precondition: every copy of `mesh` is still at its own position, and the others have been found.
+  PositionsOnSurface(const SurfaceMesh& mesh, std::span<const PinchGroup> groups) {
+    for (const PinchGroup& group : groups) {
       for (const Copy& copy : group) {
-        if (!copy.has_position_off_surface) continue;
+        if (!copy.is_on_edge) continue;
         std::vector<Vec3> positions = copy.other_positions;
-        positions.insert(positions.begin(), built.mesh.points[copy.vertex]);
+        positions.insert(positions.begin(), mesh.points[copy.vertex]);
         positions.pop_back();
         positions_.emplace_back(copy.vertex, std::move(positions));
       }
@@ -209,7 +211,7 @@ void ComponentSelection::give_poles(RepairRound& round) {
   round.set_signs(signs);
 }
 
-AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& box, int threads,
+AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosurface& isosurface, int threads,
                                            RepairStats& stats) const {
   left.assign(done_.size(), true);
   stats.components_mixed = stats.components_stray = 0;
@@ -232,8 +234,11 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Box3& 
       return piece_of[v] != kNoPiece && wanted[piece_of[v]];
     };
     given[i] = {built.mesh, component, match.piece_of};
-    separate_pinches(given[i].mesh, built.groups, built.vertex_of, box, is_wanted);
-    std::vector<std::uint32_t> off_surface = PositionsOnSurface(built).copies_away_from_all(given[i].mesh.points);
+    std::vector<PinchGroup> groups = built.groups;
+    find_other_positions(groups, isosurface);
+    separate_pinches(given[i].mesh, groups, built.vertex_of, isosurface.box(), is_wanted);
+    std::vector<std::uint32_t> off_surface =
+        PositionsOnSurface(built.mesh, groups).copies_away_from_all(given[i].mesh.points);
     std::erase_if(off_surface, [&](std::uint32_t v) { return !is_wanted(v); });
     given[i].take_out(off_surface, wanted[i]);
   });

@@ -44,7 +44,7 @@ class ComponentSelection {
   // Takes every component from the latest mesh that agrees with it best. A copy of a vertex that is near none of its
   // positions on the surface is removed. A component is `left` if no mesh has it completely, or if such a copy cannot
   // be removed. Precondition: the meshes have pole heights.
-  AssembledMesh assemble(std::vector<bool>& left, const Box3& box, int threads, RepairStats& stats) const;
+  AssembledMesh assemble(std::vector<bool>& left, const Isosurface& isosurface, int threads, RepairStats& stats) const;
 
  private:
   struct KeptMesh {

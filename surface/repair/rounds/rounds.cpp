@@ -8,6 +8,7 @@
 #include "delaunay/base/parallel.h"
 #include "surface/base/observer.h"
 #include "surface/certificate/mesh_pieces.h"
+#include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
@@ -113,6 +114,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
 // The latest mesh with its pinches separated, and the pole heights for the present samples.
 SurfaceMesh RepairRounds::unrepaired_mesh() {
   BuiltMesh built = mesh_->built;
+  find_other_positions(built.groups, surface_.isosurface);
   separate_pinches(built.mesh, built.groups, built.vertex_of, surface_.isosurface.box());
   const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
   for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);

@@ -18,8 +18,9 @@ namespace {
 
 // Tetrahedra within this many layers of the boxes are tried.
 constexpr std::int32_t kReach = 3;
-// How many tetrahedra of a component are tried, at most.
+// How many tetrahedra of a component are tried, at most, and how many of them with one mesh.
 constexpr int kMostTrials = 16;
+constexpr std::size_t kMostTogether = 4;
 // A component that lacks more than this (Euler characteristic) is left to the next round: trials would not mend it.
 constexpr int kMostLacking = 2 * kMostTrials;
 // Cells along the side of a block of cells.
@@ -114,7 +115,7 @@ std::vector<SignSearch::Queue> SignSearch::queues(const MatchedMesh& mesh, const
     const std::int64_t lacks = std::abs(missing(mesh, c).euler_characteristic);
     if (done[c] || likely.empty() || lacks == 0 || lacks > kMostLacking) continue;
     add_boxes(likely, static_cast<std::uint32_t>(queues.size()), cells_, owners);
-    queues.push_back({c, {}, 0, 0});
+    queues.push_back({c, {}});
     distances.emplace_back(likely, cells_.dims(), kReach);
   }
   if (queues.empty()) return queues;
@@ -148,12 +149,13 @@ void SignSearch::mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>
   std::vector<Queue> queues = this->queues(*mesh, done);
   while (!controls.poll()) {
     const TetSigns signs = round_.restricted().signs();
-    std::vector<Flip> flips = next_flips(*mesh, done, queues);
-    if (flips.empty()) return;
+    const std::vector<Flip> tried = next_flips(*mesh, done, queues);
+    if (tried.empty()) return;
+    std::vector<Flip> flips = tried;
     // Those that help are tried once more without the others.
     while (!flips.empty()) {
       const std::shared_ptr<MatchedMesh> trial = flipped(flips, *mesh);
-      const std::vector<Flip> helpful = trial ? helpful_of(flips, *mesh, *trial) : std::vector<Flip>();
+      std::vector<Flip> helpful = trial ? helpful_of(flips, *mesh, *trial) : std::vector<Flip>();
       const bool all_help = helpful.size() == flips.size();
       if (all_help && trial->match.error <= mesh->match.error) {
         mesh = trial;
@@ -161,25 +163,56 @@ void SignSearch::mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>
         break;
       }
       round_.set_signs(signs);
-      if (all_help) break;
-      flips = helpful;
+      if (all_help) helpful.clear();
+      flips = std::move(helpful);
     }
+    put_back(tried, flips, queues);
   }
 }
 
-// The next tetrahedron of each queue that is worth trying.
+// The next tetrahedra of each queue that are worth trying.
 std::vector<SignSearch::Flip> SignSearch::next_flips(const MatchedMesh& mesh, const std::vector<bool>& done,
                                                      std::vector<Queue>& queues) {
   std::vector<Flip> flips;
-  for (Queue& queue : queues) {
-    const ComponentTopology lacks = missing(mesh, queue.component);
-    if (done[queue.component] || lacks.euler_characteristic == 0 || queue.trials == kMostTrials) continue;
-    while (queue.next < queue.tets.size() && !is_worth_trying(queue.tets[queue.next], lacks)) ++queue.next;
-    if (queue.next == queue.tets.size()) continue;
-    ++queue.trials;
-    flips.push_back({queue.component, queue.tets[queue.next++]});
+  for (std::size_t i = 0; i < queues.size(); ++i) {
+    if (!done[queues[i].component]) append_flips(mesh, i, queues[i], flips);
   }
   return flips;
+}
+
+// Tetrahedra of a queue that do not touch each other, so that their changes add up, to at most what is missing.
+void SignSearch::append_flips(const MatchedMesh& mesh, std::size_t number, Queue& queue, std::vector<Flip>& flips) {
+  std::int64_t lacks = missing(mesh, queue.component).euler_characteristic;
+  std::set<VertexId> touched;
+  const std::size_t first = flips.size();
+  queue.tried_from = queue.next;
+  while (queue.next < queue.tets.size() && lacks != 0 && queue.trials < kMostTrials) {
+    const TetId t = queue.tets[queue.next];
+    const std::int64_t change = useful_change(t, lacks);
+    const auto& vertices = round_.restricted().delaunay().vertices(t);
+    if (change != 0) {
+      if (std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return touched.contains(v); })) return;
+      touched.insert(vertices.begin(), vertices.end());
+      flips.push_back({number, queue.component, t, change});
+      lacks -= change;
+      ++queue.trials;
+    }
+    ++queue.next;
+    if (flips.size() - first == (queue.one_by_one ? 1 : kMostTogether)) return;
+  }
+}
+
+// Has those tried one by one that did not help together.
+void SignSearch::put_back(const std::vector<Flip>& tried, const std::vector<Flip>& kept, std::vector<Queue>& queues) {
+  std::vector<int> refused(queues.size(), 0);
+  for (const Flip& flip : tried) ++refused[flip.queue];
+  for (const Flip& flip : kept) refused[flip.queue] = 0;
+  for (std::size_t i = 0; i < queues.size(); ++i) {
+    if (refused[i] < 2) continue;
+    queues[i].next = queues[i].tried_from;
+    queues[i].trials -= refused[i];
+    queues[i].one_by_one = true;
+  }
 }
 
 // The mesh with some signs flipped. Nothing if none of these flips helps.
@@ -193,35 +226,45 @@ std::shared_ptr<MatchedMesh> SignSearch::flipped(const std::vector<Flip>& flips,
   return trial ? std::make_shared<MatchedMesh>(*std::move(trial)) : nullptr;
 }
 
-// The flips whose component comes nearer to its topology, while that and the components at the tetrahedron are together
-// no worse.
+// The flips whose component comes nearer to its topology, several by half of what they should bring at least, while
+// that and the components at its flips are together no worse.
 std::vector<SignSearch::Flip> SignSearch::helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
                                                      const MatchedMesh& trial) const {
   const SignedDelaunay& restricted = round_.restricted();
   const std::vector<std::int64_t> errors_before = errors(before), errors_now = errors(trial);
   std::vector<Flip> helpful;
-  for (const Flip& flip : flips) {
-    if (amount(missing(trial, flip.component)) >= amount(missing(before, flip.component))) continue;
-    std::set<std::uint32_t> met = {flip.component};
-    for (const VertexId v : restricted.delaunay().vertices(flip.tet)) {
-      if (!restricted.is_virtual(v)) met.insert(round_.component_of_vertex()[v.index()]);
+  for (auto first = flips.begin(); first != flips.end();) {
+    const std::uint32_t component = first->component;
+    const auto last = std::find_if(first, flips.end(), [&](const Flip& flip) { return flip.component != component; });
+    std::set<std::uint32_t> met = {component};
+    std::int64_t hoped = 0;
+    for (auto flip = first; flip != last; ++flip) {
+      hoped += std::abs(flip->change);
+      for (const VertexId v : restricted.delaunay().vertices(flip->tet)) {
+        if (!restricted.is_virtual(v)) met.insert(round_.component_of_vertex()[v.index()]);
+      }
     }
     met.erase(kNoComponent);
     std::int64_t change = 0;
     for (const std::uint32_t c : met) change += errors_now[c] - errors_before[c];
-    if (change <= 0) helpful.push_back(flip);
+    const std::int64_t gained = amount(missing(before, component)) - amount(missing(trial, component));
+    if (change <= 0 && gained > 0 && (last - first == 1 || 2 * gained >= hoped)) {
+      helpful.insert(helpful.end(), first, last);
+    }
+    first = last;
   }
   return helpful;
 }
 
-// Whether a flip changes the Euler characteristic in the right direction, by no more than what is missing. A larger
-// change is allowed where the tetrahedron touches the box, because it may correct the boundary loops.
-bool SignSearch::is_worth_trying(TetId t, const ComponentTopology& lacks) {
-  if (!has_neighbour_of_other_sign(round_.restricted(), t)) return false;
+// The change of the Euler characteristic by a flip, if it is in the right direction and no more than what is missing; 0
+// otherwise. A larger change is allowed where the tetrahedron touches the box, because it may correct the boundary
+// loops.
+std::int64_t SignSearch::useful_change(TetId t, std::int64_t lacks) {
+  if (!has_neighbour_of_other_sign(round_.restricted(), t)) return 0;
   const std::int64_t change = round_.euler_change(t);
-  if (change == 0 || (change > 0) != (lacks.euler_characteristic > 0)) return false;
-  const bool comes_nearer = std::abs(lacks.euler_characteristic - change) < std::abs(lacks.euler_characteristic);
-  return comes_nearer || touches_box(round_.restricted(), t);
+  if (change == 0 || (change > 0) != (lacks > 0)) return 0;
+  const bool comes_nearer = std::abs(lacks - change) < std::abs(lacks);
+  return comes_nearer || touches_box(round_.restricted(), t) ? change : 0;
 }
 
 }  // namespace deliso

@@ -29,9 +29,10 @@ class SignSearch {
 
   // Called with a mesh that is better than the one before; the round's signs are those of this mesh.
   using Improved = std::function<void(std::shared_ptr<MatchedMesh>)>;
-  // Tries flips near the likely boxes of the components that are not done and lack little; one tetrahedron of each of
-  // these components at a time, all with one mesh. `mesh` is the mesh of the round's present signs; afterwards the signs
-  // are those of the best mesh. `done`: of each component; may change while improved() is called.
+  // Tries flips near the likely boxes of the components that are not done and lack little; a few tetrahedra of each of
+  // these components at a time, all with one mesh, and one by one where a few together did not help. `mesh` is the mesh
+  // of the round's present signs; afterwards the signs are those of the best mesh. `done`: of each component; may
+  // change while improved() is called.
   void mend(std::shared_ptr<MatchedMesh> mesh, const std::vector<bool>& done, const Improved& improved,
             Controls& controls);
 
@@ -40,21 +41,27 @@ class SignSearch {
   struct Queue {
     std::uint32_t component;
     std::vector<TetId> tets;
-    std::size_t next;
-    int trials;
+    std::size_t next = 0;
+    std::size_t tried_from = 0;  // where the tetrahedra tried last begin
+    int trials = 0;
+    bool one_by_one = false;  // a few together did not help
   };
   // A tetrahedron whose sign is flipped for the sake of a component.
   struct Flip {
+    std::size_t queue;
     std::uint32_t component;
     TetId tet;
+    std::int64_t change;  // of the Euler characteristic, if it were flipped alone
   };
   [[nodiscard]] std::vector<Queue> queues(const MatchedMesh& mesh, const std::vector<bool>& done) const;
   std::vector<Flip> next_flips(const MatchedMesh& mesh, const std::vector<bool>& done, std::vector<Queue>& queues);
+  void append_flips(const MatchedMesh& mesh, std::size_t number, Queue& queue, std::vector<Flip>& flips);
+  static void put_back(const std::vector<Flip>& tried, const std::vector<Flip>& kept, std::vector<Queue>& queues);
   std::shared_ptr<MatchedMesh> flipped(const std::vector<Flip>& flips, const MatchedMesh& before);
   [[nodiscard]] std::vector<Flip> helpful_of(const std::vector<Flip>& flips, const MatchedMesh& before,
                                              const MatchedMesh& trial) const;
   [[nodiscard]] std::vector<std::int64_t> errors(const MatchedMesh& mesh) const;
-  [[nodiscard]] bool is_worth_trying(TetId t, const ComponentTopology& lacks);
+  [[nodiscard]] std::int64_t useful_change(TetId t, std::int64_t lacks);
   [[nodiscard]] ComponentTopology missing(const MatchedMesh& mesh, std::uint32_t component) const;
 
   RepairRound& round_;

@@ -40,12 +40,16 @@ class Collector {
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
   void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
+  [[nodiscard]] bool passes_at_once(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b) const;
   TetId note(const Vec3& p, std::uint8_t side);
-  // A corner of the current cell; each is located once.
+  // A corner of the current cell; each is located once, from a corner that an edge joins to it.
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
     TetId& at = at_corner_[corner];
-    if (at.is_none()) at = note(position(cell, corner_position(corner)), side);
-    return hint_ = at;
+    if (!at.is_none()) return at;
+    for (unsigned axis = 1; axis <= 4; axis *= 2) {
+      if (const TetId near = at_corner_[corner ^ axis]; !near.is_none()) hint_ = near;
+    }
+    return at = note(position(cell, corner_position(corner)), side);
   }
   void note_located(const Vec3& p, std::uint8_t side);
   // Several collectors may call this at the same time; the result does not depend on the order.
@@ -120,13 +124,32 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
   }
 }
 
-// Halves the segment until both ends lie in one tetrahedron, and notes the middle points.
+// Halves the segment until both ends lie in one tetrahedron, or in two with a facet in between through which it passes,
+// and notes the middle points.
 void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
-  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest) return;
+  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest || passes_at_once(a, at_a, b, at_b)) return;
   const Vec3 middle = 0.5 * (a + b);
   const TetId at_middle = note(middle, side);
   follow(a, at_a, middle, at_middle, side);
   follow(middle, at_middle, b, at_b, side);
+}
+
+// Whether the segment passes from one tetrahedron to the other through the interior of their common facet. Both are
+// convex, so it meets no other one. On the box, where ghosts count as well, it is not asked.
+bool Collector::passes_at_once(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b) const {
+  if (delaunay_.is_ghost(at_a) || delaunay_.is_ghost(at_b)) return false;
+  const Box3& box = restricted_.isosurface().box();
+  if (SignedDelaunay::on_box(box, a) || SignedDelaunay::on_box(box, b)) return false;
+  for (unsigned face = 0; face < 4; ++face) {
+    if (delaunay_.neighbour(at_a, face) != at_b) continue;
+    const auto [p, q, r] = delaunay_.facet_vertices(FacetId(at_a, face));
+    const auto turn = [&](VertexId from, VertexId to) {
+      return orient3d(a, b, delaunay_.point(from), delaunay_.point(to));
+    };
+    const double pq = turn(p, q), qr = turn(q, r), rp = turn(r, p);
+    return (pq > 0 && qr > 0 && rp > 0) || (pq < 0 && qr < 0 && rp < 0);
+  }
+  return false;
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {

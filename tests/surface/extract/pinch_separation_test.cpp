@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "surface/extract/build_triangle_mesh.h"
+#include "surface/extract/edge_positions.h"
 #include "surface/intersection/self_intersection.h"
 #include "tests/support/surface_fields.h"
 
@@ -80,7 +81,8 @@ TEST(PinchSeparation, WhatIsWantedMovesAsIfAllWere) {
   int stayed = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto scene = testing::noise_scene({8, 7, 6}, seed);
-    const BuiltMesh built = build_triangle_mesh(testing::dense(*scene));
+    BuiltMesh built = build_triangle_mesh(testing::dense(*scene));
+    find_other_positions(built.groups, *scene->isosurface);
     const auto is_wanted = [&](std::uint32_t v) { return built.mesh.points[v].x < 2; };
     SurfaceMesh all = built.mesh;
     separate_pinches(all, built.groups, built.vertex_of, scene->isosurface->box());

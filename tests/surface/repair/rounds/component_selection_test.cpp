@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
@@ -74,8 +75,10 @@ std::vector<std::uint32_t> copies_off_surface(const BuiltMesh& built, const std:
                                               const std::function<bool(std::uint32_t)>& is_wanted) {
   std::vector<std::uint32_t> found;
   for (const PinchGroup& group : built.groups) {
-    for (const auto& [v, others, has_position_off_surface] : group) {
-      if (!has_position_off_surface || !is_wanted(v)) continue;
+    for (const Copy& copy : group) {
+      if (!copy.is_on_edge || !is_wanted(copy.vertex)) continue;
+      const std::uint32_t v = copy.vertex;
+      const std::vector<Vec3>& others = copy.other_positions;
       double nearest = others.empty() ? 1 : distance(built.mesh.points[v], before[v]);
       for (std::size_t i = 0; i + 1 < others.size(); ++i) {
         nearest = std::min(nearest, distance(built.mesh.points[v], others[i]));
@@ -132,6 +135,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       for (const VertexId v : mesh.built.vertex_of) mesh.built.mesh.pole_heights.push_back(heights[v.index()]);
       const auto is_wanted = [&](std::uint32_t v) { return mesh.match.piece_of[v] == mesh.match.main_piece[c]; };
       const std::vector<Vec3> before = mesh.built.mesh.points;
+      find_other_positions(mesh.built.groups, *scene->isosurface);
       separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
       if (const auto off = copies_off_surface(mesh.built, before, is_wanted); !off.empty()) {
@@ -158,7 +162,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       SCOPED_TRACE(threads);
       std::vector<bool> left;
       RepairStats stats;
-      const AssembledMesh assembled = kept.assemble(left, box, threads, stats);
+      const AssembledMesh assembled = kept.assemble(left, *scene->isosurface, threads, stats);
       std::vector<PlacedTriangle> found;
       append_pieces_placed(
           assembled.mesh, [](std::uint32_t) { return true; }, found);
@@ -174,7 +178,6 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
 // A reopened component is taken only from later meshes.
 TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   const auto scene = blobs(1);
-  const Box3& box = scene->isosurface->box();
   const std::size_t components = scene->topology.components.size();
   Attempts attempts(*scene, 1);
   std::vector<bool> left;
@@ -182,7 +185,7 @@ TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
   ComponentSelection kept(components);
   kept.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
   kept.give_poles(attempts.round);
-  const AssembledMesh before = kept.assemble(left, box, 1, stats);
+  const AssembledMesh before = kept.assemble(left, *scene->isosurface, 1, stats);
   std::size_t reopened = 0;
   for (std::uint32_t c = 0; c < components; ++c) {
     const bool is_right = attempts.meshes[0].match.agreement[c] >= Agreement::kWithStrays;
@@ -193,14 +196,14 @@ TEST(ComponentSelection, GiveAReopenedComponentOnlyOnceItHasBeenMended) {
     EXPECT_FALSE(again.done()[c]);
     EXPECT_FALSE(again.is_done_but_for_mixing());
     std::vector<bool> lacks;
-    again.assemble(lacks, box, 1, stats);
+    again.assemble(lacks, *scene->isosurface, 1, stats);
     std::vector<bool> expected = left;
     expected[c] = true;
     EXPECT_EQ(lacks, expected);
     again.keep(std::make_shared<MatchedMesh>(attempts.meshes[0]), attempts.signs[0]);
     again.give_poles(attempts.round);
     EXPECT_TRUE(again.done()[c]);
-    EXPECT_EQ(again.assemble(lacks, box, 1, stats).mesh.points.size(), before.mesh.points.size());
+    EXPECT_EQ(again.assemble(lacks, *scene->isosurface, 1, stats).mesh.points.size(), before.mesh.points.size());
     EXPECT_EQ(lacks, left);
   }
   EXPECT_GT(reopened, 3u);

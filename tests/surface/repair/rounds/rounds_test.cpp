@@ -37,7 +37,7 @@ struct MendedScene {
     std::vector<bool> left;
     RepairStats ignored;
     rounds->give_poles();
-    return rounds->selection().assemble(left, scene->isosurface->box(), 1, ignored);
+    return rounds->selection().assemble(left, *scene->isosurface, 1, ignored);
   }
   // Vertices within a voxel and a half of the first of some crossings.
   [[nodiscard]] std::int64_t vertices_near(const std::vector<std::uint32_t>& crossings) {
