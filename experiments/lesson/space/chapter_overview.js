@@ -14,10 +14,13 @@ Lesson.OverviewChapter = class {
 
   redraw() { this.drawn?.forEach(([event, canvas]) => this.draw(event, canvas)); }
 
+  // Another one than the chapters go through, so that the reader does not wait for it there.
+  replayAt(event) { return event < this.run.meshAt ? this.run.searching.goTo(event) : this.run.at(event); }
+
   whatItIs(event) {
     const {run} = this;
-    const replay = run.at(event);
-    const its = replay.mesh ? Lesson.complexOf([...replay.mesh.triangles.values()]) : run.complex(event);
+    const replay = this.replayAt(event);
+    const its = replay.mesh ? Lesson.complexOf([...replay.mesh.triangles.values()]) : run.complex(event, run.searching);
     const points = replay.mesh ? replay.mesh.points.length : replay.points.length;
     return {...its, points};
   }
@@ -25,7 +28,7 @@ Lesson.OverviewChapter = class {
   draw(event, canvas) {
     const picture = new Lesson.SpacePicture(this.run, this.run.camera, new Set([1, 2, 5]));
     picture.context(null);
-    const replay = this.run.at(event);
+    const replay = this.replayAt(event);
     if (replay.mesh)
       picture.mesh(replay.mesh);
     else
@@ -57,7 +60,7 @@ Lesson.OverviewChapter = class {
     places[1][2].append(element("h2", {}, places[1][1]), element("p", {class: "soft"}, "looking for it …"));
     // A long run is searched piece by piece, so that the page stays awake.
     const search = () => {
-      if (!this.run.searchHomeomorphic(performance.now() + 30)) return setTimeout(search, 0);
+      if (!this.run.searchHomeomorphic(performance.now() + 8)) return setTimeout(search, 0);
       if (this.run.firstRight < 0)
         return places[1][2].replaceChildren(
             element("h2", {}, "Recover does not make χ right"),

@@ -3,7 +3,14 @@
 Lesson.Replay = (() => {
   const byNumber = (a, b) => a - b;
   const sorted = (v) => [...v].sort(byNumber);
-  const keyOf = (v) => sorted(v).join(",");
+
+  // The key of a triangle or a tetrahedron: its corners in order. Millions are made, so they are sorted by hand.
+  const keyOf3 = (a, b, c) => {
+    if (a > b) [a, b] = [b, a];
+    if (b > c) [b, c] = [c, b];
+    return a > b ? `${b},${a},${c}` : `${a},${b},${c}`;
+  };
+  const keyOf = (v) => (v.length === 3 ? keyOf3(v[0], v[1], v[2]) : sorted(v).join(","));
   const compare = (a, b) => {
     let i = 0;
     while (i < a.length && a[i] === b[i]) ++i;
@@ -11,21 +18,40 @@ Lesson.Replay = (() => {
   };
   const facetsOf = (v) => [[v[1], v[2], v[3]], [v[0], v[2], v[3]], [v[0], v[1], v[3]], [v[0], v[1], v[2]]];
 
+  // The facets of some tetrahedra: key -> {f, count}. Those within them are there twice.
+  const facetsAround = (tets) => {
+    const found = new Map();
+    for (const v of tets) {
+      for (const f of facetsOf(v)) {
+        const key = keyOf(f);
+        const its = found.get(key);
+        if (its)
+          ++its.count;
+        else
+          found.set(key, {f, count: 1});
+      }
+    }
+    return found;
+  };
+
+  const rimIn = (around) => [...around.values()].filter(({count}) => count === 1).map(({f}) => sorted(f)).sort(compare);
+
   class Replay {
-    constructor(events) {
-      this.events = events;
+    // Of the events from `first` on; what is before it leaves no trace in their states.
+    constructor(events, first = 0) {
+      Object.assign(this, {events, before: first - 1});
       this.points = [];
       this.virtual = new Set([-1]);
       this.tets = new Map();     // key -> {v, above}
       this.sides = new Map();    // key of a facet -> the keys of the tetrahedra at it
-      this.between = new Set();  // the keys of facets whose two tetrahedra differ in sign
+      this.between = new Map();  // the facets whose two tetrahedra differ in sign: key -> corners, sorted
       this.hits = new Map();     // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
       this.found = null;         // the restricted facets, once they were asked for
       this.mesh = null;          // of stage 2: {points, triangles: key -> corners, poles}
       this.undo = [];            // of each event that is applied
     }
 
-    get position() { return this.undo.length - 1; }
+    get position() { return this.before + this.undo.length; }
 
     // The state after event n.
     goTo(n) {
@@ -56,7 +82,7 @@ Lesson.Replay = (() => {
     }
 
     begin(event) {
-      this.points = event.points.map((p) => [...p]);
+      this.points = [...event.points];
       for (const v of event.virtual) this.virtual.add(v);
       event.tets.forEach((v, i) => this.addTet(v, event.above[i] === "1"));
       for (const facet of event.facets) this.setHits(facet);
@@ -68,19 +94,12 @@ Lesson.Replay = (() => {
 
     insert(event) {
       const gone = event.gone.map((v) => this.removeTet(keyOf(v)));
-      const times = new Map();
-      for (const {v} of gone) {
-        for (const f of facetsOf(v)) {
-          const key = keyOf(f);
-          times.set(key, (times.get(key) ?? 0) + 1);
-        }
-      }
+      const around = facetsAround(event.gone);
       const changed = [];
-      for (const [key, count] of times)
+      for (const [key, {count}] of around)
         if (count === 2) changed.push(this.dropHits(key));
       this.points.push(event.p);
-      const rim = Replay.rimOf(event.gone);
-      const added = rim.map((f, i) => this.addTet([...f, event.v], event.above[i] === "1"));
+      const added = rimIn(around).map((f, i) => this.addTet([...f, event.v], event.above[i] === "1"));
       for (const facet of event.facets) changed.push(this.setHits(facet));
       return () => {
         for (const restore of changed.reverse()) restore();
@@ -127,7 +146,7 @@ Lesson.Replay = (() => {
           this.sides.set(side, [key]);
         } else {
           keys.push(key);
-          if (this.tets.get(keys[0]).above !== above) this.between.add(side);
+          if (this.tets.get(keys[0]).above !== above) this.between.set(side, sorted(f));
         }
       }
       return key;
@@ -139,12 +158,12 @@ Lesson.Replay = (() => {
       this.tets.delete(key);
       for (const f of facetsOf(tet.v)) {
         const side = keyOf(f);
-        const left = this.sides.get(side).filter((other) => other !== key);
+        const keys = this.sides.get(side);
         this.between.delete(side);
-        if (left.length)
-          this.sides.set(side, left);
-        else
+        if (keys.length === 1)
           this.sides.delete(side);
+        else
+          this.sides.set(side, [keys[keys[0] === key ? 1 : 0]]);
       }
       return tet;
     }
@@ -175,25 +194,13 @@ Lesson.Replay = (() => {
 
     findRestricted() {
       const found = [];
-      for (const key of this.between) {
-        const v = key.split(",").map(Number);
+      for (const v of this.between.values())
         if (!v.some((corner) => this.isVirtual(corner))) found.push(v);
-      }
       return found.sort(compare);
     }
 
     // The facets around some tetrahedra, each sorted, all sorted: the order of `above` in a trace.
-    static rimOf(tets) {
-      const times = new Map();
-      for (const v of tets) {
-        for (const f of facetsOf(v)) {
-          const facet = sorted(f);
-          const key = facet.join(",");
-          times.set(key, {facet, count: (times.get(key)?.count ?? 0) + 1});
-        }
-      }
-      return [...times.values()].filter(({count}) => count === 1).map(({facet}) => facet).sort(compare);
-    }
+    static rimOf(tets) { return rimIn(facetsAround(tets)); }
 
     // D: the triangles between the new vertex and the rim of E.
     static starOf({v, rim, closed}) {
