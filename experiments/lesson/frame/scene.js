@@ -69,7 +69,7 @@ Lesson.markStrokes = (shape, x, y, size) => {
   const across = (dx, dy) => ({points: [[x - dx, y - dy], [x + dx, y + dy]], closed: false});
   switch (shape) {
     case "disc":
-      return corners(16, 0);
+      return corners(size < 3 ? 8 : 16, 0);
     case "square":
       return corners(4, Math.PI / 4);
     case "diamond":

@@ -74,8 +74,8 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
       looks.set(at.component(asked.component).piece, "askedFace");
     if (component !== undefined) looks.set(at.component(component).piece, kind === "exact" ? "rightFace" : "wrongFace");
     const {points, triangles} = at.event;
-    for (const t of triangles) picture.face(t.map((v) => points[v]), looks.get(at.pieceOf[t[0]]) ?? "meshFace", 5);
-    picture.flush();
+    const lookOf = (t) => looks.get(at.pieceOf[t[0]]) ?? "meshFace";
+    picture.mesh({points, triangles: triangles.map((t) => [`${t} ${lookOf(t)}`, t])}, lookOf);
     for (const piece of looks.keys())
       for (const edge of at.boundaryOf(piece)) picture.line(edge.map((v) => points[v]), "boundaryCurve", 8);
     const {come, gone} = at.changes();

@@ -66,12 +66,16 @@ Lesson.RunItems = (() => {
 
     static faceOf(points, name, camera) { return faceOf(points, name, camera); }
 
-    // Of triangles, key -> corners; `which` keeps them.
-    facesOf(which, triangles, points, role, camera) {
+    // Of triangles, key -> corners; `which` keeps them, `lookOf(corners)` names their role.
+    facesOf(which, triangles, points, lookOf, camera) {
       const kept = this[which];
-      const make = (a, b, c) => faceOf([a, b, c], role, camera);
       kept.begin(camera);
-      for (const [key, v] of triangles) kept.add(key, make, points[v[0]], points[v[1]], points[v[2]]);
+      // From the smallest number on, wherever a state begins to name the corners.
+      for (const [key, v] of triangles) {
+        const i = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
+        const make = (a, b, c) => faceOf([a, b, c], lookOf(v), camera);
+        kept.add(key, make, points[v[i]], points[v[(i + 1) % 3]], points[v[(i + 2) % 3]]);
+      }
       return kept.end();
     }
 

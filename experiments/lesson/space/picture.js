@@ -79,7 +79,7 @@ Lesson.SpacePicture = (() => {
       const {run, run: {volume, shown}, camera} = this;
       run.surfaceTriangles ??= [...(volume.triangles ?? []).entries()];
       this.scene.onLayer(2).sheet(
-          "surface", shown.facesOf("surface", run.surfaceTriangles, volume.points, "surfaceFace", camera));
+          "surface", shown.facesOf("surface", run.surfaceTriangles, volume.points, () => "surfaceFace", camera));
     }
 
     // Where the dual edge of a facet ends: at circumcenters, and towards infinity at the rim of the picture.
@@ -144,9 +144,10 @@ Lesson.SpacePicture = (() => {
       this.mesh({points: replay.points, triangles: new Map(replay.restricted().map((f) => [f.join(), f]))});
     }
 
-    mesh({points, triangles}) {
+    // Of triangles, key -> corners. Where not all look alike, `lookOf(corners)` is a part of the key, too.
+    mesh({points, triangles}, lookOf = () => "meshFace") {
       if (!this.isShown(5)) return;
-      this.scene.onLayer(5).sheet("mesh", this.run.shown.facesOf("mesh", triangles, points, "meshFace", this.camera));
+      this.scene.onLayer(5).sheet("mesh", this.run.shown.facesOf("mesh", triangles, points, lookOf, this.camera));
     }
 
     // Faces of some tetrahedra, each drawn around its own middle, which moves outwards with `explode`.

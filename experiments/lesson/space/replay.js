@@ -112,7 +112,11 @@ Lesson.Replay = (() => {
     takeMesh(event) {
       const before = this.mesh;
       const triangles = new Map(event.triangles.map((t) => [keyOf(t), t]));
-      this.mesh = {points: [...event.points], triangles, poles: event.poles ?? before?.poles ?? []};
+      // Points that stay are the same objects, so that nobody takes them for others.
+      const known = before?.points ?? [];
+      const isKnown = (p, v) => known[v]?.every((x, axis) => x === p[axis]);
+      const points = event.points.map((p, v) => (isKnown(p, v) ? known[v] : p));
+      this.mesh = {points, triangles, poles: event.poles ?? before?.poles ?? []};
       if (event.e === "mesh") this.first = event;
       return () => (this.mesh = before);
     }

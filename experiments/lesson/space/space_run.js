@@ -1,6 +1,11 @@
 // A run of the program with what its chapters share: the trace, its replay, and where the reader stands.
 Lesson.SpaceRun = class {
-  constructor({name, volume, events, limits, rays, cells, left_out: leftOut}) {
+  // As the page's data have it.
+  constructor({name, volume: packed, events: packedEvents, limits, rays, cells, left_out: leftOut}) {
+    const {listOf, eventsOf} = Lesson.columns;
+    const events = eventsOf(packedEvents);
+    const volume = {dims: packed.dims, step: packed.step};
+    for (const key of ["samples", "points", "triangles"]) volume[key] = packed[key] ? listOf(packed[key]) : [];
     Object.assign(this, {name, volume, events, leftOut, rays: rays ?? [], cells: cells ?? []});
     const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
     this.box = [[0, 0, 0], last];
