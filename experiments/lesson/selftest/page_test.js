@@ -3,15 +3,7 @@
 (() => {
   const {test, check, equal} = Lesson.selftest;
   let page = null;
-
-  // A page of its own, out of sight but as large as a screen.
-  const open = () => {
-    if (page) return page;
-    const root = Lesson.element("div", {style: "position: absolute; left: -3000px; top: 0; width: 1280px"});
-    document.body.append(root);
-    page = new Lesson.Page(root);
-    return page;
-  };
+  const open = () => (page = Lesson.selftest.page());
 
   const press = (key, more = {}) =>
       document.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true, ...more}));

@@ -66,14 +66,14 @@ Lesson.RunItems = (() => {
 
     static faceOf(points, name, camera) { return faceOf(points, name, camera); }
 
-    // Of triangles, key -> corners; `which` keeps them, `lookOf(corners)` names their role.
-    facesOf(which, triangles, points, lookOf, camera) {
+    // Of triangles, key -> corners; `which` keeps them.
+    facesOf(which, triangles, points, name, camera) {
       const kept = this[which];
+      const make = (a, b, c) => faceOf([a, b, c], name, camera);
       kept.begin(camera);
       // From the smallest number on, wherever a state begins to name the corners.
       for (const [key, v] of triangles) {
         const i = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
-        const make = (a, b, c) => faceOf([a, b, c], lookOf(v), camera);
         kept.add(key, make, points[v[i]], points[v[(i + 1) % 3]], points[v[(i + 2) % 3]]);
       }
       return kept.end();
@@ -107,12 +107,16 @@ Lesson.RunItems = (() => {
       return this.dualEdges.end();
     }
 
-    // `hits(key)` are those of the dual edge of a facet.
+    // `hits(key)` are those of the dual edge of a facet. Where there are many facets, those with one hit would hide
+    // all.
     hitsOf(replay, hits, camera) {
       this.hits.begin(camera);
-      for (const f of replay.restricted()) {
+      const facets = replay.restricted();
+      const fewest = facets.length > 300 ? 2 : 1;
+      for (const f of facets) {
         const key = Lesson.Replay.keyOf(f);
         const found = replay.hits.get(key);
+        if (found && found.t.length < fewest) continue;
         found?.t.forEach((_, i) => {
           const make = () => markOf(hits(key)[i], "cross", "hit", 4, [...f, i], camera);
           this.hits.add(`${key} ${i}`, make, found);

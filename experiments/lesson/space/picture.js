@@ -79,7 +79,7 @@ Lesson.SpacePicture = (() => {
       const {run, run: {volume, shown}, camera} = this;
       run.surfaceTriangles ??= [...(volume.triangles ?? []).entries()];
       this.scene.onLayer(2).sheet(
-          "surface", shown.facesOf("surface", run.surfaceTriangles, volume.points, () => "surfaceFace", camera));
+          "surface", shown.facesOf("surface", run.surfaceTriangles, volume.points, "surfaceFace", camera));
     }
 
     // Where the dual edge of a facet ends: at circumcenters, and towards infinity at the rim of the picture.
@@ -117,17 +117,20 @@ Lesson.SpacePicture = (() => {
       return found.t.map((t) => vectors.add(center, vectors.scale(t, normal)));
     }
 
-    vertices(points, newest) {
-      this.scene.onLayer(0).sheet("vertices", this.run.shown.verticesOf(points, this.camera));
+    // Where there are many, only those in question have their numbers, `named`; where there are very many, only the
+    // newest is seen.
+    vertices(points, newest, named = []) {
+      if (points.length <= 400) this.scene.onLayer(0).sheet("vertices", this.run.shown.verticesOf(points, this.camera));
       if (points[newest]) this.mark(points[newest], "disc", "vertex", 0, 5);
-      points.forEach((p, v) => {
-        const isNew = v === newest;
-        // Names of what lies behind would be taken for those in front.
-        const isInFront = this.camera.nearness(p) > -0.1 * this.camera.size;
-        if (isNew || (isInFront && points.length <= 160)) {
-          this.label(p, String(v), isNew ? 6 : 1 + this.camera.nearness(p) / 1000);
-        }
-      });
+      const names = new Map([...named, newest].filter((v) => points[v]).map((v) => [v, 6]));
+      // Names of what lies behind would be taken for those in front.
+      const isInFront = (p) => this.camera.nearness(p) > -0.1 * this.camera.size;
+      if (points.length <= 60) {
+        points.forEach((p, v) => {
+          if (!names.has(v) && isInFront(p)) names.set(v, 1 + this.camera.nearness(p) / 1000);
+        });
+      }
+      for (const [v, weight] of names) this.label(points[v], String(v), weight);
     }
 
     triangulation(replay) {
@@ -144,10 +147,10 @@ Lesson.SpacePicture = (() => {
       this.mesh({points: replay.points, triangles: new Map(replay.restricted().map((f) => [f.join(), f]))});
     }
 
-    // Of triangles, key -> corners. Where not all look alike, `lookOf(corners)` is a part of the key, too.
-    mesh({points, triangles}, lookOf = () => "meshFace") {
+    // Of triangles, key -> corners.
+    mesh({points, triangles}) {
       if (!this.isShown(5)) return;
-      this.scene.onLayer(5).sheet("mesh", this.run.shown.facesOf("mesh", triangles, points, lookOf, this.camera));
+      this.scene.onLayer(5).sheet("mesh", this.run.shown.facesOf("mesh", triangles, points, "meshFace", this.camera));
     }
 
     // Faces of some tetrahedra, each drawn around its own middle, which moves outwards with `explode`.
