@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "experiments/lesson/columns.h"
+#include "experiments/lesson/followed_mesh.h"
 #include "experiments/lesson/lesson_cells.h"
 #include "experiments/lesson/lesson_rays.h"
 #include "experiments/lesson/trace/trace_writer.h"
@@ -126,6 +127,7 @@ Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events)
   Json events = Json::array(), rays = part == LessonPart::kWhole ? run.rays : Json::array();
   round_numbers(rays);
   std::size_t of_stage_2 = 0, left_out = 0;
+  FollowedMesh mesh;
   for (Json event : run.events) {
     const std::string& kind = event.at("e").get_ref<const std::string&>();
     if (part == LessonPart::kStage2 && (kind == "initial" || kind == "insert" || kind == "refuse")) continue;
@@ -135,8 +137,10 @@ Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events)
       continue;
     }
     round_numbers(event);
-    number_by_rim(event);
-    events.push_back(std::move(event));
+    Json shown = event.at("e") == "shape" ? mesh.changes(event) : event;
+    if (event.at("e") != "compare") mesh.follow(event);
+    number_by_rim(shown);
+    events.push_back(std::move(shown));
   }
   return {{"name", run.name},    {"volume", run.volume}, {"limits", run.limits},
           {"rays", rays},        {"cells", run.cells},   {"events", list_of_objects(events)},

@@ -28,7 +28,9 @@
   const checkFarSteps = (chapter, from) => {
     const end = page.player.last();
     if (end <= from) return;
-    const far = [0.2, 0.5, 0.9, 1].map((share) => Math.round(from + share * (end - from)));
+    const far = [0.2, 0.5, 0.9].map((share) => Math.round(from + share * (end - from)));
+    // What ends a run is of other kinds.
+    for (let step = Math.max(from, end - 4); step <= end; ++step) far.push(step);
     const states = far.map((step) => {
       goTo(`#${chapter.name}/${step}`);
       return seen();

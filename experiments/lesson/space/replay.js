@@ -36,29 +36,69 @@ Lesson.Replay = (() => {
 
   const rimIn = (around) => [...around.values()].filter(({count}) => count === 1).map(({f}) => sorted(f)).sort(compare);
 
+  // Events that take as long as the restoring of a state.
+  const kWayOfRestoring = 60;
+
+  // What events change in place.
+  const copyOf = ({points, tets, sides, between, hits, mesh, ...rest}) => ({
+    ...rest,
+    points: [...points],
+    tets: new Map(tets),
+    sides: new Map(sides),
+    between: new Map(between),
+    hits: new Map(hits),
+    mesh: mesh && { ...mesh, points: [...mesh.points], triangles: new Map(mesh.triangles) }
+  });
+
   class Replay {
-    // Of the events from `first` on; what is before it leaves no trace in their states.
-    constructor(events, first = 0) {
-      Object.assign(this, {events, before: first - 1});
-      this.points = [];
+    // Of the events from `first` on; what is before it leaves no trace in their states. States are saved every so many
+    // events, `stride`, so that no way between two of them is long (0: none are).
+    constructor(events, first = 0, stride = 0) {
+      Object.assign(this, {events, stride});
       this.virtual = new Set([-1]);
-      this.tets = new Map();     // key -> {v, above}
-      this.sides = new Map();    // key of a facet -> the keys of the tetrahedra at it
-      this.between = new Map();  // the facets whose two tetrahedra differ in sign: key -> corners, sorted
-      this.hits = new Map();     // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
-      this.found = null;         // the restricted facets, once they were asked for
-      this.mesh = null;          // of stage 2: {points, triangles: key -> corners, poles}
-      this.undo = [];            // of each event that is applied
+      this.saved = [];  // states, by their positions
+      this.restore({
+        position: first - 1,
+        points: [],
+        tets: new Map(),     // key -> {v, above}
+        sides: new Map(),    // key of a facet -> the keys of the tetrahedra at it
+        between: new Map(),  // the facets whose two tetrahedra differ in sign: key -> corners, sorted
+        hits: new Map(),     // key of a facet -> {v, t}: the dual edge's hits, as lengths along the normal of v
+        mesh: null           // of stage 2: {points, triangles: key -> corners, poles}
+      });
+      this.save();
     }
 
-    get position() { return this.before + this.undo.length; }
+    get position() { return this.base + this.undo.length; }
+
+    save() {
+      const {position, points, tets, sides, between, hits, mesh} = this;
+      this.saved.push(copyOf({position, points, tets, sides, between, hits, mesh}));
+    }
+
+    restore(state) {
+      const {position, ...its} = copyOf(state);
+      // `undo` takes back each event that was applied since; `found`: the restricted facets, once they were asked for.
+      Object.assign(this, its, {base: position, undo: [], found: null});
+    }
 
     // The state after event n.
     goTo(n) {
-      if (this.position !== n) this.found = null;
-      while (this.position < n) this.undo.push(this.apply(this.events[this.position + 1]));
+      if (this.position === n) return this;
+      this.found = null;
+      const nearest =
+          this.saved.reduce((best, its) => (its.position <= n && its.position > best.position ? its : best));
+      const way = n < this.base ? Infinity : Math.abs(n - this.position);
+      if (way > n - nearest.position + kWayOfRestoring) this.restore(nearest);
       while (this.position > n) this.undo.pop()();
+      while (this.position < n) this.step();
       return this;
+    }
+
+    step() {
+      this.undo.push(this.apply(this.events[this.position + 1]));
+      const last = this.saved[this.saved.length - 1];
+      if (this.stride > 0 && this.position >= last.position + this.stride) this.save();
     }
 
     apply(event) {
@@ -110,6 +150,7 @@ Lesson.Replay = (() => {
     }
 
     takeMesh(event) {
+      if (event.at) return this.takeChanges(event);
       const before = this.mesh;
       const triangles = new Map(event.triangles.map((t) => [keyOf(t), t]));
       // Points that stay are the same objects, so that nobody takes them for others.
@@ -118,6 +159,18 @@ Lesson.Replay = (() => {
       const points = event.points.map((p, v) => (isKnown(p, v) ? known[v] : p));
       this.mesh = {points, triangles, poles: event.poles ?? before?.poles ?? []};
       if (event.e === "mesh") this.first = event;
+      return () => (this.mesh = before);
+    }
+
+    // Of a mesh of which little is other than before.
+    takeChanges(event) {
+      const before = this.mesh;
+      const points = before.points.slice(0, event.count);
+      event.at.forEach((v, i) => (points[v] = event.points[i]));
+      const triangles = new Map(before.triangles);
+      for (const t of event.gone) triangles.delete(keyOf(t));
+      for (const t of event.come) triangles.set(keyOf(t), t);
+      this.mesh = {...before, points, triangles};
       return () => (this.mesh = before);
     }
 
@@ -149,7 +202,7 @@ Lesson.Replay = (() => {
         if (!keys) {
           this.sides.set(side, [key]);
         } else {
-          keys.push(key);
+          this.sides.set(side, [...keys, key]);
           if (this.tets.get(keys[0]).above !== above) this.between.set(side, sorted(f));
         }
       }

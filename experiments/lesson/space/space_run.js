@@ -11,9 +11,9 @@ Lesson.SpaceRun = class {
     this.box = [[0, 0, 0], last];
     this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));
     this.meshAt = events.findIndex((event) => event.e === "mesh");
-    this.replay = new Lesson.Replay(events);
+    this.replay = new Lesson.Replay(events, 0, 200);
     // Stage 2 stands on the mesh that it begins with, so that nobody has to go through stage 1 to get to it.
-    this.replayOfStage2 = this.meshAt < 0 ? this.replay : new Lesson.Replay(events, this.meshAt);
+    this.replayOfStage2 = this.meshAt < 0 ? this.replay : new Lesson.Replay(events, this.meshAt, 1500);
     // The search for a state goes its own way, while the reader goes his.
     this.searching = new Lesson.Replay(events);
     this.shown = new Lesson.RunItems();
