@@ -19,12 +19,11 @@ Lesson.Sheet = class {
 };
 
 // What a screen has painted of a sheet. Where a few items come or go, only the rectangle around them is painted anew;
-// where most do, as many in a frame as a frame has time for.
+// where that is too much for a frame, all is, as many in a frame as a frame has time for.
 Lesson.PaintedSheet = (() => {
-  const kMostInFrame = 4000;
+  const kMostInFrame = 2500;
   const kMostChanged = 1000;
-  const kMargin = 3;     // pixels by which lines reach beyond their points, beside their width
-  const kLargest = 0.6;  // of the picture: a larger rectangle is all of it
+  const kMargin = 3;  // pixels by which lines reach beyond their points, beside their width
 
   // The box of an item in the plane, without the width of its lines: [left, bottom, right, top].
   const boxOf = (item) => (item.box ??= findBox(item.points ?? [item.point]));
@@ -116,8 +115,11 @@ Lesson.PaintedSheet = (() => {
 
     repaint([left, top, right, bottom]) {
       if (left >= right || top >= bottom) return;
-      if ((right - left) * (bottom - top) > kLargest * this.canvas.width * this.canvas.height)
-        return this.begin(this.look);
+      const within = this.items.slice(0, this.done).filter((item) => {
+        const box = this.onScreen(item);
+        return box[0] < right && box[2] > left && box[1] < bottom && box[3] > top;
+      });
+      if (within.length > kMostInFrame) return this.begin(this.look);
       const {ratio} = this;
       const context = this.canvas.getContext("2d");
       const painter = new Lesson.CanvasPainter(context);
@@ -126,10 +128,7 @@ Lesson.PaintedSheet = (() => {
       context.rect(left / ratio, top / ratio, (right - left) / ratio, (bottom - top) / ratio);
       context.clip();
       context.clearRect(left / ratio, top / ratio, (right - left) / ratio, (bottom - top) / ratio);
-      for (const item of this.items.slice(0, this.done)) {
-        const box = this.onScreen(item);
-        if (box[0] < right && box[2] > left && box[1] < bottom && box[3] > top) this.paintItem(painter, item);
-      }
+      for (const item of within) this.paintItem(painter, item);
       context.restore();
     }
   };

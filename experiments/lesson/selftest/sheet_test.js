@@ -78,9 +78,9 @@
     for (let step = 0; step < 9; ++step) {
       paint(sceneOf(), null, kept);
       // In a part of the picture, so that not all is painted anew.
-      const near = items.filter(({points}) => points[0][0] < 0.3);
+      const near = items.filter(({points}) => points[0][0] < 0.1);
       const gone = new Set(Array.from({length: 300}, () => near[random.below(near.length)]));
-      const come = [polygon([random.between(0, 15000)], 0.3), polygon([random.between(0, 15000)], 0.3)];
+      const come = [polygon([random.between(0, 15000)], 0.1), polygon([random.between(0, 15000)], 0.1)];
       items = Lesson.Sheet.merged(items, (item) => gone.has(item), come, (a, b) => compare(a.order, b.order));
     }
     check(items.every((item, i) => i === 0 || items[i - 1].order[0] < item.order[0]), "items are sorted");
