@@ -39,6 +39,7 @@ struct ExplainCommandOptions {
   std::string config;
   std::vector<std::string> assignments;
   std::string seed = "1";
+  std::string threads = "1";
   bool text = false;
   bool answers = false;
   bool without_experiments = false;
@@ -49,6 +50,7 @@ MeshingOptions meshing_options(const ExplainCommandOptions& options) {
   if (!options.config.empty()) meshing.parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments) set_parameter(assignment, meshing.parameters);
   meshing.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  meshing.threads = parse_threads(options.threads);
   meshing.stop = &catch_stop_signals();
   return meshing;
 }
@@ -156,6 +158,9 @@ void add_explain_command(CommandLine& line, ExitCode& exit_code) {
       .type_name("KEY=VALUE")
       .repeatable();
   command.add_option("--seed", options->seed, "Seed of the run, and of the random fields and exercises in the page")
+      .type_name("N")
+      .show_default();
+  command.add_option("--threads", options->threads, "Threads to use, or auto; the lesson is the same for any number")
       .type_name("N")
       .show_default();
   command.examples(

@@ -12,9 +12,7 @@
 namespace deliso {
 namespace {
 
-// Of the data of a page: what a browser unpacks and reads in a moment.
-constexpr std::size_t kMostUnpacked = 8'000'000;
-constexpr int kMostAttempts = 4;
+constexpr int kMostAttempts = 6;
 
 // All modules whose names end like this, one after the other.
 std::string modules_of_kind(std::string_view ending) {
@@ -55,15 +53,35 @@ std::string escaped_for_html(const std::string& text) {
   return escaped;
 }
 
-// All that the page knows, in about so many bytes. The main run may take most of them; the others get what it leaves.
-std::string data_text(Json data, const std::vector<LessonRun>& runs, std::size_t most_bytes) {
-  std::size_t room = most_bytes - std::min(most_bytes, data.dump().size());
+struct PackedData {
+  std::size_t length = 0;  // of the text
+  std::string packed;
+};
+
+// All that the page knows, with so many events of stage 2 of each run.
+PackedData packed_data(Json data, const std::vector<LessonRun>& runs, std::size_t most_events) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::size_t share = i + 1 < runs.size() ? room * 3 / 5 : room;
-    data["runs"].push_back(lesson_data(runs[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, share));
-    room -= std::min(room, data["runs"].back().dump().size());
+    data["runs"].push_back(lesson_data(runs[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, most_events));
   }
-  return data.dump();
+  const std::string text = data.dump();
+  return {text.size(), packed_text(text)};
+}
+
+// With as many of these events as have room. How far they can be packed is known when they are.
+PackedData fitting_data(const Json& data, const std::vector<LessonRun>& runs, std::size_t room) {
+  std::size_t most_events = 0;
+  for (const LessonRun& run : runs) most_events = std::max(most_events, run.events.size());
+  PackedData all = packed_data(data, runs, most_events);
+  if (all.packed.size() <= room) return all;
+  PackedData found = packed_data(data, runs, 0);
+  if (found.packed.size() >= room) return found;
+  double share =
+      static_cast<double>(room - found.packed.size()) / static_cast<double>(all.packed.size() - found.packed.size());
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt, share *= 0.93) {
+    PackedData some = packed_data(data, runs, static_cast<std::size_t>(share * static_cast<double>(most_events)));
+    if (some.packed.size() <= room) return some;
+  }
+  return found;
 }
 
 }  // namespace
@@ -85,17 +103,10 @@ std::string lesson_page(const LessonOptions& options, std::size_t most_bytes) {
   if (!options.figure.empty()) data["figure"] = options.figure;
   const std::string scripts = modules_of_kind(".js");
   const std::size_t room = most_bytes - std::min(most_bytes, page.size() + scripts.size());
-  // How far the data can be packed is known when they are.
-  std::string text, packed;
-  std::size_t unpacked = kMostUnpacked;
-  for (int attempt = 0; attempt < kMostAttempts && (attempt == 0 || packed.size() > room); ++attempt) {
-    text = data_text(data, options.runs == nullptr ? std::vector<LessonRun>() : *options.runs, unpacked);
-    packed = packed_text(text);
-    unpacked = static_cast<std::size_t>(0.95 * static_cast<double>(text.size()) * static_cast<double>(room) /
-                                        static_cast<double>(packed.size()));
-  }
-  put(page, "@LENGTH@", std::to_string(text.size()));
-  put(page, "@DATA@", packed);
+  const PackedData packed =
+      fitting_data(data, options.runs == nullptr ? std::vector<LessonRun>() : *options.runs, room);
+  put(page, "@LENGTH@", std::to_string(packed.length));
+  put(page, "@DATA@", packed.packed);
   put(page, "@SCRIPTS@", scripts);
   return page;
 }

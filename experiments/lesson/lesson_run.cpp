@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "experiments/lesson/columns.h"
+#include "experiments/lesson/followed_mesh.h"
 #include "experiments/lesson/lesson_cells.h"
 #include "experiments/lesson/lesson_rays.h"
 #include "experiments/lesson/trace/trace_writer.h"
@@ -17,6 +19,7 @@ namespace deliso {
 namespace {
 
 constexpr int kDigits = 6;
+constexpr double kPerUnit = 1e5;                       // coordinates have five digits behind the point
 constexpr std::size_t kMostSamples = 40'000;           // of the grid; a larger one is shown without its samples
 constexpr std::size_t kMostSurfaceTriangles = 12'000;  // of the approximation; a larger one is left out
 
@@ -27,34 +30,42 @@ double rounded(double value) {
   return std::strtod(text, nullptr);
 }
 
-void round_numbers(Json& json) {
+double rounded_coordinate(double value) { return std::nearbyint(value * kPerUnit) / kPerUnit; }
+
+void round_numbers(Json& json, bool are_coordinates = false) {
   if (json.is_number_float()) {
-    json = rounded(json.get<double>());
-  } else if (json.is_structured()) {
-    for (Json& part : json) round_numbers(part);
+    json = are_coordinates ? rounded_coordinate(json.get<double>()) : rounded(json.get<double>());
+  } else if (json.is_object()) {
+    for (const auto& item : json.items()) round_numbers(item.value(), item.key() == "p" || item.key() == "points");
+  } else if (json.is_array()) {
+    for (Json& part : json) round_numbers(part, are_coordinates);
   }
 }
 
-Json rounded_array_of(const Vec3& p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
+Json rounded_array_of(const Vec3& p) {
+  return Json::array({rounded_coordinate(p.x), rounded_coordinate(p.y), rounded_coordinate(p.z)});
+}
 
 // What the page draws of the field: samples less the isovalue, for slices; and marching cubes' surface, for the eye.
 Json volume_of(const ScalarGrid& grid, double isovalue, const Vec3& step) {
-  Json volume = {{"dims", grid.dims()}, {"step", rounded_array_of(step)}, {"samples", Json::array()}};
+  Json volume = {{"dims", grid.dims()}, {"step", {rounded(step.x), rounded(step.y), rounded(step.z)}}};
+  Json samples = Json::array(), points = Json::array();
   const auto [nx, ny, nz] = grid.dims();
   if (std::size_t(nx) * std::size_t(ny) * std::size_t(nz) > kMostSamples) return volume;
   for (std::int32_t k = 0; k < nz; ++k) {
     for (std::int32_t j = 0; j < ny; ++j) {
-      for (std::int32_t i = 0; i < nx; ++i) volume["samples"].push_back(rounded(grid.at(i, j, k) - isovalue));
+      for (std::int32_t i = 0; i < nx; ++i) samples.push_back(rounded(grid.at(i, j, k) - isovalue));
     }
   }
+  volume["samples"] = list_of_values(samples);
   const MarchingCubesMesh surface = marching_cubes(grid, isovalue);
   if (surface.triangles.size() > kMostSurfaceTriangles) return volume;
-  volume["points"] = Json::array();
   const Vec3 &spacing = grid.spacing(), per_step{1 / spacing.x, 1 / spacing.y, 1 / spacing.z};
   for (const Vec3& p : surface.points) {
-    volume["points"].push_back(rounded_array_of(scaled(scaled(p - grid.origin(), per_step), step)));
+    points.push_back(rounded_array_of(scaled(scaled(p - grid.origin(), per_step), step)));
   }
-  volume["triangles"] = surface.triangles;
+  volume["points"] = list_of_values(points);
+  volume["triangles"] = list_of_values(surface.triangles);
   return volume;
 }
 
@@ -84,6 +95,17 @@ bool is_of_stage_2(const Json& event) {
   return kind == "refine" || kind == "keep" || kind == "restart" || kind == "refined" || kind == "shape";
 }
 
+// The triangles of E in the numbers of its rim, which has all their corners; the first of them is the triangle in
+// question.
+void number_by_rim(Json& event) {
+  if (event.at("e") != "refine") return;
+  const Json rim = event.at("rim");  // a copy: keys that go move those behind them
+  if (event.at("t") == event.at("gone").at(0)) event.erase("t");
+  for (Json& triangle : event["gone"]) {
+    for (Json& corner : triangle) corner = std::find(rim.begin(), rim.end(), corner) - rim.begin();
+  }
+}
+
 }  // namespace
 
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options) {
@@ -101,27 +123,28 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
   return run;
 }
 
-Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_bytes) {
+Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events) {
   Json events = Json::array(), rays = part == LessonPart::kWhole ? run.rays : Json::array();
   round_numbers(rays);
-  std::size_t bytes = run.volume.dump().size() + rays.dump().size() + run.cells.dump().size(), left_out = 0;
-  bool is_cut = false;
+  std::size_t of_stage_2 = 0, left_out = 0;
+  FollowedMesh mesh;
   for (Json event : run.events) {
     const std::string& kind = event.at("e").get_ref<const std::string&>();
     if (part == LessonPart::kStage2 && (kind == "initial" || kind == "insert" || kind == "refuse")) continue;
-    round_numbers(event);
-    const std::size_t its = event.dump().size() + 1;
     // What follows a cut cannot be replayed. The last two events are the outcome; stage 1 is short enough.
-    is_cut = is_cut || (is_of_stage_2(event) && bytes + its > most_bytes);
-    if (is_cut && event.at("e") != "certify" && event.at("e") != "end") {
+    if (is_of_stage_2(event) && of_stage_2++ >= most_events) {
       ++left_out;
       continue;
     }
-    bytes += its;
-    events.push_back(std::move(event));
+    round_numbers(event);
+    Json shown = event.at("e") == "shape" ? mesh.changes(event) : event;
+    if (event.at("e") != "compare") mesh.follow(event);
+    number_by_rim(shown);
+    events.push_back(std::move(shown));
   }
-  return {{"name", run.name},   {"volume", run.volume},        {"limits", run.limits}, {"rays", rays},
-          {"cells", run.cells}, {"events", std::move(events)}, {"left_out", left_out}};
+  return {{"name", run.name},    {"volume", run.volume}, {"limits", run.limits},
+          {"rays", rays},        {"cells", run.cells},   {"events", list_of_objects(events)},
+          {"left_out", left_out}};
 }
 
 }  // namespace deliso

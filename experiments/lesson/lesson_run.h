@@ -27,9 +27,9 @@ struct LessonRun {
 // followed step by step.
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options);
 
-// The run as data of the page, in at most about so many bytes: events of stage 2 beyond them are left out, and counted.
-// Numbers have six digits.
+// The run as data of the page: of stage 2 the first `most_events` events, the others are counted. Numbers have six
+// digits, coordinates five behind the point.
 enum class LessonPart { kWhole, kStage2 };
-Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_bytes);
+Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events);
 
 }  // namespace deliso

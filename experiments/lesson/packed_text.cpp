@@ -11,9 +11,11 @@
 namespace deliso {
 namespace {
 
-constexpr int kLevel = 6;
+constexpr int kLevel = 9;
 
-std::string base64(const std::vector<Bytef>& bytes) {
+}  // namespace
+
+std::string base64(std::span<const unsigned char> bytes) {
   constexpr std::string_view kSymbols = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
@@ -24,8 +26,6 @@ std::string base64(const std::vector<Bytef>& bytes) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string packed_text(std::string_view text) {
   const auto size = static_cast<uLong>(text.size());

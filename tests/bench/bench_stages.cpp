@@ -1,7 +1,8 @@
-// bench_stages RUNS [NAME SIZE | VOLUME ISOVALUE]: times the stages of a run without certificate and repair, on a
-// built-in volume of SIZE^3 samples at its own isovalue or on a file. Without a volume: gyroid and blobs, 128^3.
+// bench_stages RUNS [NAME SIZE | VOLUME ISOVALUE] [observed]: times the stages of a run without certificate and repair,
+// on a built-in volume of SIZE^3 samples at its own isovalue or on a file. Without a volume: gyroid and blobs, 128^3.
 // Prints one line per volume: medians over the runs, microseconds per insertion, and a hash of the mesh after each
-// stage, which tells whether two versions of the program compute the same.
+// stage, which tells whether two versions of the program compute the same. `observed`: under an observer that does
+// nothing.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "surface/base/observer.h"
 #include "surface/extract/build_triangle_mesh.h"
 #include "surface/recover/boundary_curves.h"
 #include "surface/recover/component_seeds.h"
@@ -76,7 +78,7 @@ class Laps {
   std::clock_t last_ = std::clock();
 };
 
-Run run_once(const ScalarGrid& grid, double given_isovalue) {
+Run run_once(const ScalarGrid& grid, double given_isovalue, Observer* observer) {
   Run run;
   Laps laps;
   const RegularTopology regular = regular_topology(grid, given_isovalue);
@@ -87,6 +89,7 @@ Run run_once(const ScalarGrid& grid, double given_isovalue) {
   const std::vector<Vec3> seeds = component_seeds({isosurface, regular.topology});
   points.insert(points.end(), seeds.begin(), seeds.end());
   auto restricted = std::make_unique<RestrictedDelaunay>(isosurface, points);
+  restricted->set_observer(observer);
   run.initial = laps.lap();
 
   const double r_min = 0.001 * isosurface.box().smallest_side();
@@ -108,6 +111,7 @@ Run run_once(const ScalarGrid& grid, double given_isovalue) {
   run.hash1 = hash1.value();
   RefineOptions stage2;
   stage2.r_min = r_min;
+  stage2.observer = observer;
   laps.lap();
   refine_geometry(mesh, isosurface, stage2, controls, run.refine);
   run.stage2 = laps.lap();
@@ -125,9 +129,9 @@ double median(const std::vector<Run>& runs, double Run::*seconds) {
   return all[all.size() / 2];
 }
 
-void bench(const std::string& name, const ScalarGrid& grid, double isovalue, int count) {
+void bench(const std::string& name, const ScalarGrid& grid, double isovalue, int count, Observer* observer) {
   std::vector<Run> runs;
-  for (int i = 0; i < count; ++i) runs.push_back(run_once(grid, isovalue));
+  for (int i = 0; i < count; ++i) runs.push_back(run_once(grid, isovalue, observer));
   const Run& one = runs.front();
   const double stage1 = median(runs, &Run::stage1);
   const double stage2 = median(runs, &Run::stage2);
@@ -142,8 +146,9 @@ void bench(const std::string& name, const ScalarGrid& grid, double isovalue, int
             << " hash1=" << one.hash1 << " hash2=" << one.hash2 << std::dec << std::endl;
 }
 
-void bench_built_in(const std::string& name, int size, int count) {
-  bench(name + ":" + std::to_string(size), generate_field(name, size), find_analytic_field(name).isovalue, count);
+void bench_built_in(const std::string& name, int size, int count, Observer* observer) {
+  bench(name + ":" + std::to_string(size), generate_field(name, size), find_analytic_field(name).isovalue, count,
+        observer);
 }
 
 bool is_built_in(const std::string& name) {
@@ -154,19 +159,24 @@ bool is_built_in(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool is_observed = argc > 2 && std::string(argv[argc - 1]) == "observed";
+  if (is_observed) --argc;
+  Observer idle;
+  Observer* const observer = is_observed ? &idle : nullptr;
   const int count = argc > 1 ? std::atoi(argv[1]) : 0;
   if ((argc != 2 && argc != 4) || count < 1) {
-    std::cerr << "usage: bench_stages RUNS [NAME SIZE | VOLUME ISOVALUE]\n";
+    std::cerr << "usage: bench_stages RUNS [NAME SIZE | VOLUME ISOVALUE] [observed]\n";
     return 2;
   }
   try {
     if (argc == 2) {
-      bench_built_in("gyroid", 128, count);
-      bench_built_in("blobs", 128, count);
+      bench_built_in("gyroid", 128, count, observer);
+      bench_built_in("blobs", 128, count, observer);
     } else if (is_built_in(argv[2])) {
-      bench_built_in(argv[2], std::atoi(argv[3]), count);
+      bench_built_in(argv[2], std::atoi(argv[3]), count, observer);
     } else {
-      bench(std::filesystem::path(argv[2]).filename().string(), read_volume(argv[2]), std::atof(argv[3]), count);
+      bench(std::filesystem::path(argv[2]).filename().string(), read_volume(argv[2]), std::atof(argv[3]), count,
+            observer);
     }
     return 0;
   } catch (const std::exception& error) {

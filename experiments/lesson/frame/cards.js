@@ -55,11 +55,12 @@ Lesson.cards = (() => {
         element("td", {}, Lesson.numberText(limit)), element("td", {}, holds ? "✓" : "–", answer));
   };
 
-  const why = (card, facts) => {
+  // `said` is what stands above it already.
+  const why = (card, facts, said) => {
     card.replaceChildren(element("h2", {}, "Why"));
     if (!facts) return card.append(element("p", {class: "soft"}, "Nothing is left to do."));
-    card.append(element("p", {}, facts.title));
     const rows = facts.rows.map(whyRow);
+    if (facts.title !== said || (rows.length === 0 && !facts.remark)) card.append(element("p", {}, facts.title));
     if (rows.length) card.append(element("table", {}, ...rows));
     if (facts.remark) card.append(element("p", {class: "soft"}, facts.remark));
     return undefined;
@@ -89,19 +90,25 @@ Lesson.cards = (() => {
     for (const box of card.querySelectorAll("input")) box.checked = shown.has(Number(box.dataset.layer));
   };
 
-  // The kinds of this run with their marks; how many there are is part of what predict mode asks for.
-  const legend = (line, chapter, hidesCounts) => {
+  // The kinds of this run with their marks, each a button that leads to its next step. How many there are, and where,
+  // is part of what predict mode asks for.
+  const legend = (line, chapter, hidesCounts, goTo) => {
+    line.goTo = goTo;
     // It stays as it is from step to step.
     const shown = {chapter, steps: chapter.steps(), hidesCounts, dark: Lesson.theme.isDark()};
     if (line.shown && Object.keys(shown).every((key) => shown[key] === line.shown[key])) return;
     line.shown = shown;
     const counts = new Map();
     for (const {kind} of chapter.steps()) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    const items = Object.entries(chapter.kinds)
-                      .filter(([name, kind]) => kind.key && name !== "end" && (hidesCounts || counts.get(name) > 0))
-                      .map(
-                          ([name, kind]) => element(
-                              "span", {}, markIcon(kind), kind.title, hidesCounts ? "" : ` ${counts.get(name)}`));
+    const kinds = Object.entries(chapter.kinds)
+                      .filter(([name, kind]) => kind.key && name !== "end" && (hidesCounts || counts.get(name) > 0));
+    const items = kinds.map(([name, kind]) => {
+      if (hidesCounts) return element("span", {}, markIcon(kind), kind.title);
+      const title = `to the next step of this kind: ${kind.title}`;
+      return element(
+          "button", {title, "aria-label": title, onclick: () => line.goTo(name)}, markIcon(kind), kind.title,
+          ` ${counts.get(name)}`);
+    });
     line.replaceChildren(...items);
   };
 

@@ -5,6 +5,10 @@ Lesson.keyboard = (() => {
     {key: "ArrowLeft", command: "back", help: "←", does: "step back"},
     {key: "ArrowRight", shift: true, command: "nextOfKind", help: "Shift →", does: "next step of the same kind"},
     {key: "ArrowLeft", shift: true, command: "backOfKind", help: "Shift ←", does: "last step of the same kind"},
+    {key: "PageDown", command: "next", help: "Page ↓", does: "next step, as a presenter's remote sends it"},
+    {key: "PageUp", command: "back", help: "Page ↑", does: "step back"},
+    {key: "PageDown", shift: true, command: "nextChapter", help: "Shift Page ↓", does: "next chapter"},
+    {key: "PageUp", shift: true, command: "backChapter", help: "Shift Page ↑", does: "chapter before"},
     {key: " ", command: "play", help: "Space", does: "play and pause (with less motion: on to another kind)"},
     {key: "Home", command: "first", help: "Home", does: "to the start"},
     {key: "End", command: "last", help: "End", does: "to the end"},
@@ -25,10 +29,10 @@ Lesson.keyboard = (() => {
     if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return null;
     if (event.key === " " && isPressable(event.target)) return null;
     if (/^[1-9]$/.test(event.key)) return {digit: Number(event.key)};
-    const isArrow = event.key.startsWith("Arrow");
+    const hasShifted = /^(Arrow|Page)/.test(event.key);
     const found = table.find(
         (row) => row.key === (row.key.length === 1 ? event.key.toLowerCase() : event.key) &&
-            (!isArrow || Boolean(row.shift) === event.shiftKey));
+            (!hasShifted || Boolean(row.shift) === event.shiftKey));
     if (found) return {command: found.command};
     return /^[a-z]$/i.test(event.key) ? {letter: event.key.toLowerCase()} : null;
   };

@@ -102,9 +102,16 @@ Lesson.Page = class {
   open(chapter) {
     this.player?.pause();
     this.chapter = chapter;
-    this.tabs.replaceChildren(...Lesson.chapters.map(
-        (other) => Lesson.element(
-            "a", {href: `#${other.name}`, "aria-current": other === chapter ? "page" : null}, other.title)));
+    // The tabs stay, so that the focus does.
+    if (this.tabs.children.length !== Lesson.chapters.length)
+      this.tabs.replaceChildren(
+          ...Lesson.chapters.map((other) => Lesson.element("a", {href: `#${other.name}`}, other.title)));
+    Lesson.chapters.forEach((other, i) => {
+      if (other === chapter)
+        this.tabs.children[i].setAttribute("aria-current", "page");
+      else
+        this.tabs.children[i].removeAttribute("aria-current");
+    });
     this.showTab();
     this.player = null;
     this.stepped.hidden = Boolean(chapter.page);
@@ -134,6 +141,7 @@ Lesson.Page = class {
     if (!this.player) return this.chapter.redraw?.();
     const {chapter, step, predict, layers} = this.player;
     const hides = this.player.hidesNext();
+    const hadFocus = this.cards.next.contains(document.activeElement);
     Lesson.address.show(chapter.name, step);
     this.stage.show(this.player);
     Lesson.cards.now(this.cards.now, chapter, step);
@@ -142,15 +150,23 @@ Lesson.Page = class {
     else
       Lesson.cards.next(this.cards.next, chapter, step);
     this.showResult(predict, chapter, step);
+    if (hadFocus) this.keepFocus();
     this.cards.why.hidden = hides;
-    Lesson.cards.why(this.cards.why, chapter.why(step));
+    const next = chapter.next(step);
+    Lesson.cards.why(this.cards.why, next && chapter.why(step), next?.sentence);
     Lesson.cards.code(this.cards.code, chapter, hides ? -1 : chapter.line(step));
     Lesson.cards.layers(this.cards.layers, chapter.layers, layers, (layer) => this.player.toggleLayer(layer));
-    Lesson.cards.legend(this.legend, chapter, predict.isOn);
+    Lesson.cards.legend(this.legend, chapter, predict.isOn, (kind) => this.player.toNext(kind));
     this.timeline.draw(chapter.steps(), chapter.kinds, step, chapter.sentence(step), predict.isOn);
     this.explain(this.cards.now, this.cards.next, this.cards.why);
     const coming = hides ? null : chapter.next(step);
     this.live.textContent = chapter.sentence(step) + (coming ? ` Next: ${coming.sentence}` : "");
+  }
+
+  // What had the focus is gone: an answer, given or passed by. Whoever goes by the keyboard goes on from here.
+  keepFocus() {
+    const answer = this.cards.next.querySelector(".answers button");
+    (answer ?? this.controls.querySelector("[data-command=next]")).focus();
   }
 
   showResult(predict, chapter, step) {
@@ -167,6 +183,7 @@ Lesson.Page = class {
       this.player.toggleLayer(pressed.digit);
     else if (this.answerByKey(event.key.toLowerCase()) || this.command(pressed.command))
       event.preventDefault();
+    if (pressed.command === "predict") this.cards.next.querySelector(".answers button")?.focus();
   }
 
   // While a question is asked, the letters of its answers come first.
@@ -183,12 +200,31 @@ Lesson.Page = class {
     else if (name === "theme")
       this.redress(Lesson.theme.isDark() ? "light" : "dark");
     else if (name === "exercise")
-      this.root().querySelector(".exercise input, .exercise button")?.focus();
+      this.goToExercise();
+    else if (name === "nextChapter" || name === "backChapter")
+      this.goToChapter(name === "nextChapter" ? 1 : -1);
     else if (name === "svg" && this.player)
       this.save();
     else
       return this.player?.command(name) ?? false;
     return true;
+  }
+
+  goToChapter(direction) {
+    const to = Lesson.chapters[Lesson.chapters.indexOf(this.chapter) + direction];
+    if (!to) return;
+    Lesson.address.forget();
+    window.location.hash = `#${to.name}`;
+  }
+
+  // Where a chapter has none, its exercise is to predict.
+  goToExercise() {
+    const box = this.root().querySelector(".exercise input, .exercise button, textarea");
+    if (box) return box.focus();
+    if (!this.player) return undefined;
+    if (this.player.step === this.player.last()) this.player.command("first");
+    if (!this.player.predict.isOn) this.player.command("predict");
+    return this.cards.next.querySelector(".answers button")?.focus();
   }
 
   redress(choice) {

@@ -1,7 +1,13 @@
 // The two back ends of Lesson.paint: a canvas for the screen, SVG text for slides and tests. Both get screen
 // coordinates and styles with colours.
 Lesson.CanvasPainter = class {
-  constructor(context) { this.context = context; }
+  // `sheets` keeps what was painted before, for screens that are painted again and again; null: all is painted anew.
+  constructor(context, sheets = null) { Object.assign(this, {context, sheets}); }
+
+  sheet(sheet, view, dark, tools) {
+    this.stroked = null;
+    this.sheets.show(this.context, sheet, view, dark, tools);
+  }
 
   path(points, closed, style) {
     const context = this.context;

@@ -32,6 +32,14 @@ Lesson.Player = class {
     this.goTo(i);
   }
 
+  // The next step of a kind; after the last one the first.
+  toNext(kind) {
+    const isOne = ({kind: its}) => its === kind;
+    const steps = this.chapter.steps();
+    const after = steps.slice(this.step + 1).findIndex(isOne);
+    this.goTo(after < 0 ? steps.findIndex(isOne) : this.step + 1 + after);
+  }
+
   answer(guess) {
     if (!this.hidesNext()) return;
     this.predict.answer(this.step, guess, this.chapter.steps()[this.step + 1].kind);

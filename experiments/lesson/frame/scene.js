@@ -22,6 +22,9 @@ Lesson.Scene = class {
   // The radius is a length of the plane.
   circle(center, radius, role) { this.items.push({kind: "circle", center, radius, role, layer: this.layer}); }
 
+  // Many items at once (sheet.js).
+  sheet(name, items) { this.items.push(new Lesson.Sheet(name, items, this.layer)); }
+
   // A mark keeps its size, given in pixels, at every scale.
   mark(point, shape, role, size = 5) { this.items.push({kind: "mark", point, shape, role, size, layer: this.layer}); }
 
@@ -66,7 +69,7 @@ Lesson.markStrokes = (shape, x, y, size) => {
   const across = (dx, dy) => ({points: [[x - dx, y - dy], [x + dx, y + dy]], closed: false});
   switch (shape) {
     case "disc":
-      return corners(16, 0);
+      return corners(size < 3 ? 8 : 16, 0);
     case "square":
       return corners(4, Math.PI / 4);
     case "diamond":
@@ -99,17 +102,25 @@ Lesson.paint = (scene, view, painter, {layers, dark, fontSize = 13}) => {
     return styles.get(role);
   };
   const isShown = (item) => item.layer === 0 || !layers || layers.has(item.layer);
-  for (const item of scene.items) {
-    if (!isShown(item)) continue;
+  const paintItem = (to, item) => {
     const style = styleOf(item.role);
     if (item.kind === "path") {
-      painter.path(item.points.map((p) => view.toScreen(p)), item.closed, style);
+      to.path(item.points.map((p) => view.toScreen(p)), item.closed, style);
     } else if (item.kind === "circle") {
-      painter.circle(...view.toScreen(item.center), item.radius * view.scale, style);
+      to.circle(...view.toScreen(item.center), item.radius * view.scale, style);
     } else {
       const strokes = Lesson.markStrokes(item.shape, ...view.toScreen(item.point), item.size);
-      for (const stroke of strokes) painter.path(stroke.points, stroke.closed, style);
+      for (const stroke of strokes) to.path(stroke.points, stroke.closed, style);
     }
+  };
+  for (const item of scene.items) {
+    if (!isShown(item)) continue;
+    if (item.kind !== "sheet")
+      paintItem(painter, item);
+    else if (painter.sheets)
+      painter.sheet(item, view, dark, {paintItem, styleOf});
+    else
+      for (const part of item.items) paintItem(painter, part);
   }
   const placed = Lesson.placeLabels(scene.labels.filter(isShown), view, fontSize);
   const halo = Lesson.theme.colour("paper", dark);

@@ -6,6 +6,8 @@ Lesson.Stage = class {
     this.player = null;
     this.view = null;
     this.hold = null;
+    this.sheets = new Lesson.PaintedSheets();
+    this.isWaiting = false;  // for a frame, to go on
     this.canvas.addEventListener("pointerdown", (event) => this.down(event));
     this.canvas.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"]) this.canvas.addEventListener(end, () => this.up());
@@ -31,10 +33,21 @@ Lesson.Stage = class {
         this.bounds.every((bound, i) => bound === scene.bounds[i]);
     if (!isSame) this.view = new Lesson.View(scene.bounds, width, height);
     this.bounds = scene.bounds;
-    const context = Lesson.sizedContext(this.canvas, width, height);
-    Lesson.paint(
-        scene, this.view, new Lesson.CanvasPainter(context), {layers: this.player.layers, dark: Lesson.theme.isDark()});
+    this.sheets.begin();
+    const painter = new Lesson.CanvasPainter(Lesson.sizedContext(this.canvas, width, height), this.sheets);
+    Lesson.paint(scene, this.view, painter, {layers: this.player.layers, dark: Lesson.theme.isDark()});
     this.canvas.setAttribute("aria-label", this.player.chapter.sentence(this.player.step));
+    this.drawRest();
+  }
+
+  // A picture that is too much for one frame is finished in the next ones.
+  drawRest() {
+    if (this.sheets.isWhole() || this.isWaiting) return;
+    this.isWaiting = true;
+    requestAnimationFrame(() => {
+      this.isWaiting = false;
+      this.draw();
+    });
   }
 
   // Null: back to the whole.

@@ -11,6 +11,7 @@ Lesson.Timeline = class {
       "aria-label": "step",
       "aria-valuemin": 0,
     });
+    this.ticksCanvas = Lesson.element("canvas", {});
     this.isHeld = false;
     this.canvas.addEventListener("pointerdown", (event) => {
       this.isHeld = true;
@@ -40,31 +41,47 @@ Lesson.Timeline = class {
     const {clientWidth: width, clientHeight: height} = this.canvas;
     if (width === 0) return;
     const context = Lesson.sizedContext(this.canvas, width, height);
-    const scene = this.scene(steps, kinds, step, hidesFuture, width, height);
-    const view = {width, height, scale: 1, toScreen: (p) => p};
-    Lesson.paint(scene, view, new Lesson.CanvasPainter(context), {layers: null, dark: Lesson.theme.isDark()});
+    const dark = Lesson.theme.isDark();
+    const look = [steps.length, hidesFuture ? step : "", width, height, dark, window.devicePixelRatio].join();
+    // They stay as they are from step to step.
+    if (look !== this.look || steps !== this.steps) {
+      const scene = this.ticks(steps, kinds, step, hidesFuture, width, height);
+      this.paint(scene, Lesson.sizedContext(this.ticksCanvas, width, height), width, height, dark);
+      Object.assign(this, {look, steps});
+    }
+    context.drawImage(this.ticksCanvas, 0, 0, width, height);
+    const cursor = new Lesson.Scene([0, 0, width, height]);
+    const x = this.xOf(step, steps, width);
+    cursor.line([[x, 3], [x, height - 3]], "cursor");
+    this.paint(cursor, context, width, height, dark);
   }
 
-  scene(steps, kinds, step, hidesFuture, width, height) {
+  paint(scene, context, width, height, dark) {
+    const view = {width, height, scale: 1, toScreen: (p) => p};
+    Lesson.paint(scene, view, new Lesson.CanvasPainter(context), {layers: null, dark});
+  }
+
+  xOf(i, steps, width) { return 12 + ((width - 24) * i) / Math.max(steps.length - 1, 1); }
+
+  ticks(steps, kinds, step, hidesFuture, width, height) {
     const scene = new Lesson.Scene([0, 0, width, height]);
     const middle = height / 2;
-    const xOf = (i) => 12 + ((width - 24) * i) / Math.max(steps.length - 1, 1);
     scene.line([[12, middle], [width - 12, middle]], "grid");
     // A long run has more ticks than pixels to tell them apart by, so marks shrink, but not out of sight.
     const size = Math.max(2.5, Math.min(7, (width - 24) / steps.length / 1.6));
     const drawn = new Set();
     steps.forEach((event, i) => {
+      const x = this.xOf(i, steps, width);
       // Of equal ticks at one place the first is enough.
-      const place = `${Math.round(xOf(i))} ${hidesFuture && i > step ? "" : event.kind}`;
+      const place = `${Math.round(x)} ${hidesFuture && i > step ? "" : event.kind}`;
       if (drawn.has(place)) return;
       drawn.add(place);
       const isHidden = hidesFuture && i > step;
       const kind = kinds[event.kind];
       scene.mark(
-          [xOf(i), middle + (isHidden ? 0 : kind.rise ?? 0)], isHidden ? "bar" : kind.mark,
-          isHidden ? "grid" : kind.role, isHidden ? 3 : size);
+          [x, middle + (isHidden ? 0 : kind.rise ?? 0)], isHidden ? "bar" : kind.mark, isHidden ? "grid" : kind.role,
+          isHidden ? 3 : size);
     });
-    scene.line([[xOf(step), 3], [xOf(step), height - 3]], "cursor");
     return scene;
   }
 };

@@ -50,6 +50,16 @@ Lesson.selftest = (() => {
     return () => inner.contentDocument.close();
   };
 
+  // A page of the tests' own, out of sight but as large as a screen. One for all, as each would get the keys.
+  let testPage = null;
+  const page = () => {
+    if (testPage) return testPage;
+    const root = Lesson.element("div", {style: "position: absolute; left: -3000px; top: 0; width: 1280px"});
+    document.body.append(root);
+    testPage = new Lesson.Page(root);
+    return testPage;
+  };
+
   const run = async (root) => {
     const {element} = Lesson;
     const finishLoading = delayLoading();
@@ -73,5 +83,5 @@ Lesson.selftest = (() => {
     finishLoading();
   };
 
-  return {test, check, equal, run, runAll, failures, notes, passed: () => passed};
+  return {test, check, equal, page, run, runAll, failures, notes, passed: () => passed};
 })();

@@ -26,6 +26,23 @@
     }
   });
 
+  test("a state is the same on every way to it", () => {
+    for (const run of runs()) {
+      const {events} = run;
+      const last = events.length - 1;
+      const first = events[0].e === "initial" ? 0 : run.meshAt;
+      const stops = [0, 0.9, 0.3, 0.31, 1, 0.1, 0.95, 0.5].map((share) => Math.round(first + share * (last - first)));
+      // Nothing is saved here, and every event is taken back.
+      const plain = new Lesson.Replay(events, first);
+      const saving = new Lesson.Replay(events, first, 25);
+      for (const n of stops) {
+        while (plain.position > n) plain.undo.pop()();
+        equal(stateOf(saving.goTo(n)) === stateOf(plain.goTo(n)), true, `${run.name}, event ${n}`);
+      }
+      check(saving.saved.length > last / 50, `${run.name}: ${saving.saved.length} states are saved`);
+    }
+  });
+
   test("a state is a triangulation", () => {
     const run = main();
     if (!run) return;

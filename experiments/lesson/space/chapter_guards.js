@@ -30,6 +30,8 @@ Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
       picture.face(t.map((v) => mesh.points[v]), "meshFace", 5);
     }
     picture.flush();
+    // From the triangle in question to where its dual line meets the surface.
+    picture.line([Lesson.vectors.mean(event.t.map((v) => mesh.points[v])), event.p], "poleLine", 8);
     return Lesson.drawDisk(picture, mesh.points, event, preview);
   }
 
@@ -38,9 +40,11 @@ Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
     const scene = super.scene(step, options);
     const event = this.event(step);
     if (event.e !== "keep") return scene;
-    const [x, y] = this.run.camera.toPlane(event.p);
     const {mesh} = this.run.at(this.list[step].event);
-    const half = 2.2 * Math.max(...event.gone.flat().map((v) => Lesson.vectors.distance(mesh.points[v], event.p)), 0.4);
+    const seen = [event.p, ...event.gone.flat().map((v) => mesh.points[v])].map((p) => this.run.camera.toPlane(p));
+    const range = [0, 1].map((axis) => [Math.min, Math.max].map((pick) => pick(...seen.map((p) => p[axis]))));
+    const half = Math.max(0.8 * Math.max(...range.map(([low, high]) => high - low)), 0.9);
+    const [x, y] = range.map(([low, high]) => (low + high) / 2);
     scene.bounds = [x - half, y - half, x + half, y + half];
     return scene;
   }

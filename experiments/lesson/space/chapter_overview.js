@@ -14,10 +14,13 @@ Lesson.OverviewChapter = class {
 
   redraw() { this.drawn?.forEach(([event, canvas]) => this.draw(event, canvas)); }
 
+  // Another one than the chapters go through, so that the reader does not wait for it there.
+  replayAt(event) { return event < this.run.meshAt ? this.run.searching.goTo(event) : this.run.at(event); }
+
   whatItIs(event) {
     const {run} = this;
-    const replay = run.at(event);
-    const its = replay.mesh ? Lesson.complexOf([...replay.mesh.triangles.values()]) : run.complex(event);
+    const replay = this.replayAt(event);
+    const its = replay.mesh ? Lesson.complexOf([...replay.mesh.triangles.values()]) : run.complex(event, run.searching);
     const points = replay.mesh ? replay.mesh.points.length : replay.points.length;
     return {...its, points};
   }
@@ -25,7 +28,7 @@ Lesson.OverviewChapter = class {
   draw(event, canvas) {
     const picture = new Lesson.SpacePicture(this.run, this.run.camera, new Set([1, 2, 5]));
     picture.context(null);
-    const replay = this.run.at(event);
+    const replay = this.replayAt(event);
     if (replay.mesh)
       picture.mesh(replay.mesh);
     else
@@ -41,6 +44,8 @@ Lesson.OverviewChapter = class {
     const {element} = Lesson;
     const first = this.whatItIs(0);
     const exact = this.run.exact();
+    this.isTold = false;
+    this.captions = [];
     const box = element(
         "div", {class: "overview"}, element("h1", {}, `${this.run.name}: a run in four frames`),
         element("p", {}, `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.`),
@@ -48,43 +53,57 @@ Lesson.OverviewChapter = class {
           question: `Before you scroll: Del S0 has ${first.points} points. What is χ of its restricted facets?`,
           answer: () => first.chi,
           because: (chi) => `χ = ${chi} in ${Lesson.countText(first.components, "component")}.`,
+          seen: () => this.tell(),
         }));
     this.drawn = [];
     const places = this.frames().map(([event, title]) => [event, title, element("section", {})]);
     box.append(element("div", {class: "frames"}, ...places.map(([, , place]) => place)));
     const fill = ([event, title, place]) => this.fill(event(), title, place);
-    requestAnimationFrame(() => places.filter((_, i) => i !== 1).forEach(fill));
     places[1][2].append(element("h2", {}, places[1][1]), element("p", {class: "soft"}, "looking for it …"));
-    // A long run is searched piece by piece, so that the page stays awake.
+    // One frame after the other, and a long run is searched piece by piece, so that the page stays awake.
     const search = () => {
-      if (!this.run.searchHomeomorphic(performance.now() + 30)) return setTimeout(search, 0);
+      if (!this.run.searchHomeomorphic(performance.now() + 8)) return setTimeout(search, 0);
       if (this.run.firstRight < 0)
         return places[1][2].replaceChildren(
             element("h2", {}, "Recover does not make χ right"),
             element("p", {}, "Not in this run: repair has to act (chapter 10)."));
       return fill(places[1]);
     };
-    setTimeout(search, 0);
+    const others = places.filter((_, i) => i !== 1);
+    const fillNext = () => {
+      fill(others.shift());
+      setTimeout(others.length ? fillNext : search, 0);
+    };
+    requestAnimationFrame(fillNext);
     return box;
+  }
+
+  // Frames lie in sight of the question, so what they are is said after the answer.
+  tell() {
+    this.isTold = true;
+    this.captions?.forEach((tell) => tell());
   }
 
   fill(event, title, place) {
     const {element} = Lesson;
     const its = this.whatItIs(event);
-    const words = `${its.points} points, ${its.triangles} triangles, χ = ${its.chi}, ${
-        Lesson.countText(its.components, "component")}. `;
-    const canvas = element("canvas", {
-      class: "frame",
-      role: "img",
-      "aria-label": `${title}: ${words}`,
-      style: "display: block; width: min(100%, 560px); height: 320px"
-    });
+    const canvas = element(
+        "canvas",
+        {class: "frame", role: "img", style: "display: block; width: min(100%, 560px); height: min(320px, 78vw)"});
+    const caption = element("span", {});
+    const tell = () => {
+      caption.textContent = `${its.points} points, ${its.triangles} triangles, ` +
+          (this.isTold ? `χ = ${its.chi}, ${Lesson.countText(its.components, "component")}. ` : "χ = ? ");
+      canvas.setAttribute("aria-label", `${title}: ${caption.textContent}`);
+    };
+    tell();
+    this.captions.push(tell);
     const isStage1 = event < this.run.meshAt;
     const address = isStage1 ? `#recover/${event}` : `#refine/${event - this.run.meshAt}`;
     place.replaceChildren(
         element("h2", {}, title), canvas,
         element(
-            "p", {}, words,
+            "p", {}, caption,
             element("a", {href: address, "aria-label": `${title}: step through it`}, "Step through it")));
     this.drawn.push([event, canvas]);
     this.draw(event, canvas);

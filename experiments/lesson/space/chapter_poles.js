@@ -55,8 +55,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     const {q, event, kind} = this.list[step];
     const replay = this.run.at(event);
     if (kind === "mesh") return picture.mesh(replay.mesh);
-    for (const f of replay.restricted()) picture.face(f.map((v) => replay.points[v]), "meshFace", 5);
-    picture.flush();
+    picture.restricted(replay);
     const asked = this.list[step + 1]?.q;
     if (asked !== undefined) {
       picture.mark(replay.points[asked], "diamond", "point", 0, 6);

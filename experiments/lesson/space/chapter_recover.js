@@ -22,8 +22,11 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     const next = this.nextEvent(step);
     if (preview && next) this.drawAction(picture, replay, next);
     this.drawLink(picture, replay, step, preview);
-    return picture.vertices(replay.points, this.event(step).v);
+    return picture.vertices(replay.points, this.event(step).v, preview && next ? this.inQuestion(next) : []);
   }
+
+  // The vertices that the sentence about an event names.
+  inQuestion({q, sigma}) { return [...(q === undefined ? [] : [q]), ...(sigma ? sigma.slice(0, 3) : [])]; }
 
   // The link of the umbrella in question; else that of the newest vertex.
   linkOf(replay, step, preview) {

@@ -12,11 +12,12 @@ Lesson.RefineChapter = class extends Lesson.SpaceChapter {
     const {mesh} = this.run.at(this.list[step].event);
     picture.mesh(mesh);
     const next = this.nextEvent(step);
-    if (preview && next?.gone) Lesson.drawDisk(picture, mesh.points, next);
-    if (mesh.points.length <= 160)
-      picture.vertices(mesh.points, this.event(step).v);
-    else if (this.event(step).p)
-      picture.mark(this.event(step).p, "disc", "vertex", 0, 5);
+    if (preview && next?.p) Lesson.drawDisk(picture, mesh.points, next);
+    const named = preview && next?.t ? next.t : [];
+    if (mesh.points.length <= 160) return picture.vertices(mesh.points, this.event(step).v, named);
+    if (this.event(step).p) picture.mark(this.event(step).p, "disc", "vertex", 0, 5);
+    for (const v of named) picture.label(mesh.points[v], String(v), 6);
+    return undefined;
   }
 
   exercises() {

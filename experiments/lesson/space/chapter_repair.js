@@ -3,7 +3,7 @@
 Lesson.RepairChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
     super(run, {name: "repair", title: "10 Repair", code: Lesson.RepairChapter.code, shownLayers: [1, 5, 7, 8]});
-    this.layers = {1: "box, slice", 2: "surface", 5: "mesh", 6: "new samples", 7: "cells", 8: "boundary curves"};
+    this.layers = {1: "box, slice", 2: "surface", 5: "mesh", 6: "new samples", 7: "cells", 8: "boundary"};
     this.kinds = Lesson.RepairChapter.kinds;
     this.comparisons = new Map();  // event -> Comparison
     const random = new Lesson.Random(Lesson.data.seed);
@@ -232,10 +232,10 @@ Lesson.RepairChapter.says = {
 Lesson.RepairChapter.kinds = {
   start: {title: "the mesh of stage 1", mark: "bar", role: "plain"},
   exact: {title: "right", key: "r", mark: "disc", role: "right", rise: 8},
-  different: {title: "other topology", key: "t", mark: "triangle", role: "wrong", rise: -8},
-  partial: {title: "a part missing", key: "m", mark: "diamond", role: "wrong", rise: -8},
-  mixed: {title: "joined", key: "j", mark: "pentagon", role: "wrong", rise: -8},
-  with_strays: {title: "stray pieces", key: "s", mark: "down", role: "wrong", rise: -8},
+  different: {title: "other topology", key: "t", mark: "triangle", role: "multi", rise: -8},
+  partial: {title: "a part missing", key: "m", mark: "diamond", role: "multi", rise: -8},
+  mixed: {title: "joined", key: "j", mark: "pentagon", role: "multi", rise: -8},
+  with_strays: {title: "stray pieces", key: "s", mark: "down", role: "multi", rise: -8},
   x: {title: "cell X", key: "x", mark: "square", role: "refine"},
   y: {title: "cell Y", key: "y", mark: "plus", role: "refine"},
   z: {title: "cell Z", key: "z", mark: "star", role: "refine"},

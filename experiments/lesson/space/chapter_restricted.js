@@ -1,9 +1,9 @@
 // Chapter 4: a facet and its dual edge. One facet of the triangulation a step; restricted or not?
 Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
+  // Hits of other facets than the one in question would tell what comes.
   constructor(run) {
     super(
-        run,
-        {name: "restricted", title: "4 Restricted", code: Lesson.RestrictedChapter.code, shownLayers: [1, 2, 4, 6]});
+        run, {name: "restricted", title: "4 Restricted", code: Lesson.RestrictedChapter.code, shownLayers: [1, 2, 4]});
     this.kinds = {
       start: {title: "the triangulation", mark: "bar", role: "plain"},
       restricted: {title: "restricted", key: "r", mark: "triangle", role: "approximate"},

@@ -101,5 +101,5 @@ Lesson.restrictedComplex = (replay, volume) => {
     }
     return pairs;
   };
-  return {...Lesson.complexOf(facets, pairUp), facets};
+  return Lesson.complexOf(facets, pairUp);
 };

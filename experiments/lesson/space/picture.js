@@ -26,21 +26,12 @@ Lesson.SpacePicture = (() => {
 
     face(points, name, layer) {
       if (!this.isShown(layer)) return;
-      const {camera} = this;
-      const normal = vectors.cross(vectors.sub(points[1], points[0]), vectors.sub(points[2], points[0]));
-      this.faces.push({
-        points: points.map((p) => camera.toPlane(p)),
-        layer,
-        role: `${name}${Lesson.shadeOf(normal, camera.towards)}`,
-        nearness: camera.nearness(vectors.mean(points))
-      });
+      this.faces.push({...Lesson.RunItems.faceOf(points, name, this.camera), layer});
     }
 
     // Puts the faces gathered so far into the scene.
     flush() {
-      this.faces.sort(
-          (a, b) => a.nearness - b.nearness || Lesson.Replay.compare(a.points[0], b.points[0]) ||
-              Lesson.Replay.compare(a.points[1], b.points[1]));
+      this.faces.sort((a, b) => Lesson.Replay.compare(a.order, b.order));
       for (const {points, role, layer} of this.faces) this.scene.onLayer(layer).polygon(points, role);
       this.faces = [];
     }
@@ -85,16 +76,10 @@ Lesson.SpacePicture = (() => {
 
     // The surface looks the same until the reader turns it.
     surface() {
-      const {run: {volume}, camera, scene} = this;
-      const seen = this.run.surfaceSeen;
-      if (seen?.turn === camera.turn && seen.tilt === camera.tilt) {
-        for (const item of seen.items) scene.items.push(item);
-        return;
-      }
-      const first = scene.items.length;
-      for (const t of volume.triangles ?? []) this.face(t.map((v) => volume.points[v]), "surfaceFace", 2);
-      this.flush();
-      this.run.surfaceSeen = {turn: camera.turn, tilt: camera.tilt, items: scene.items.slice(first)};
+      const {run, run: {volume, shown}, camera} = this;
+      run.surfaceTriangles ??= [...(volume.triangles ?? []).entries()];
+      this.scene.onLayer(2).sheet(
+          "surface", shown.facesOf("surface", run.surfaceTriangles, volume.points, "surfaceFace", camera));
     }
 
     // Where the dual edge of a facet ends: at circumcenters, and towards infinity at the rim of the picture.
@@ -132,50 +117,40 @@ Lesson.SpacePicture = (() => {
       return found.t.map((t) => vectors.add(center, vectors.scale(t, normal)));
     }
 
-    vertices(points, newest) {
-      points.forEach((p, v) => {
-        const isNew = v === newest;
-        this.mark(p, "disc", "vertex", 0, isNew ? 5 : 2.2);
-        // Names of what lies behind would be taken for those in front.
-        const isInFront = this.camera.nearness(p) > -0.1 * this.camera.size;
-        if (isNew || (isInFront && points.length <= 160)) {
-          this.label(p, String(v), isNew ? 6 : 1 + this.camera.nearness(p) / 1000);
-        }
-      });
+    // Where there are many, only those in question have their numbers, `named`; where there are very many, only the
+    // newest is seen.
+    vertices(points, newest, named = []) {
+      if (points.length <= 400) this.scene.onLayer(0).sheet("vertices", this.run.shown.verticesOf(points, this.camera));
+      if (points[newest]) this.mark(points[newest], "disc", "vertex", 0, 5);
+      const names = new Map([...named, newest].filter((v) => points[v]).map((v) => [v, 6]));
+      // Names of what lies behind would be taken for those in front.
+      const isInFront = (p) => this.camera.nearness(p) > -0.1 * this.camera.size;
+      if (points.length <= 60) {
+        points.forEach((p, v) => {
+          if (!names.has(v) && isInFront(p)) names.set(v, 1 + this.camera.nearness(p) / 1000);
+        });
+      }
+      for (const [v, weight] of names) this.label(points[v], String(v), weight);
     }
 
     triangulation(replay) {
-      if (this.isShown(4)) {
-        for (const [a, b] of SpacePicture.edgesOf(replay))
-          this.line([replay.points[a], replay.points[b]], "delaunay", 4);
-      }
-      const facets = replay.restricted();
-      for (const f of facets) this.face(f.map((v) => replay.points[v]), "meshFace", 5);
-      this.flush();
-      if (!this.isShown(3) && !this.isShown(6)) return;
-      for (const f of facets) {
-        const key = Lesson.Replay.keyOf(f);
-        this.line(this.dualEdge(replay, key), "voronoi", 3);
-        for (const p of this.hitsOf(replay, key)) this.mark(p, "cross", "hit", 6, 4);
-      }
+      const {scene, camera, run: {shown}} = this;
+      if (this.isShown(4)) scene.onLayer(4).sheet("edges", shown.edgesOf(replay, camera));
+      this.restricted(replay);
+      if (this.isShown(3))
+        scene.onLayer(3).sheet("dualEdges", shown.dualEdgesOf(replay, (key) => this.dualEdge(replay, key), camera));
+      if (this.isShown(6))
+        scene.onLayer(6).sheet("hits", shown.hitsOf(replay, (key) => this.hitsOf(replay, key), camera));
     }
 
-    // The edges between vertices that are points of the surface, each once, sorted.
-    static edgesOf(replay) {
-      const size = replay.points.length;
-      const numbers = new Set();
-      for (const {v} of replay.tets.values()) {
-        const finite = v.filter((corner) => !replay.isVirtual(corner));
-        for (const a of finite)
-          for (const b of finite)
-            if (a < b) numbers.add(a * size + b);
-      }
-      return [...numbers].sort((a, b) => a - b).map((number) => [Math.floor(number / size), number % size]);
+    restricted(replay) {
+      this.mesh({points: replay.points, triangles: new Map(replay.restricted().map((f) => [f.join(), f]))});
     }
 
+    // Of triangles, key -> corners.
     mesh({points, triangles}) {
-      for (const t of triangles.values()) this.face(t.map((v) => points[v]), "meshFace", 5);
-      this.flush();
+      if (!this.isShown(5)) return;
+      this.scene.onLayer(5).sheet("mesh", this.run.shown.facesOf("mesh", triangles, points, "meshFace", this.camera));
     }
 
     // Faces of some tetrahedra, each drawn around its own middle, which moves outwards with `explode`.

@@ -1,23 +1,37 @@
 // A run of the program with what its chapters share: the trace, its replay, and where the reader stands.
 Lesson.SpaceRun = class {
-  constructor({name, volume, events, limits, rays, cells, left_out: leftOut}) {
+  // As the page's data have it.
+  constructor({name, volume: packed, events: packedEvents, limits, rays, cells, left_out: leftOut}) {
+    const {listOf, eventsOf} = Lesson.columns;
+    const events = eventsOf(packedEvents);
+    const volume = {dims: packed.dims, step: packed.step};
+    for (const key of ["samples", "points", "triangles"]) volume[key] = packed[key] ? listOf(packed[key]) : [];
     Object.assign(this, {name, volume, events, leftOut, rays: rays ?? [], cells: cells ?? []});
     const last = volume.dims.map((count, axis) => (count - 1) * volume.step[axis]);
     this.box = [[0, 0, 0], last];
     this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));
-    this.replay = new Lesson.Replay(events);
     this.meshAt = events.findIndex((event) => event.e === "mesh");
+    this.replay = new Lesson.Replay(events, 0, 200);
+    // Stage 2 stands on the mesh that it begins with, so that nobody has to go through stage 1 to get to it.
+    this.replayOfStage2 = this.meshAt < 0 ? this.replay : new Lesson.Replay(events, this.meshAt, 1500);
+    // The search for a state goes its own way, while the reader goes his.
+    this.searching = new Lesson.Replay(events);
+    this.shown = new Lesson.RunItems();
     this.limits = {...limits, ...(this.meshAt >= 0 ? events[this.meshAt].limits : {})};
     this.end = events[events.length - 1];
   }
 
   // The replay after an event; the last event that is no state of its own shows the one before.
-  at(event) { return this.replay.goTo(Math.max(0, event)); }
+  at(event) {
+    const n = Math.max(0, event);
+    return (this.meshAt >= 0 && n >= this.meshAt ? this.replayOfStage2 : this.replay).goTo(n);
+  }
 
   // What the restricted facets are after an event of stage 1, as BuildTriMesh would take them.
-  complex(event) {
+  complex(event, replay = this.replay) {
     this.complexes ??= new Map();
-    if (!this.complexes.has(event)) this.complexes.set(event, Lesson.restrictedComplex(this.at(event), this.volume));
+    if (!this.complexes.has(event))
+      this.complexes.set(event, Lesson.restrictedComplex(replay.goTo(event), this.volume));
     return this.complexes.get(event);
   }
 
@@ -47,7 +61,7 @@ Lesson.SpaceRun = class {
       if (i >= this.meshAt) {
         this.firstRight = -1;
       } else if (this.events[i].e === "initial" || this.events[i].e === "insert") {
-        const found = this.complex(i);
+        const found = this.complex(i, this.searching);
         if (found.chi === chi && found.components === components && !found.open) this.firstRight = i;
       }
     }
