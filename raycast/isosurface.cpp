@@ -78,10 +78,17 @@ Vec3 Isosurface::gradient(const Vec3& p) const {
   return scaled(trilinear_gradient(corners, uvw), inverse_step_);
 }
 
-std::pair<double, Vec3> Isosurface::value_and_gradient(const Vec3& p) const {
+bool Isosurface::passes_within(const Vec3& p, double distance) const {
   Vec3 uvw;
   const CellCorners corners = relative_corners(p, uvw);
-  return {relative_value(corners, uvw), scaled(trilinear_gradient(corners, uvw), inverse_step_)};
+  const Vec3 gradient = scaled(trilinear_gradient(corners, uvw), inverse_step_);
+  const Vec3 offset = scaled((distance / norm(gradient)) * gradient, inverse_step_);
+  const auto is_in_cell = [](const Vec3& q) {
+    return q.x >= 0 && q.x <= 1 && q.y >= 0 && q.y <= 1 && q.z >= 0 && q.z <= 1;
+  };
+  const Vec3 below = uvw - offset, above = uvw + offset;
+  return is_in_cell(below) && is_in_cell(above) && relative_value(corners, below) < 0 &&
+         relative_value(corners, above) >= 0;
 }
 
 // The first and the last cell of a segment but for what lies near an end that is far from the isosurface. The walk from
