@@ -103,7 +103,7 @@ class Isosurface {
   [[nodiscard]] std::pair<Cell, Cell> without_clear_ends(const LineSegment& segment) const;
   template <class Solve>
   void visit_voxels(const LineSegment& segment, Solve&& solve) const;
-  void hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const;
+  void hits_in_start_cells(const LineLanes& lines, double reach, bool first_alone, Lanes& hits) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
 
