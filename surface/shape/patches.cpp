@@ -83,7 +83,7 @@ std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const S
     };
     if (std::max({size.x, size.y, size.z}) <= map.reach()) {
       for (const std::uint32_t i : map.near(box.low)) add(i);
-    } else {
+    } else if (!map.visit_near(box, add)) {
       thread_local std::vector<std::uint32_t> near;
       around.boxes.for_each_meeting(box, near, add);
     }
