@@ -188,9 +188,12 @@ GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surfac
   GeometryCheck check;
   check_vertices(mesh, surface, promise, check);
   const std::vector<std::uint32_t> long_triangles = check_triangles(mesh, surface, promise, check);
-  check.missed_crossings = far_crossings(mesh, surface, promise.max_distance, long_triangles);
-  check_orientation(mesh, surface, check);
-  check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
+  // Two of these have no parts for several threads.
+  run_tasks(3, surface.threads, [&](std::size_t task) {
+    if (task == 0) check.missed_crossings = far_crossings(mesh, surface, promise.max_distance, long_triangles);
+    if (task == 1) check_orientation(mesh, surface, check);
+    if (task == 2) check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
+  });
   return check;
 }
 
