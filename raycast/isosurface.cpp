@@ -44,14 +44,23 @@ Isosurface::~Isosurface() = default;
 
 CellCorners Isosurface::relative_corners(const Vec3& p, Vec3& uvw) const {
   const Dims& dims = grid_.dims();
-  const AxisValues point = axis_values(scaled(p, inverse_step_));
-  Cell cell;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double x = std::clamp(point[a], 0.0, static_cast<double>(dims[a] - 1));
-    cell[a] = std::min(static_cast<std::int32_t>(x), dims[a] - 2);
-    uvw[a] = x - cell[a];
-  }
-  return relative_to(grid_.cell(cell[0], cell[1], cell[2]), isovalue_);
+  const Vec3 point = scaled(p, inverse_step_);
+  const auto along = [](double coordinate, std::int32_t count, double& place) {
+    const double x = std::clamp(coordinate, 0.0, static_cast<double>(count - 1));
+    const std::int32_t cell = std::min(static_cast<std::int32_t>(x), count - 2);
+    place = x - cell;
+    return cell;
+  };
+  const std::int32_t i = along(point.x, dims[0], uvw.x), j = along(point.y, dims[1], uvw.y),
+                     k = along(point.z, dims[2], uvw.z);
+  return visit_samples(grid_.samples(), [&, first = grid_.index(i, j, k)](const auto& samples) {
+    const auto row = static_cast<std::size_t>(dims[0]);
+    const auto* const a = samples.data() + first;
+    const auto* const b = a + row * static_cast<std::size_t>(dims[1]);
+    const auto relative = [this](auto sample) { return static_cast<double>(sample) - isovalue_; };
+    return CellCorners{relative(a[0]), relative(a[1]), relative(a[row]), relative(a[row + 1]),
+                       relative(b[0]), relative(b[1]), relative(b[row]), relative(b[row + 1])};
+  });
 }
 
 double Isosurface::value(const Vec3& p) const {
@@ -78,10 +87,17 @@ Vec3 Isosurface::gradient(const Vec3& p) const {
   return scaled(trilinear_gradient(corners, uvw), inverse_step_);
 }
 
-std::pair<double, Vec3> Isosurface::value_and_gradient(const Vec3& p) const {
+bool Isosurface::passes_within(const Vec3& p, double distance) const {
   Vec3 uvw;
   const CellCorners corners = relative_corners(p, uvw);
-  return {relative_value(corners, uvw), scaled(trilinear_gradient(corners, uvw), inverse_step_)};
+  const Vec3 gradient = scaled(trilinear_gradient(corners, uvw), inverse_step_);
+  const Vec3 offset = scaled((distance / norm(gradient)) * gradient, inverse_step_);
+  const auto is_in_cell = [](const Vec3& q) {
+    return q.x >= 0 && q.x <= 1 && q.y >= 0 && q.y <= 1 && q.z >= 0 && q.z <= 1;
+  };
+  const Vec3 below = uvw - offset, above = uvw + offset;
+  return is_in_cell(below) && is_in_cell(above) && relative_value(corners, below) < 0 &&
+         relative_value(corners, above) >= 0;
 }
 
 // The first and the last cell of a segment but for what lies near an end that is far from the isosurface. The walk from

@@ -76,8 +76,9 @@ class Isosurface {
 
   // Gradient of the field at p (clamped to the box), with respect to mesh-space coordinates.
   [[nodiscard]] Vec3 gradient(const Vec3& p) const;
-  // Both, for one look at the cell.
-  [[nodiscard]] std::pair<double, Vec3> value_and_gradient(const Vec3& p) const;
+  // Whether two points at this distance from p, one along the gradient there and one against it, lie on different sides
+  // of the isosurface. Looks at the cell of p alone, so false tells nothing. Fast.
+  [[nodiscard]] bool passes_within(const Vec3& p, double distance) const;
 
   // Intersect of the paper (Dey and Levine, Figure 12): all hits with t0 <= t <= t1, ascending, appended to `hits`
   // (which is cleared first). Falling and rising hits alternate: tangential touches are left out. Their number is odd
@@ -102,7 +103,7 @@ class Isosurface {
   [[nodiscard]] std::pair<Cell, Cell> without_clear_ends(const LineSegment& segment) const;
   template <class Solve>
   void visit_voxels(const LineSegment& segment, Solve&& solve) const;
-  void hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const;
+  void hits_in_start_cells(const LineLanes& lines, double reach, bool first_alone, Lanes& hits) const;
   [[nodiscard]] std::optional<double> nearest_outward(const Line& line, double reach, std::uint64_t& solves) const;
   [[nodiscard]] std::optional<double> nearest_on_line(const Line& line, double reach, std::uint64_t& solves) const;
 

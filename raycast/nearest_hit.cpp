@@ -63,16 +63,17 @@ std::optional<double> Isosurface::nearest_on_line(const Line& line, double reach
 
 // Most hits that are asked for lie close to t = 0, in the cell of the line's origin, and are found so in a third of the
 // time. Schwarze's solver does without: it is there to be compared.
-void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes& hits) const {
+void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, bool first_alone, Lanes& hits) const {
   if (options_.solver != CubicSolver::kBracketed || !options_.incremental) {
     hits.fill(kNothing);
     return;
   }
   StartCells cells;
-  find_start_cells(lines, reach, {grid_.dims(), inverse_step_, box_.high}, cells);
+  find_start_cells(lines, reach, {grid_.dims(), inverse_step_, box_.high}, first_alone, cells);
+  const std::size_t count = first_alone ? 1 : kLanes;
   const std::size_t row = grid_.index(0, 1, 0), layer = grid_.index(0, 0, 1);
   visit_samples(grid_.samples(), [&](const auto& samples) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const auto* const lowest = samples.data() + cells.first[i];
       for (std::size_t corner = 0; corner < 8; ++corner) {
         const std::size_t offset = (corner & 1) + (corner >> 1 & 1) * row + (corner >> 2) * layer;
@@ -80,7 +81,7 @@ void Isosurface::hits_in_start_cells(const LineLanes& lines, double reach, Lanes
       }
     }
   });
-  falling_hits_around(cells);
+  falling_hits_around(first_alone, cells);
   hits = cells.hit;
 }
 
@@ -144,7 +145,7 @@ std::optional<double> Isosurface::nearest_falling_hit(const Line& line, double r
 // A start cell without a hit counts when the walks solve it.
 void Isosurface::nearest_falling_hits(const LineLanes& lines, const std::array<bool, kLanes>& asked, double reach,
                                       Lanes& hits, SearchCounters& counters) const {
-  hits_in_start_cells(lines, reach, hits);
+  hits_in_start_cells(lines, reach, !asked[1] && !asked[2] && !asked[3], hits);
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (!asked[i]) continue;
     std::uint64_t solves = 1;

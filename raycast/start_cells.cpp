@@ -8,6 +8,7 @@ namespace deliso {
 
 namespace {
 
+template <std::size_t kCount>
 struct FindStartCells {
   // A coordinate along an axis whose last sample is `last`: its cell, and its position within the cell.
   struct Along {
@@ -30,7 +31,7 @@ struct FindStartCells {
     const double nx = dims[0], ny = dims[1], nz = dims[2], farthest = reach;
     LineLanes found;
     Lanes first, reaches;  // first: whole numbers, which doubles hold
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < kCount; ++i) {
       const Vec3 p = lines.origin.at(i), origin = scaled(p, scale);
       const Along x = along(origin.x, nx - 1), y = along(origin.y, ny - 1), z = along(origin.z, nz - 1);
       found.set(i, {{x.place, y.place, z.place}, scaled(lines.direction.at(i), scale)});
@@ -41,7 +42,7 @@ struct FindStartCells {
     }
     cells.line = found;
     cells.reach = reaches;
-    for (std::size_t i = 0; i < kLanes; ++i) cells.first[i] = static_cast<std::size_t>(first[i]);
+    for (std::size_t i = 0; i < kCount; ++i) cells.first[i] = static_cast<std::size_t>(first[i]);
   }
 };
 
@@ -55,6 +56,7 @@ struct Linear {
   double c0, c1;
 };
 
+template <std::size_t kCount>
 struct FallingHitsAround {
   // The interpolant on the line: interpolated along x, then y, then z, each time by a linear function of t.
   [[gnu::always_inline]] static Linear on_edge(double low, double high, double u, double d) {
@@ -87,7 +89,7 @@ struct FallingHitsAround {
     constexpr double kSmallStep = 1e-8;  // its square is below the rounding of a double
     Lanes c0, c1, c2, c3, t;
     Lanes moves;  // 1 for a lane that still moves
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < kCount; ++i) {
       const Cubic c = on_line(cells.relative, i, cells.line.origin.at(i), cells.line.direction.at(i));
       c0[i] = c.c0;
       c1[i] = c.c1;
@@ -99,15 +101,17 @@ struct FallingHitsAround {
     // Newton's method, until no lane moves.
     for (int step = 0; step < kMostSteps; ++step) {
 #pragma GCC unroll 1
-      for (std::size_t i = 0; i < kLanes; ++i) {
+      for (std::size_t i = 0; i < kCount; ++i) {
         const double slope = (3 * c3[i] * t[i] + 2 * c2[i]) * t[i] + c1[i];
         const double change = (((c3[i] * t[i] + c2[i]) * t[i] + c1[i]) * t[i] + c0[i]) / slope;
         t[i] = moves[i] != 0 ? t[i] - change : t[i];
         moves[i] = std::abs(change) <= kSmallStep ? 0 : moves[i];
       }
-      if (moves[0] + moves[1] + moves[2] + moves[3] == 0) break;
+      double moving = 0;
+      for (std::size_t i = 0; i < kCount; ++i) moving += moves[i];
+      if (moving == 0) break;
     }
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < kCount; ++i) {
       const Vec3 u = cells.line.origin.at(i), d = cells.line.direction.at(i);
       const double reach = std::abs(t[i]);
       const double bend = (2 * std::abs(c2[i]) + 3 * std::abs(c3[i]) * reach) * reach;
@@ -122,10 +126,15 @@ struct FallingHitsAround {
 
 }  // namespace
 
-void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, StartCells& cells) {
-  run_in_lanes<FindStartCells>(lines, reach, frame, cells);
+void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, bool first_alone,
+                      StartCells& cells) {
+  if (first_alone) return FindStartCells<1>::run(lines, reach, frame, cells);
+  run_in_lanes<FindStartCells<kLanes>>(lines, reach, frame, cells);
 }
 
-void falling_hits_around(StartCells& cells) { run_in_lanes<FallingHitsAround>(cells); }
+void falling_hits_around(bool first_alone, StartCells& cells) {
+  if (first_alone) return FallingHitsAround<1>::run(cells);
+  run_in_lanes<FallingHitsAround<kLanes>>(cells);
+}
 
 }  // namespace deliso

@@ -25,11 +25,14 @@ struct GridFrame {
   Vec3 high;  // of the box, in mesh space
 };
 
+// Both work on all lanes, or on the first one alone, with the same results.
+
 // Sets line, first and reach. Where an origin lies beyond the box, the cell is that of the nearest point of the box.
-void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, StartCells& cells);
+void find_start_cells(const LineLanes& lines, double reach, const GridFrame& frame, bool first_alone,
+                      StartCells& cells);
 
 // Sets hit from the others: the falling hit nearest to t = 0. No hit is set when it may lie in another cell, or when
 // the interpolant cannot be shown to fall all the way from -|t| to |t|: then there may be other hits.
-void falling_hits_around(StartCells& cells);
+void falling_hits_around(bool first_alone, StartCells& cells);
 
 }  // namespace deliso

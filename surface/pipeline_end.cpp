@@ -146,9 +146,11 @@ void Pipeline::drop_crossings() {
 }
 
 void Pipeline::certify(SurfaceMesh mesh) {
+  double squared_longest = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest_edge(mesh, t)));
+    squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
   }
+  result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest));
   result_.mesh = to_world(std::move(mesh), *isosurface_);
   SurfaceMesh places;
   for (const DroppedPiece& dropped : result_.dropped) places.points.push_back(dropped.piece.at);

@@ -28,9 +28,9 @@
 #include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/progress_bar.h"
-#include "surface/library/rounded_output.h"
 #include "experiments/system/stop_signal.h"
 #include "surface/deliso.h"
+#include "surface/library/rounded_output.h"
 #include "surface/mesh/mesh_frame.h"
 #include "volume/filters/labels.h"
 
@@ -85,7 +85,7 @@ void check_outputs(const MeshCommandOptions& options, const std::vector<std::int
 
 Json report_of(const MeshCommandOptions& options, const Meshed& meshed, const Volume& volume, const std::string& sha256,
                const World& world) {
-  const MeshRun run{options.volume.path, volume.grid, meshed.chosen.isovalue, meshed.meshing, sha256};
+  const MeshRun run{options.volume.path, volume.grid, meshed.chosen.isovalue, meshed.meshing, sha256, &meshed.quality};
   Json report = mesh_report(run, meshed.result);
   report["surface"] = surface_json(transformed(meshed.result.mesh, world.from_grid), meshed.meshing.threads);
   report["volume"].update(source_json(volume));
@@ -188,7 +188,8 @@ Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const W
                    output_format(options.output, "-o", options.format), metres_in_unit(world.units),
                    result.certificate);
   }
-  return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result)};
+  const MeshQuality quality = measure_quality(result.mesh, meshing.threads);
+  return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result), quality};
 }
 
 ExitCode run_mesh(const MeshCommandOptions& options) {

@@ -10,7 +10,6 @@
 #include "experiments/commands/size_options.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/text_table.h"
-#include "surface/mesh/mesh_quality.h"
 
 namespace deliso {
 namespace {
@@ -30,7 +29,6 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
 
 void print_summary(const Meshed& meshed, std::ostream& stream) {
   const MeshingResult& result = meshed.result;
-  const MeshingOptions& options = meshed.meshing;
   const TopologySum topology = sum_of(mesh_topology(result));
   const std::string field = field_text(meshed.chosen.parameters);
   TextTable table;
@@ -41,7 +39,7 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
       .row({"euler characteristic", std::to_string(topology.euler_characteristic)})
       .row({"boundary loops", std::to_string(topology.boundary_loops)})
       .row({"verdict", verdict_name(result.certificate.verdict)})
-      .row({"min angle (degrees)", number_text(measure_quality(result.mesh, options.threads).min_angle_degrees)})
+      .row({"min angle (degrees)", number_text(meshed.quality.min_angle_degrees)})
       .row({"seconds", number_text(result.total_seconds)});
   table.print(stream);
   if (result.certificate.verdict == Verdict::kNotChecked || result.stopped_early()) return;

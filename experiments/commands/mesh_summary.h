@@ -8,6 +8,7 @@
 
 #include "experiments/commands/field_options.h"
 #include "surface/deliso.h"
+#include "surface/mesh/mesh_quality.h"
 
 namespace deliso {
 
@@ -17,6 +18,7 @@ struct Meshed {
   ChosenField chosen;
   MeshingOptions meshing;
   MeshingResult result;
+  MeshQuality quality;
 };
 
 void print_summary(const Meshed& meshed, std::ostream& stream);

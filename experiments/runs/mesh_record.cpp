@@ -42,8 +42,8 @@ Json mesh_report(const MeshRun& run, const MeshingResult& result) {
   Json report{{"schema", kReportSchema},
               {"program", program_json()},
               {"volume", volume_json(run.volume_path, run.grid, run.volume_sha256)}};
-  report.update(
-      json_of(run_report(run.isovalue, run.options, result, measure_quality(result.mesh, run.options.threads))));
+  const MeshQuality quality = run.quality ? *run.quality : measure_quality(result.mesh, run.options.threads);
+  report.update(json_of(run_report(run.isovalue, run.options, result, quality)));
   report["peak_memory_bytes"] = peak_memory_bytes();
   return report;
 }

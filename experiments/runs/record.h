@@ -48,7 +48,8 @@ struct MeshRun {
   const ScalarGrid& grid;
   double isovalue = 0;
   const MeshingOptions& options;
-  std::string volume_sha256{};  // empty: not known yet
+  std::string volume_sha256{};           // empty: not known yet
+  const MeshQuality* quality = nullptr;  // of the mesh, where it is known
 };
 
 // The report of `deliso mesh`.

@@ -11,29 +11,32 @@
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/boundary_check.h"
+#include "surface/certificate/far_crossings.h"
 #include "surface/certificate/other_side.h"
 #include "surface/certificate/triangle_samples.h"
-#include "surface/mesh/triangle_distance.h"
-#include "surface/search/occupied_blocks.h"
-#include "surface/search/point_grid.h"
 
 namespace deliso {
 
 namespace {
 
-constexpr double kBlock = 3;  // side of the blocks in which crossings are looked for, in distances promised
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `falling`, the
-// direction in which the field is likely to fall, and in the end all around.
+// Whether a point at this distance from p, along a direction or against it, lies on the other side of the isosurface.
+// `falling`: the direction in which the field is likely to fall.
+bool changes_side(const Isosurface& isosurface, const Vec3& p, bool is_above, const Vec3& falling, double distance) {
+  const double length = norm_of_any_size(falling);
+  if (!(length > 0) || !std::isfinite(length)) return false;
+  const Vec3 offset = ((is_above ? distance : -distance) / length) * falling;  // the likelier side first
+  return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
+}
+
+// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `falling`, and
+// in the end all around.
 bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& falling, double reach) {
   constexpr double kBeyond = 1.01;
   const bool is_above = isosurface.is_above(p);
   const auto changes = [&](const Vec3& direction, double distance) {
-    const double length = norm_of_any_size(direction);
-    if (!(length > 0) || !std::isfinite(length)) return false;
-    const Vec3 offset = ((is_above ? distance : -distance) / length) * direction;  // the likelier side first
-    return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
+    return changes_side(isosurface, p, is_above, direction, distance);
   };
   if (changes(falling, reach)) return true;
   if (changes(-isosurface.gradient(p), reach)) return true;
@@ -72,22 +75,29 @@ struct Corners {
            (std::isfinite(product) && product <= 4 * squared_reach * dot(normal, normal));
   }
   [[nodiscard]] double squared_longest() const { return squared_longest_of(p); }
+  [[nodiscard]] bool has_edge_beyond(double length) const { return squared_longest() > length * length; }
 };
 
-void check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                     GeometryCheck& check) {
+// Of the triangles, those that need a closer look are found first. Returns those with a long edge (far_crossings.h).
+std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                                           GeometryCheck& check) {
+  std::vector<std::uint32_t> large = collect_in_blocks<std::uint32_t>(
+      mesh.triangles.size(), surface.threads, [&](std::size_t t, std::vector<std::uint32_t>& found) {
+        if (!Corners(mesh, t).all_within(promise.max_distance)) found.push_back(static_cast<std::uint32_t>(t));
+      });
   std::atomic<std::int64_t> off = 0;
-  const auto append_if_far = [&](std::size_t t, std::vector<std::uint32_t>& far) {
-    const Corners corners(mesh, t);
-    if (corners.all_within(promise.max_distance)) return;
-    const std::int64_t count = count_far_samples(surface.isosurface, corners.p, promise.max_distance);
+  const auto append_if_far = [&](std::size_t i, std::vector<std::uint32_t>& far) {
+    const std::int64_t count = count_far_samples(surface.isosurface, Corners(mesh, large[i]).p, promise.max_distance);
     if (count == 0) return;
     off += count;
-    far.push_back(static_cast<std::uint32_t>(t));
+    far.push_back(large[i]);
   };
   check.far_triangles =
-      collect_in_blocks<std::uint32_t>(mesh.triangles.size(), surface.threads, append_if_far, kTrianglesAtOnce);
+      collect_in_blocks<std::uint32_t>(large.size(), surface.threads, append_if_far, kTrianglesAtOnce);
   check.mesh_off = off;
+  std::erase_if(large,
+                [&](std::uint32_t t) { return !Corners(mesh, t).has_edge_beyond(kLongEdge * promise.max_distance); });
+  return large;
 }
 
 void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
@@ -95,73 +105,11 @@ void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const 
   const Isosurface& isosurface = surface.isosurface;
   const auto append_if_off = [&](std::size_t v, std::vector<std::uint32_t>& off) {
     const Vec3& p = mesh.points[v];
-    const auto [value, gradient] = isosurface.value_and_gradient(p);
-    if (value == 0) return;
-    if (!is_near(isosurface, p, -gradient, promise.max_residual)) off.push_back(std::uint32_t(v));
+    if (isosurface.passes_within(p, promise.max_residual) || isosurface.value(p) == 0) return;
+    if (!is_near(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
   };
   check.off_vertices = collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off);
   check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
-}
-
-// The crossings that no vertex is near, and no triangle with its centroid beside them, as far as those in the same
-// block of space tell.
-std::vector<Vec3> crossings_to_ask_for(const SurfaceMesh& mesh, const ExactSurface& surface, double reach) {
-  std::vector<Vec3> centroids(mesh.triangles.size());
-  for_each_block(centroids.size(), surface.threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      centroids[t] = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
-    }
-  });
-  const PointGrid vertices(mesh.points, 2 * reach), triangles(centroids, kBlock * reach);
-  const auto& crossings = surface.topology.crossings;
-  return collect_in_blocks<Vec3>(crossings.size(), surface.threads, [&](std::size_t i, std::vector<Vec3>& left) {
-    if (!surface.wants(crossings[i])) return;
-    const Vec3 p = surface.position(crossings[i]);
-    const auto is_vertex_near = [&](std::uint32_t v) { return squared_distance(p, mesh.points[v]) <= reach * reach; };
-    const auto is_centroid_near = [&](std::uint32_t t) { return squared_distance(p, centroids[t]) <= reach * reach; };
-    const auto is_triangle_near = [&](std::uint32_t t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]) <= reach * reach;
-    };
-    // The centroids are points of triangles: most of the time one of them is near enough.
-    const bool is_covered = vertices.any_beside(p, is_vertex_near) || triangles.any_beside(p, is_centroid_near) ||
-                            triangles.any_beside(p, is_triangle_near);
-    if (!is_covered) left.push_back(p);
-  });
-}
-
-// The crossings that no triangle is near. What a look beside them leaves open is asked of all triangles.
-void check_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                     GeometryCheck& check) {
-  const double reach = promise.max_distance;
-  const std::vector<Vec3> points = crossings_to_ask_for(mesh, surface, reach);
-  const PointGrid grid(points, reach);
-  std::vector<std::uint8_t> is_covered(points.size(), 0);
-  const Vec3 around{reach, reach, reach};
-  if (points.empty()) return;
-  const OccupiedBlocks near_blocks(points, kBlock * reach);
-  const double small = near_blocks.reach() - reach;  // a triangle far from all points by a corner, if it is no larger
-  for_each_block(mesh.triangles.size(), surface.threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const std::array<Vec3, 3> corners = Corners(mesh, t).p;
-      if (!near_blocks.is_near(corners[0]) &&
-          squared_longest_edge(mesh, static_cast<std::uint32_t>(t)) <= small * small) {
-        continue;
-      }
-      const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
-      grid.for_each_near({box.low - around, box.high + around}, [&](std::uint32_t i) {
-        const std::atomic_ref covered(is_covered[i]);
-        if (covered.load(std::memory_order_relaxed) != 0) return;
-        if (squared_distance_to_triangle(points[i], corners[0], corners[1], corners[2]) <= reach * reach) {
-          covered.store(1, std::memory_order_relaxed);
-        }
-      });
-    }
-  });
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_covered[i] == 0) check.missed_crossings.push_back(points[i]);
-  }
 }
 
 // Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
@@ -190,6 +138,7 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
     return v;
   };
   for (const auto& [a, b, c] : mesh.triangles) {
+    if (parent[a] == parent[b] && parent[b] == parent[c]) continue;  // nearly all, once most are joined
     parent[root(b)] = root(a);
     parent[root(c)] = root(a);
   }
@@ -218,10 +167,18 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
   const double squared_longest = squared_longest_of(corners);
   if (squared_longest <= 3 * most * most) return 0;
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  // Where the isosurface passes close to the centroid, what is not much farther from it needs no look, either.
+  constexpr double kClose = 0.25;  // of the distance
+  const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3;
+  const bool is_close = changes_side(isosurface, centroid, isosurface.is_above(centroid), normal, kClose * most);
+  const double squared_free = is_close ? (1 - kClose) * (1 - kClose) * most * most : -1;
+  // With so few samples all but the centroid are on edges, within a part of one from a corner.
+  const int order = sample_order(std::sqrt(squared_longest));
+  if (is_close && order <= 3 && squared_longest <= order * order * most * most) return 0;
   std::int64_t count = 0;
   for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
     const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= most * most; };
-    if (std::any_of(corners.begin(), corners.end(), is_beside)) return;
+    if (squared_distance(p, centroid) <= squared_free || std::any_of(corners.begin(), corners.end(), is_beside)) return;
     if (!is_near(isosurface, p, normal, most)) ++count;
   });
   return count;
@@ -230,10 +187,13 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise) {
   GeometryCheck check;
   check_vertices(mesh, surface, promise, check);
-  check_triangles(mesh, surface, promise, check);
-  check_crossings(mesh, surface, promise, check);
-  check_orientation(mesh, surface, check);
-  check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
+  const std::vector<std::uint32_t> long_triangles = check_triangles(mesh, surface, promise, check);
+  // Two of these have no parts for several threads.
+  run_tasks(3, surface.threads, [&](std::size_t task) {
+    if (task == 0) check.missed_crossings = far_crossings(mesh, surface, promise.max_distance, long_triangles);
+    if (task == 1) check_orientation(mesh, surface, check);
+    if (task == 2) check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
+  });
   return check;
 }
 

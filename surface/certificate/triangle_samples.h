@@ -10,11 +10,16 @@
 
 namespace deliso {
 
+// Into how many parts the lattice of samples divides the edges of a triangle.
+inline int sample_order(double longest_edge) {
+  return static_cast<int>(std::clamp(std::ceil(longest_edge), 2.0, double(kMostSamplesPerEdge)));
+}
+
 // Calls visit(point) for points about a voxel apart on a triangle, the corners left out. `longest`: its longest edge.
 template <class Visit>
 void for_each_sample(const std::array<Vec3, 3>& corners, double longest, const Visit& visit) {
   const auto& [a, b, c] = corners;
-  const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
+  const int order = sample_order(longest);
   visit((a + b + c) / 3);
   for (int i = 0; i <= order; ++i) {
     for (int j = 0; i + j <= order; ++j) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -182,17 +183,19 @@ std::optional<Refusal> RefineLoop::insert(Candidate candidate, TriangleSide* enc
 std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const Vec3& gradient) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
+  distances_.assign(1, squared_distance(p, mesh_.vertices[disk_.rim().front().from].point));
   for (const RimEdge& edge : disk_.rim()) {
     const Vec3& a = mesh_.vertices[edge.from].point;
     const Vec3& b = mesh_.vertices[edge.to].point;
-    if (squared_distance(p, a) < nearest || squared_distance(p, b) < nearest) return Refusal::kTooClose;
+    distances_.push_back(squared_distance(p, b));
+    if (distances_[distances_.size() - 2] < nearest || distances_.back() < nearest) return Refusal::kTooClose;
     if (!(dot(cross(a - p, b - p), gradient) < 0)) return Refusal::kFlippedTriangle;
   }
   const bool closed = candidate.split == kNoSide;
   const double moved = disk_.distance_to(p);
   if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
   if (guard_->crosses(p, -gradient, moved, disk_)) return Refusal::kCrossingTriangle;
-  star_pole_height_ = inherited_pole_height(p, closed);
+  star_pole_height_ = inherited_pole_height(closed);
   shapes_.clear();
   for (const RimEdge& edge : disk_.rim()) {
     const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
@@ -204,18 +207,17 @@ std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const V
 }
 
 // The pole height of a new vertex, from its neighbours: the corners of the rim.
-double RefineLoop::inherited_pole_height(const Vec3& p, bool closed) const {
-  std::uint32_t nearest = disk_.rim().front().from;
-  double sum = 0;
-  double count = 0;
-  const auto visit = [&](std::uint32_t v) {
-    sum += mesh_.vertices[v].pole_height;
-    count += 1;
-    if (squared_distance(p, mesh_.vertices[v].point) < squared_distance(p, mesh_.vertices[nearest].point)) nearest = v;
-  };
-  for (const RimEdge& edge : disk_.rim()) visit(edge.from);
-  if (!closed) visit(disk_.rim().back().to);
-  return options_.new_pole == NewPole::kMean ? sum / count : mesh_.vertices[nearest].pole_height;
+double RefineLoop::inherited_pole_height(bool closed) const {
+  double nearest = std::numeric_limits<double>::infinity(), of_nearest = 0, sum = 0;
+  const std::size_t count = disk_.rim().size() + (closed ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t v = i < disk_.rim().size() ? disk_.rim()[i].from : disk_.rim().back().to;
+    const double height = mesh_.vertices[v].pole_height;
+    sum += height;
+    of_nearest = distances_[i] < nearest ? height : of_nearest;
+    nearest = std::min(nearest, distances_[i]);
+  }
+  return options_.new_pole == NewPole::kMean ? sum / static_cast<double>(count) : of_nearest;
 }
 
 // Replaces E by the star of the new vertex. The star's triangles take the slots of E first, then new ones.

@@ -84,7 +84,7 @@ class RefineLoop {
   void measure(std::span<const Shape> shapes, std::span<NewTriangle> measured);
   [[nodiscard]] NewTriangle measured(std::uint32_t triangle);
   [[nodiscard]] double mean_pole_height(std::uint32_t triangle) const;
-  [[nodiscard]] double inherited_pole_height(const Vec3& p, bool closed) const;
+  [[nodiscard]] double inherited_pole_height(bool closed) const;
   // B_sigma: stored, or else searched again with the same result bit for bit.
   [[nodiscard]] SurfaceDelaunayBall ball_of(std::uint32_t triangle) {
     if (options_.store_hits) return mesh_.triangles[triangle].ball;
@@ -100,6 +100,7 @@ class RefineLoop {
   BucketQueue queue_;
   RefinementDisk disk_;                 // E
   std::optional<CrossingGuard> guard_;  // while it runs
+  std::vector<double> distances_;       // squared, of the rim's vertices from the point, in order
   std::vector<Shape> shapes_;           // D, one for each edge of E's rim,
   std::vector<NewTriangle> star_;       // and what is measured of it
   std::vector<std::uint32_t> slots_;    // the slots of the star's triangles

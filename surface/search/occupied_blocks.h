@@ -25,8 +25,11 @@ class OccupiedBlocks {
     low_ = box.low;
     for (std::size_t axis = 0; axis < 3; ++axis) dims_[axis] = block_of(box.high, axis) + 2;
     is_near_.assign(dims_[0] * dims_[1] * dims_[2], false);
+    std::vector<bool> is_done(is_near_.size(), false);  // of each block: most hold several points
     for (const Vec3& p : points) {
       const std::array<std::size_t, 3> at = {block_of(p, 0), block_of(p, 1), block_of(p, 2)};
+      if (is_done[place(at[0], at[1], at[2])]) continue;
+      is_done[place(at[0], at[1], at[2])] = true;
       for (std::size_t k = at[2] - 1; k <= at[2] + 1; ++k) {
         for (std::size_t j = at[1] - 1; j <= at[1] + 1; ++j) {
           for (std::size_t i = at[0] - 1; i <= at[0] + 1; ++i) is_near_[place(i, j, k)] = true;

@@ -58,6 +58,31 @@ class BoxMap {
     return std::span(numbers_).subspan(first_[place], first_[place + 1] - first_[place]);
   }
 
+  // Calls visit(i), for some boxes several times, for those that a larger thing may meet; false if it is so large that
+  // this takes too long.
+  template <class Visit>
+  [[nodiscard]] bool visit_near(const Box3& thing, const Visit& visit) const {
+    constexpr std::size_t kMostCells = 64;
+    std::array<std::size_t, 3> first{}, last{};
+    std::size_t cells = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = (thing.low[axis] - low_[axis]) * per_side_, high = (thing.high[axis] - low_[axis]) * per_side_;
+      if (!(high >= 0) || !(low < static_cast<double>(dims_[axis]))) return true;
+      first[axis] = static_cast<std::size_t>(std::max(low, 0.0));
+      last[axis] = static_cast<std::size_t>(std::min(high, static_cast<double>(dims_[axis] - 1)));
+      cells *= last[axis] - first[axis] + 1;
+    }
+    if (cells > kMostCells) return false;
+    for (std::size_t k = first[2]; k <= last[2]; ++k) {
+      for (std::size_t j = first[1]; j <= last[1]; ++j) {
+        // The lists of cells in a row follow one another.
+        const std::size_t row = (k * dims_[1] + j) * dims_[0];
+        for (std::uint32_t at = first_[row + first[0]]; at < first_[row + last[0] + 1]; ++at) visit(numbers_[at]);
+      }
+    }
+    return true;
+  }
+
  private:
   template <class Visit>
   void for_each_cell(const Box3& box, const Visit& visit) const;

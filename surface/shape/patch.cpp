@@ -7,10 +7,16 @@
 
 namespace deliso {
 
+namespace {
+
+constexpr std::size_t kUsualStar = 8;  // triangles; few vertices have more
+
+}  // namespace
+
 std::uint32_t Patch::add_vertex(const Vec3& point) {
   points_.push_back(point);
   is_whole_.push_back(Wholeness::kUnknown);
-  stars_.emplace_back();
+  stars_.emplace_back().reserve(kUsualStar);
   return static_cast<std::uint32_t>(points_.size() - 1);
 }
 

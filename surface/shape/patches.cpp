@@ -76,14 +76,14 @@ std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const S
     const std::size_t first = found.size();
     const auto add = [&](std::uint32_t i) {
       const auto is_same = [&](const PatchTriangle& other) { return other.patch == around.patch_of[i]; };
-      if (around.boxes.boxes()[i].meets(box) &&
-          std::none_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_same)) {
+      if (std::none_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_same) &&
+          around.boxes.boxes()[i].meets(box)) {
         found.push_back({around.patch_of[i], static_cast<std::uint32_t>(t)});
       }
     };
     if (std::max({size.x, size.y, size.z}) <= map.reach()) {
       for (const std::uint32_t i : map.near(box.low)) add(i);
-    } else {
+    } else if (!map.visit_near(box, add)) {
       thread_local std::vector<std::uint32_t> near;
       around.boxes.for_each_meeting(box, near, add);
     }
@@ -126,25 +126,28 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
 
 NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan) {
   NumberedPatch taken{Patch(plan.room), {}, {}};
+  // Of each vertex of the mesh: its number in the patch, or kNoVertex, which all have again in the end.
+  thread_local std::vector<std::uint32_t> numbers;
+  if (numbers.size() < mesh.points.size()) numbers.resize(mesh.points.size(), kNoVertex);
   for (const std::uint32_t t : plan.triangles) {
-    taken.vertices.insert(taken.vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (numbers[v] == kNoVertex) taken.vertices.push_back(v);
+      numbers[v] = 0;
+    }
   }
   std::sort(taken.vertices.begin(), taken.vertices.end());
-  taken.vertices.erase(std::unique(taken.vertices.begin(), taken.vertices.end()), taken.vertices.end());
-  for (const std::uint32_t v : taken.vertices) taken.patch.add_vertex(mesh.points[v]);
+  for (const std::uint32_t v : taken.vertices) numbers[v] = taken.patch.add_vertex(mesh.points[v]);
   auto next_bad = plan.bad.begin();
   for (const std::uint32_t t : plan.triangles) {
     std::array<std::uint32_t, 3> corners{};
-    std::transform(mesh.triangles[t].begin(), mesh.triangles[t].end(), corners.begin(), [&](std::uint32_t v) {
-      const auto at = std::lower_bound(taken.vertices.begin(), taken.vertices.end(), v);
-      return static_cast<std::uint32_t>(at - taken.vertices.begin());
-    });
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = numbers[mesh.triangles[t][i]];
     const std::uint32_t number = taken.patch.add_triangle(corners);
     if (next_bad != plan.bad.end() && *next_bad == t) {
       taken.bad.push_back(number);
       ++next_bad;
     }
   }
+  for (const std::uint32_t v : taken.vertices) numbers[v] = kNoVertex;
   return taken;
 }
 

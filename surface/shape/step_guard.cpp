@@ -1,15 +1,15 @@
 #include "surface/shape/step_guard.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
-#include <set>
+#include <unordered_set>
 
 #include "delaunay/triangle_contact.h"
-#include "raycast/gradients_at.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/shape/place_search.h"
 #include "surface/shape/swept_samples.h"
+#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 
@@ -18,14 +18,6 @@ namespace {
 // A triangle may always lie this far from the isosurface, as a fraction of its longest edge (epsilon1 of the paper is
 // 0.1 of the circumradius).
 constexpr double kFreeHeight = 0.1;
-constexpr double kFreeDistance = 0.05;
-// With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
-constexpr double kSideways = 4, kOneCorner = 8;
-
-double longest_edge(const std::array<Vec3, 3>& p) {
-  return std::sqrt(
-      std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])}));
-}
 
 // Whether a point is within a distance of a triangle.
 bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) {
@@ -40,12 +32,19 @@ bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) 
 // The first point in each of small cubes: where vertices crowd, a few stand for all.
 std::vector<Vec3> thinned(std::span<const Vec3> points) {
   constexpr double kCube = 0.1;  // mesh-space units
-  std::set<std::array<double, 3>> seen;
+  using Cube = std::array<double, 3>;
+  const auto hash = [](const Cube& cube) {
+    std::uint64_t mixed = 0;
+    for (const double x : cube)
+      mixed = (mixed ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u >> 7 ^ mixed << 11;
+    return static_cast<std::size_t>(mixed);
+  };
+  std::unordered_set<Cube, decltype(hash)> seen(points.size(), hash);
   std::vector<Vec3> kept;
   for (const Vec3& p : points) {
-    if (seen.insert({std::floor(p.x / kCube), std::floor(p.y / kCube), std::floor(p.z / kCube)}).second) {
-      kept.push_back(p);
-    }
+    // Zero has two signs: added to zero it has one.
+    const Cube cube = {std::floor(p.x / kCube) + 0.0, std::floor(p.y / kCube) + 0.0, std::floor(p.z / kCube) + 0.0};
+    if (seen.insert(cube).second) kept.push_back(p);
   }
   return kept;
 }
@@ -58,7 +57,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
       isosurface_(isosurface),
       max_height_(options.max_height),
       max_edge_(options.max_edge),
-      counters_(counters),
+      heights_(patch, isosurface, counters),
       vertices_(thinned(patch.points()), options.max_height),
       crossings_(crossings, options.max_distance) {}
 
@@ -98,18 +97,18 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
     if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return false;
     was_closed_.push_back(link_.is_closed ? 1 : 0);
   }
-  old_normal_ = {};
+  Vec3 old_normal;
   old_longest_ = 0;
   old_triangles_.clear();
   for (const std::uint32_t t : removed) {
     const auto [a, b, c] = old_triangles_.emplace_back(patch_.corner_points(t));
-    old_normal_ += cross(b - a, c - a);
+    old_normal += cross(b - a, c - a);
     old_longest_ = std::max(old_longest_, longest_edge({a, b, c}));
   }
+  heights_.set_old_normal(old_normal);
   old_height_ = 0;
   for (const std::uint32_t t : removed) {
-    const auto [a, b, c] = patch_.corner_points(t);
-    const double height = height_of(t, longest_edge({a, b, c}));
+    const double height = heights_.of_placed(t);
     if (std::isfinite(height)) old_height_ = std::max(old_height_, height);
   }
   return true;
@@ -132,57 +131,6 @@ bool StepGuard::keeps_disks(const PatchStep& step) {
   }
   const bool is_new = step.vertex != kNoVertex && !std::binary_search(changed_.begin(), changed_.end(), step.vertex);
   return !is_new || is_right(step.vertex, !step.is_on_boundary);
-}
-
-// Whether a triangle faces lower values as the field in some cell around its corners tells: the test of stage 2, but at
-// creases, where cells meet, one of them is enough; at two corners or, in the end, at one.
-bool StepGuard::faces_down(std::uint32_t triangle, const Vec3& normal) const {
-  const std::array<Vec3, 3> corners = patch_.corner_points(triangle);
-  const auto count = std::count_if(corners.begin(), corners.end(), [&](const Vec3& p) {
-    bool is_so = false;
-    for_each_gradient_at(isosurface_, p, [&](const Vec3& gradient) { is_so = is_so || dot(gradient, normal) < 0; });
-    return is_so;
-  });
-  return count >= (freedom_ < kOneCorner ? 2 : 1);
-}
-
-// From the centroid to the isosurface where it faces as the triangle does: along the triangle's own normal, the normal
-// of the triangles that were there, or down the gradient; infinity where none reaches it. No other sheet lies between,
-// so thin parts are not turned inside out: the centroid is above the isovalue just where the isosurface lies ahead.
-double StepGuard::height_of(std::uint32_t triangle, double reach) {
-  constexpr double kFaces = 0.1;  // least cosine between a triangle's normal and the line along which it is near
-  const auto [a, b, c] = patch_.corner_points(triangle);
-  const Vec3 normal = cross(b - a, c - a);
-  const double length = norm(normal);
-  double height = std::numeric_limits<double>::infinity();
-  if (!(length > 0)) return height;
-  const Vec3 centroid = (a + b + c) / 3;
-  const bool is_above = isosurface_.is_above(centroid);
-  for (const Vec3& direction : {normal, old_normal_, -isosurface_.gradient(centroid)}) {
-    const double size = norm(direction);
-    if (!(size > 0) || !(dot(direction, normal) > kFaces * size * length)) continue;
-    const auto hit = isosurface_.nearest_falling_hit({centroid, direction / size}, reach, counters_);
-    if (hit && (*hit > 0) == is_above) height = std::min(height, std::abs(*hit));
-    if (height <= kFreeDistance) break;
-  }
-  if (freedom_ < kSideways || height <= kFreeDistance || !faces_down(triangle, normal)) return height;
-  return std::min(height, sideways_height(centroid, normal, reach));
-}
-
-// The same along lines in any direction, to the nearest hit if the isosurface does not face against the triangle there.
-double StepGuard::sideways_height(const Vec3& centroid, const Vec3& normal, double reach) {
-  double height = std::numeric_limits<double>::infinity();
-  for (const Vec3& direction : {normal, old_normal_, isosurface_.gradient(centroid)}) {
-    const double size = norm(direction);
-    if (!(size > 0)) continue;
-    isosurface_.all_hits({centroid, direction / size}, -reach, reach, hits_, counters_);
-    const auto nearest = std::min_element(hits_.begin(), hits_.end(),
-                                          [](const Hit& s, const Hit& t) { return std::abs(s.t) < std::abs(t.t); });
-    if (nearest == hits_.end()) continue;
-    const double facing = nearest->falling ? dot(direction, normal) : -dot(direction, normal);
-    if (facing >= 0 || freedom_ >= kOneCorner) height = std::min(height, std::abs(nearest->t));
-  }
-  return height;
 }
 
 // Whether the mesh is still near all witnesses: else steps could cut off the tip of a thin part, one after the other.
@@ -233,15 +181,35 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
 
 bool StepGuard::lies_near(std::size_t first_added) {
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (height_of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
+    if (heights_.of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
   }
   return true;
+}
+
+// Whether more than so many triangles hang together with one. Goes from star to star, which is fast.
+bool StepGuard::is_large(std::uint32_t triangle, std::size_t most) {
+  ++search_;
+  seen_.resize(patch_.triangle_count(), 0);
+  near_.assign(1, triangle);
+  seen_[triangle] = search_;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    for (const std::uint32_t v : patch_.corners(near_[i])) {
+      for (const std::uint32_t t : patch_.star(v)) {
+        if (seen_[t] == search_) continue;
+        seen_[t] = search_;
+        near_.push_back(t);
+      }
+      if (near_.size() > most) return true;
+    }
+  }
+  return false;
 }
 
 // The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a
 // step.
 std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
   const std::size_t most = 8 + 4 * old_triangles_.size();
+  if (is_large(triangle, most)) return std::nullopt;
   near_.assign(1, triangle);
   const Vec3 apex = patch_.corner_points(triangle)[0];
   double volume = 0;

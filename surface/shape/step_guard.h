@@ -11,6 +11,7 @@
 #include "raycast/isosurface.h"
 #include "surface/search/point_grid.h"
 #include "surface/shape/patch.h"
+#include "surface/shape/triangle_heights.h"
 
 namespace deliso {
 
@@ -22,7 +23,10 @@ class StepGuard {
 
   // By this factor triangles may be farther from the isosurface than usual; from 4 on they need only face
   // lower values in one of the cells at two of their corners, from 8 on at one.
-  void set_freedom(double freedom) { freedom_ = freedom; }
+  void set_freedom(double freedom) {
+    freedom_ = freedom;
+    heights_.set_freedom(freedom);
+  }
 
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
   // triangles are whole.
@@ -48,14 +52,12 @@ class StepGuard {
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
-  [[nodiscard]] bool faces_down(std::uint32_t triangle, const Vec3& normal) const;
-  [[nodiscard]] double sideways_height(const Vec3& centroid, const Vec3& normal, double reach);
-  [[nodiscard]] double height_of(std::uint32_t triangle, double reach);
+  [[nodiscard]] bool is_large(std::uint32_t triangle, std::size_t most);
 
   Patch& patch_;
   const Isosurface& isosurface_;
   double max_height_, max_edge_, freedom_ = 1;
-  SearchCounters& counters_;
+  TriangleHeights heights_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface
   // Before the step:
@@ -63,12 +65,12 @@ class StepGuard {
   std::vector<std::uint8_t> was_closed_;            // and whether their links were
   std::vector<std::array<Vec3, 3>> old_triangles_;  // corners of the removed triangles
   std::vector<std::array<Vec3, 3>> new_triangles_;  // and of those added
-  Vec3 old_normal_;                                 // the sum of their normals
   double old_longest_ = 0;                          // the longest of their edges
   double old_height_ = 0;                           // the largest of their distances from the isosurface
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_;
-  std::vector<Hit> hits_;
+  std::vector<std::uint32_t> seen_;  // of each triangle: the latest search that came to it
+  std::uint32_t search_ = 0;
   VertexLink link_;
 };
 

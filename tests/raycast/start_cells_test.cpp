@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "delaunay/base/box3.h"
@@ -28,16 +30,20 @@ void put_in_lane(const Query& query, std::size_t lane, StartCells& cells) {
   cells.reach[lane] = 10;
 }
 
-// In a lane that changes from call to call, beside cells without a hit.
+// In a lane that changes from call to call, beside cells without a hit; and in the first one alone, to the same bits.
 std::optional<double> falling_hit_around(const CellCorners& corners, const Vec3& u, const Vec3& d) {
   static std::size_t calls = 0;
   const std::size_t lane = calls++ % kLanes;
   StartCells cells;
   put_in_lane({corners, u, d}, lane, cells);
-  falling_hits_around(cells);
+  falling_hits_around(false, cells);
   for (std::size_t other = 0; other < kLanes; ++other) {
     EXPECT_TRUE(other == lane || std::isnan(cells.hit[other]));
   }
+  StartCells alone;
+  put_in_lane({corners, u, d}, 0, alone);
+  falling_hits_around(true, alone);
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(alone.hit[0]), std::bit_cast<std::uint64_t>(cells.hit[lane]));
   return std::isnan(cells.hit[lane]) ? std::nullopt : std::optional(cells.hit[lane]);
 }
 
@@ -155,7 +161,7 @@ TEST(StartCells, HitsBeyondTheReachAreNone) {
     put_in_lane({{-1, 1, -1, 1, -1, 1, -1, 1}, {0.7, 0.5, 0.5}, {-1, 0, 0}}, lane, cells);  // 2 u - 1: a hit at 0.2
     cells.reach[lane] = lane == 0 ? 0.19 : lane == 1 ? 0.21 : lane == 2 ? -1 : 10;
   }
-  falling_hits_around(cells);
+  falling_hits_around(false, cells);
   EXPECT_TRUE(std::isnan(cells.hit[0]));
   EXPECT_NEAR(cells.hit[1], 0.2, 1e-15);
   EXPECT_TRUE(std::isnan(cells.hit[2]));
@@ -171,7 +177,7 @@ TEST(StartCells, LanesDoNotKnowOfEachOther) {
       queries[lane] = random_query(rng, 0.1);
       put_in_lane(queries[lane], lane, cells);
     }
-    falling_hits_around(cells);
+    falling_hits_around(false, cells);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const auto alone = falling_hit_around(queries[lane].corners, queries[lane].u, queries[lane].d);
       ASSERT_EQ(std::isnan(cells.hit[lane]), !alone.has_value()) << trial;
@@ -196,7 +202,12 @@ TEST(StartCells, LinesStartInTheCellOfTheirOrigin) {
     }
     StartCells cells;
     const Vec3 high{4, 16, 64};
-    find_start_cells(lines, 3, {dims, inverse_step, high}, cells);
+    find_start_cells(lines, 3, {dims, inverse_step, high}, false, cells);
+    StartCells alone;
+    find_start_cells(lines, 3, {dims, inverse_step, high}, true, alone);
+    ASSERT_TRUE(alone.first[0] == cells.first[0] && alone.reach[0] == cells.reach[0]);
+    ASSERT_TRUE(alone.line.origin.at(0) == cells.line.origin.at(0));
+    ASSERT_TRUE(alone.line.direction.at(0) == cells.line.direction.at(0));
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const Vec3 place = cells.line.origin.at(lane), at = scaled(lines.origin.at(lane), inverse_step);
       std::size_t index = cells.first[lane];

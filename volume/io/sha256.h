@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "volume/io/sha256_compression.h"
 #include "volume/scalar_grid.h"
 
 namespace deliso {
@@ -21,8 +22,7 @@ class Sha256 {
  private:
   void absorb(const std::byte* block);
 
-  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  Sha256State state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<std::byte, 64> block_{};
   std::size_t filled_ = 0;    // bytes waiting in block_
   std::uint64_t length_ = 0;  // bytes so far

@@ -48,5 +48,33 @@ TEST(BoxMap, NamesEveryBoxThatASmallThingMeets) {
   }
 }
 
+TEST(BoxMap, VisitsEveryBoxThatALargerThingMeetsUnlessThereAreTooMany) {
+  Rng rng(4);
+  int seen = 0, refused = 0;
+  for (const double side : {5.0, 60.0, 2000.0}) {
+    const std::vector<Box3> boxes = testing::random_boxes(rng, 100, side);
+    const BoxMap map(boxes);
+    const auto random = [&](double from, double to) {
+      return Vec3{rng.uniform(from, to), rng.uniform(from, to), rng.uniform(from, to)};
+    };
+    for (int trial = 0; trial < 2000; ++trial) {
+      const Vec3 low = random(-0.2 * side, 1.2 * side);
+      const Box3 thing{low, low + random(0, (trial % 2 == 0 ? 3 : 12) * map.reach())};
+      std::set<std::uint32_t> near;
+      if (!map.visit_near(thing, [&](std::uint32_t i) { near.insert(i); })) {
+        ++refused;
+        continue;
+      }
+      for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (!boxes[i].meets(thing)) continue;
+        ++seen;
+        EXPECT_TRUE(near.contains(i)) << side << ' ' << trial << ' ' << i;
+      }
+    }
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(refused, 100);
+}
+
 }  // namespace
 }  // namespace deliso

@@ -42,6 +42,20 @@ TEST(Sha256, PiecesOfAnySizeGiveTheHashOfTheWhole) {
   }
 }
 
+// The test of published examples sees only one of the two.
+TEST(Sha256, BlocksAreTakenAsTheStandardHasIt) {
+  Rng rng(7);
+  Sha256State state{}, plain{};
+  for (int block = 0; block < 1000; ++block) {
+    std::array<std::byte, 64> bytes{};
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(rng.below(256));
+    compress(state, bytes.data());
+    compress_plainly(plain, bytes.data());
+    ASSERT_EQ(state, plain) << block;
+  }
+  EXPECT_NE(state, Sha256State{});
+}
+
 TEST(Sha256, SamplesAreHashedLittleEndian) {
   const ScalarGrid grid({2, 2, 2}, std::vector<std::uint16_t>{0x0102, 3, 4, 5, 6, 7, 8, 0xFFFE});
   EXPECT_EQ(sample_sha256(grid), hash_of(std::string_view("\x02\x01\x03\0\x04\0\x05\0\x06\0\x07\0\x08\0\xFE\xFF", 16)));

@@ -1,0 +1,63 @@
+// The crossings that no triangle is near, against all distances.
+#include "surface/certificate/far_crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "delaunay/base/rng.h"
+#include "surface/mesh/triangle_distance.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+double squared_distance_to(const Vec3& p, const SurfaceMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    least = std::min(least, squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]));
+  }
+  return least;
+}
+
+// Meshes with holes, made of triangles both smaller and larger than the reach.
+TEST(FarCrossings, AreThoseThatNoTriangleIsNear) {
+  Rng rng(5);
+  std::size_t far = 0, all = 0;
+  for (const auto& scene : {testing::field_scene("gyroid", 14), testing::noise_scene({7, 8, 6}, 3)}) {
+    SCOPED_TRACE(scene->name);
+    const SurfaceMesh whole = exact_polygonization(scene->surface()).mesh;
+    for (const double reach : {0.1, 0.3, 0.5, 1.0, 2.5}) {
+      for (const double kept : {0.0, 0.03, 0.3, 0.9}) {
+        SurfaceMesh mesh = whole;
+        std::erase_if(mesh.triangles, [&](const auto&) { return rng.uniform() > kept; });
+        if (kept == 0) mesh.triangles.push_back({0, static_cast<std::uint32_t>(mesh.points.size() / 2), 1});
+        std::vector<std::uint32_t> long_triangles;
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+          const double longest = kLongEdge * reach;
+          if (squared_longest_edge(mesh, t) > longest * longest) long_triangles.push_back(t);
+        }
+        std::vector<Vec3> expected;
+        const ExactSurface surface = scene->surface();
+        for (const EdgeCrossing& crossing : surface.topology.crossings) {
+          const Vec3 p = surface.position(crossing);
+          if (squared_distance_to(p, mesh) > reach * reach) expected.push_back(p);
+        }
+        far += expected.size();
+        all += surface.topology.crossings.size();
+        for (const int threads : {1, 3}) {
+          const auto found = far_crossings(mesh, scene->surface(threads), reach, long_triangles);
+          EXPECT_EQ(found.size(), expected.size()) << reach << ' ' << kept;
+          EXPECT_TRUE(found == expected) << reach << ' ' << kept;
+        }
+      }
+    }
+  }
+  EXPECT_GT(far, all / 20);
+  EXPECT_LT(far, all * 19 / 20);
+}
+
+}  // namespace
+}  // namespace deliso
