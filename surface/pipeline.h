@@ -42,9 +42,11 @@ class Pipeline {
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
+  void bring_near_by_steps(SurfaceMesh& mesh);
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
+  void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);

@@ -100,22 +100,29 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
   }
-  // What refinement does not reach may be off by more than steps of the shape stage are.
+  take_steps_nearer(mesh, nearer);
+  check(promise_);
+  return last_.geometry.is_near();
+}
+
+// What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`.
+void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted) {
   constexpr int kStepRounds = 2;
+  // What is missed may be off by more than steps of the shape stage are.
   ShapeOptions options_of_steps = shape_options(parameters_);
-  options_of_steps.max_height = nearer.max_distance;
+  options_of_steps.max_height = wanted.max_distance;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
   ShapeOptions options_of_nearing = shape_options(parameters_);
   options_of_nearing.max_height = std::max(options_of_nearing.max_height, ShapeOptions{}.max_height);
-  for (int round = 0; round < kStepRounds && check(nearer) > 0 && !controls_.poll(); ++round) {
+  for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
+    const GeometryCheck before = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, wanted); });
+    if (before.is_near()) return;
     timed(result_.shape, [&] {
-      insert_missed(mesh, *surface_, last_.geometry.missed_crossings, options_of_steps, controls_, result_.shape);
-      const GeometryCheck now = check_geometry(mesh, *surface_, nearer);
-      bring_near(mesh, *surface_, now.far_triangles, nearer.max_distance, options_of_nearing, controls_, result_.shape);
+      insert_missed(mesh, *surface_, before.missed_crossings, options_of_steps, controls_, result_.shape);
+      const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
+      bring_near(mesh, *surface_, now.far_triangles, wanted.max_distance, options_of_nearing, controls_, result_.shape);
     });
   }
-  check(promise_);
-  return last_.geometry.is_near();
 }
 
 // Without criteria 1 and 2 of the paper a few long triangles may lie across a fold, and nothing can be inserted into
