@@ -107,10 +107,15 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
     old_longest_ = std::max(old_longest_, longest_edge({a, b, c}));
   }
   old_height_ = 0;
+  old_unfaced_ = {};
   for (const std::uint32_t t : removed) {
     const auto [a, b, c] = patch_.corner_points(t);
     const double height = height_of(t, longest_edge({a, b, c}));
-    if (std::isfinite(height)) old_height_ = std::max(old_height_, height);
+    if (std::isfinite(height)) {
+      old_height_ = std::max(old_height_, height);
+    } else {
+      old_unfaced_.add({a, b, c});
+    }
   }
   return true;
 }
@@ -231,11 +236,26 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
   return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
 }
 
+// In necks and at edges as thin as they are rounded, some triangles have no height: the isosurface nowhere faces as
+// they do. Others like them may take their place, if they are not much larger in all and none is much longer.
 bool StepGuard::lies_near(std::size_t first_added) {
+  constexpr double kMuchLarger = 1.2;
+  Unfaced unfaced;
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (height_of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
+    const auto t = static_cast<std::uint32_t>(first_added + i);
+    if (height_of(t, limits_[i]) <= limits_[i]) continue;
+    if (freedom_ < kOneCorner) return false;
+    unfaced.add(patch_.corner_points(t));
+    if (unfaced.area > kMuchLarger * old_unfaced_.area || unfaced.longest > kMuchLarger * old_unfaced_.longest) {
+      return false;
+    }
   }
   return true;
+}
+
+void StepGuard::Unfaced::add(const std::array<Vec3, 3>& p) {
+  area += norm(cross(p[1] - p[0], p[2] - p[0])) / 2;
+  longest = std::max(longest, longest_edge(p));
 }
 
 // The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a

@@ -40,6 +40,12 @@ class StepGuard {
     Witnesses(std::span<const Vec3> all, double distance)
         : points(all.begin(), all.end()), grid(points, distance), reach(distance) {}
   };
+  // Triangles without a height.
+  struct Unfaced {
+    double area = 0, longest = 0;
+
+    void add(const std::array<Vec3, 3>& corners);
+  };
   [[nodiscard]] bool covers_witnesses(std::size_t first_added);
   [[nodiscard]] bool was_covered(const Vec3& p, double reach) const;
   [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
@@ -66,6 +72,7 @@ class StepGuard {
   Vec3 old_normal_;                                 // the sum of their normals
   double old_longest_ = 0;                          // the longest of their edges
   double old_height_ = 0;                           // the largest of their distances from the isosurface
+  Unfaced old_unfaced_;                             // of the removed triangles
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_;
   std::vector<Hit> hits_;
