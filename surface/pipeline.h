@@ -51,6 +51,7 @@ class Pipeline {
   void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
+  void improve_decimated(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
   void find_crossings();
   void drop_crossings();

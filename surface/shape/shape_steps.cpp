@@ -90,7 +90,7 @@ void ShapeSteps::remove(std::uint32_t v, std::vector<PatchStep>& steps) {
     remove_ear(v, steps);
     return;
   }
-  if (!link_.is_closed || link_.vertices.size() < 4 || link_.vertices.size() > kLongestLink) return;
+  if (!link_.is_closed || link_.vertices.size() < 3 || link_.vertices.size() > kLongestLink) return;
   PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 0, {}};
   if (!are_whole(step.removed)) return;
   std::vector<Vec3> polygon;

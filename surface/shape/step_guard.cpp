@@ -2,30 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "delaunay/triangle_contact.h"
-#include "raycast/gradients_at.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/shape/place_search.h"
 #include "surface/shape/swept_samples.h"
+#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 
 namespace {
-
-// A triangle may always lie this far from the isosurface, as a fraction of its longest edge (epsilon1 of the paper is
-// 0.1 of the circumradius).
-constexpr double kFreeHeight = 0.1;
-constexpr double kFreeDistance = 0.05;
-// With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
-constexpr double kSideways = 4, kOneCorner = 8;
-
-double longest_edge(const std::array<Vec3, 3>& p) {
-  return std::sqrt(
-      std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])}));
-}
 
 // Whether a point is within a distance of a triangle.
 bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) {
@@ -58,6 +45,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
       isosurface_(isosurface),
       max_height_(options.max_height),
       max_edge_(options.max_edge),
+      max_sample_(options.max_sample),
       counters_(counters),
       vertices_(thinned(patch.points()), options.max_height),
       crossings_(crossings, options.max_distance) {}
@@ -77,7 +65,7 @@ bool StepGuard::apply(const PatchStep& step) {
   }
   if (longest_added <= std::max(max_edge_, old_longest_) && keeps_disks(step) && lies_near(first_added) &&
       keeps_volume(old_volume, first_added) && keeps_sides(first_added) && crosses_nothing(first_added) &&
-      covers_witnesses(first_added)) {
+      covers_witnesses(first_added) && samples_stay_near(first_added)) {
     return true;
   }
   patch_.undo();
@@ -139,57 +127,6 @@ bool StepGuard::keeps_disks(const PatchStep& step) {
   return !is_new || is_right(step.vertex, !step.is_on_boundary);
 }
 
-// Whether a triangle faces lower values as the field in some cell around its corners tells: the test of stage 2, but at
-// creases, where cells meet, one of them is enough; at two corners or, in the end, at one.
-bool StepGuard::faces_down(std::uint32_t triangle, const Vec3& normal) const {
-  const std::array<Vec3, 3> corners = patch_.corner_points(triangle);
-  const auto count = std::count_if(corners.begin(), corners.end(), [&](const Vec3& p) {
-    bool is_so = false;
-    for_each_gradient_at(isosurface_, p, [&](const Vec3& gradient) { is_so = is_so || dot(gradient, normal) < 0; });
-    return is_so;
-  });
-  return count >= (freedom_ < kOneCorner ? 2 : 1);
-}
-
-// From the centroid to the isosurface where it faces as the triangle does: along the triangle's own normal, the normal
-// of the triangles that were there, or down the gradient; infinity where none reaches it. No other sheet lies between,
-// so thin parts are not turned inside out: the centroid is above the isovalue just where the isosurface lies ahead.
-double StepGuard::height_of(std::uint32_t triangle, double reach) {
-  constexpr double kFaces = 0.1;  // least cosine between a triangle's normal and the line along which it is near
-  const auto [a, b, c] = patch_.corner_points(triangle);
-  const Vec3 normal = cross(b - a, c - a);
-  const double length = norm(normal);
-  double height = std::numeric_limits<double>::infinity();
-  if (!(length > 0)) return height;
-  const Vec3 centroid = (a + b + c) / 3;
-  const bool is_above = isosurface_.is_above(centroid);
-  for (const Vec3& direction : {normal, old_normal_, -isosurface_.gradient(centroid)}) {
-    const double size = norm(direction);
-    if (!(size > 0) || !(dot(direction, normal) > kFaces * size * length)) continue;
-    const auto hit = isosurface_.nearest_falling_hit({centroid, direction / size}, reach, counters_);
-    if (hit && (*hit > 0) == is_above) height = std::min(height, std::abs(*hit));
-    if (height <= kFreeDistance) break;
-  }
-  if (freedom_ < kSideways || height <= kFreeDistance || !faces_down(triangle, normal)) return height;
-  return std::min(height, sideways_height(centroid, normal, reach));
-}
-
-// The same along lines in any direction, to the nearest hit if the isosurface does not face against the triangle there.
-double StepGuard::sideways_height(const Vec3& centroid, const Vec3& normal, double reach) {
-  double height = std::numeric_limits<double>::infinity();
-  for (const Vec3& direction : {normal, old_normal_, isosurface_.gradient(centroid)}) {
-    const double size = norm(direction);
-    if (!(size > 0)) continue;
-    isosurface_.all_hits({centroid, direction / size}, -reach, reach, hits_, counters_);
-    const auto nearest = std::min_element(hits_.begin(), hits_.end(),
-                                          [](const Hit& s, const Hit& t) { return std::abs(s.t) < std::abs(t.t); });
-    if (nearest == hits_.end()) continue;
-    const double facing = nearest->falling ? dot(direction, normal) : -dot(direction, normal);
-    if (facing >= 0 || freedom_ >= kOneCorner) height = std::min(height, std::abs(nearest->t));
-  }
-  return height;
-}
-
 // Whether the mesh is still near all witnesses: else steps could cut off the tip of a thin part, one after the other.
 bool StepGuard::covers_witnesses(std::size_t first_added) {
   Box3 box;
@@ -234,28 +171,6 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
     new_triangles_.push_back(patch_.corner_points(static_cast<std::uint32_t>(t)));
   }
   return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
-}
-
-// In necks and at edges as thin as they are rounded, some triangles have no height: the isosurface nowhere faces as
-// they do. Others like them may take their place, if they are not much larger in all and none is much longer.
-bool StepGuard::lies_near(std::size_t first_added) {
-  constexpr double kMuchLarger = 1.2;
-  Unfaced unfaced;
-  for (std::size_t i = 0; i < limits_.size(); ++i) {
-    const auto t = static_cast<std::uint32_t>(first_added + i);
-    if (height_of(t, limits_[i]) <= limits_[i]) continue;
-    if (freedom_ < kOneCorner) return false;
-    unfaced.add(patch_.corner_points(t));
-    if (unfaced.area > kMuchLarger * old_unfaced_.area || unfaced.longest > kMuchLarger * old_unfaced_.longest) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void StepGuard::Unfaced::add(const std::array<Vec3, 3>& p) {
-  area += norm(cross(p[1] - p[0], p[2] - p[0])) / 2;
-  longest = std::max(longest, longest_edge(p));
 }
 
 // The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a

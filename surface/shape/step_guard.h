@@ -29,6 +29,12 @@ class StepGuard {
   bool apply(const PatchStep& step);
 
  private:
+  // A triangle may always lie this far from the isosurface, or this fraction of its longest edge (epsilon1 of the paper
+  // is 0.1 of the circumradius).
+  static constexpr double kFreeDistance = 0.05, kFreeHeight = 0.1;
+  // With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
+  static constexpr double kSideways = 4, kOneCorner = 8;
+
   [[nodiscard]] bool learn_old(std::span<const std::uint32_t> removed);
   [[nodiscard]] bool keeps_disks(const PatchStep& step);
   // Points that the mesh is near, and has to stay near.
@@ -50,6 +56,7 @@ class StepGuard {
   [[nodiscard]] bool was_covered(const Vec3& p, double reach) const;
   [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
+  [[nodiscard]] bool samples_stay_near(std::size_t first_added) const;
   [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
@@ -60,7 +67,7 @@ class StepGuard {
 
   Patch& patch_;
   const Isosurface& isosurface_;
-  double max_height_, max_edge_, freedom_ = 1;
+  double max_height_, max_edge_, max_sample_, freedom_ = 1;
   SearchCounters& counters_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "delaunay/base/vec3.h"
@@ -20,6 +21,11 @@ inline double squared_sine_of_least_angle(const Vec3& a, const Vec3& b, const Ve
 inline double sine_of_least_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double squared = squared_sine_of_least_angle(a, b, c);
   return squared > 0 ? std::sqrt(squared) : 0;
+}
+
+inline double longest_edge(const std::array<Vec3, 3>& p) {
+  return std::sqrt(
+      std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])}));
 }
 
 }  // namespace deliso

@@ -190,6 +190,51 @@ PatchStep star_step(const Patch& patch, std::uint32_t t, const Vec3& p, unsigned
   return step;
 }
 
+// The star of a new vertex over the rim of some triangles. Corners that are theirs alone are gone.
+PatchStep cavity_step(const Patch& patch, const std::vector<std::uint32_t>& cavity, const Vec3& p) {
+  PatchStep step;
+  step.kind = ShapeStep::kInsert;
+  step.removed = cavity;
+  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
+  step.point = step.start = p;
+  for (const std::uint32_t t : cavity) {
+    const auto& corners = patch.corners(t);
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
+      const std::uint32_t beyond = patch.across(t, a, b);
+      if (std::find(cavity.begin(), cavity.end(), beyond) == cavity.end()) step.added.push_back({step.vertex, a, b});
+    }
+  }
+  return step;
+}
+
+// The triangles around a vertex, as far as they face a point that is beyond it, or all face away from one below it.
+std::vector<std::uint32_t> facing(const Patch& patch, std::uint32_t v, const Vec3& p) {
+  const auto side = [&](std::uint32_t t) {
+    const auto [a, b, c] = patch.corner_points(t);
+    return dot(cross(b - a, c - a), p - patch.point(v));
+  };
+  double sum = 0;
+  for (const std::uint32_t t : patch.star(v)) sum += side(t);
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t t : patch.star(v)) {
+    if ((side(t) > 0) == (sum > 0)) found.push_back(t);
+  }
+  return found;
+}
+
+// A tip of a finger may stand out beyond a vertex: over the rim of what faces it, or of all triangles around the
+// vertex, which is gone then.
+std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3& p) {
+  const auto& corners = patch.corners(t);
+  const std::uint32_t nearest =
+      *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t u) {
+        return squared_distance(patch.point(v), p) < squared_distance(patch.point(u), p);
+      });
+  const std::span<const std::uint32_t> star = patch.star(nearest);
+  return {cavity_step(patch, facing(patch, nearest, p), p), cavity_step(patch, {star.begin(), star.end()}, p)};
+}
+
 void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,
                const ExactSurface& surface, const ShapeOptions& options, ShapeStats& stats) {
   constexpr double kFreedom = 16;
@@ -205,12 +250,12 @@ void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const V
     if (t == kNoVertex) continue;
     const auto& corners = patch.corners(t);
     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return patch.point(v) == p; })) continue;
-    for (const unsigned sides : {7u, 0u, 1u, 2u, 4u, 3u, 5u, 6u}) {
-      const PatchStep step = star_step(patch, t, p, sides);
-      if (!guard.apply(step)) continue;
-      ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
-      break;
-    }
+    std::vector<PatchStep> steps;
+    for (const unsigned sides : {7u, 0u, 1u, 2u, 4u, 3u, 5u, 6u}) steps.push_back(star_step(patch, t, p, sides));
+    for (PatchStep& step : tip_steps(patch, t, p)) steps.push_back(std::move(step));
+    const bool is_done =
+        std::any_of(steps.begin(), steps.end(), [&](const PatchStep& step) { return guard.apply(step); });
+    if (is_done) ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
   }
 }
 
