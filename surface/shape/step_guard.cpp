@@ -65,7 +65,7 @@ bool StepGuard::apply(const PatchStep& step) {
   }
   if (longest_added <= std::max(max_edge_, old_longest_) && keeps_disks(step) && lies_near(first_added) &&
       keeps_volume(old_volume, first_added) && keeps_sides(first_added) && crosses_nothing(first_added) &&
-      covers_witnesses(first_added) && samples_stay_near(first_added)) {
+      (!keeps_witnesses_ || covers_witnesses(first_added)) && samples_stay_near(first_added)) {
     return true;
   }
   patch_.undo();
@@ -203,9 +203,11 @@ bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_
 }
 
 bool StepGuard::crosses_nothing(std::size_t first_added) {
+  double least_old = 1;
+  for (const auto& [a, b, c] : old_triangles_) least_old = std::min(least_old, sine_of_least_angle(a, b, c));
   for (std::size_t i = first_added; i < patch_.triangle_count(); ++i) {
     const auto t = static_cast<std::uint32_t>(i);
-    if (!(patch_.quality(t) > 0)) return false;
+    if (!(patch_.quality(t) > std::min(kTinySine, least_old))) return false;
     near_.clear();
     patch_.append_near(patch_.box_of(t), near_);
     for (const std::uint32_t u : near_) {

@@ -24,6 +24,9 @@ class StepGuard {
   // lower values in one of the cells at two of their corners, from 8 on at one.
   void set_freedom(double freedom) { freedom_ = freedom; }
 
+  // Whether the mesh has to stay near what it was near.
+  void set_witnesses(bool are_kept) { keeps_witnesses_ = are_kept; }
+
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
   // triangles are whole.
   bool apply(const PatchStep& step);
@@ -34,6 +37,8 @@ class StepGuard {
   static constexpr double kFreeDistance = 0.05, kFreeHeight = 0.1;
   // With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
   static constexpr double kSideways = 4, kOneCorner = 8;
+  // Distances from triangles flatter than this are not exact; one may replace a flatter one.
+  static constexpr double kTinySine = 1e-3;
 
   [[nodiscard]] bool learn_old(std::span<const std::uint32_t> removed);
   [[nodiscard]] bool keeps_disks(const PatchStep& step);
@@ -68,6 +73,7 @@ class StepGuard {
   Patch& patch_;
   const Isosurface& isosurface_;
   double max_height_, max_edge_, max_sample_, freedom_ = 1;
+  bool keeps_witnesses_ = true;
   SearchCounters& counters_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface

@@ -45,6 +45,7 @@ TEST_P(StatedError, IsKeptWithoutFinerCubesAndWithGoodAngles) {
 INSTANTIATE_TEST_SUITE_P(ThinTips, StatedError,
                          ::testing::Values(Case{"marschner_lobb", 41, 100.1, 0.25, "0:14,5:19,16:30"},
                                            Case{"marschner_lobb", 41, 127.5, 0.25, "0:12,0:12,14:28"},
+                                           Case{"marschner_lobb", 41, 127.5, 0.1, "2:14,26:38,15:28"},
                                            Case{"gyroid_ball", 48, 0, 0.1, ":,:,:"},
                                            Case{"gyroid_ball", 64, 0.1, 0.1, ":,:,:"}));
 
