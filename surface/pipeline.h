@@ -46,7 +46,7 @@ class Pipeline {
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
-  void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted);
+  void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);

@@ -113,12 +113,13 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
 void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
   if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
   constexpr double kReach = 0.9;  // of the distance promised
+  constexpr double kFreedom = 2;  // with more, crossings of one component would be reached from another that is near
   Promise nearer = promise_;
   nearer.max_distance *= kReach;
   const auto check = [&] {
     last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
   };
-  take_steps_nearer(mesh, nearer);
+  take_steps_nearer(mesh, nearer, kFreedom);
   check();
   if (!last_.geometry.is_near()) return;
   const SurfaceMesh before = mesh;

@@ -102,13 +102,14 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
   }
-  take_steps_nearer(mesh, nearer);
+  constexpr double kFreedom = 16;
+  take_steps_nearer(mesh, nearer, kFreedom);
   check(promise_);
   return last_.geometry.is_near();
 }
 
 // What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`.
-void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted) {
+void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom) {
   constexpr int kStepRounds = 6;
   // What is missed may be off by more than steps of the shape stage are.
   ShapeOptions options_of_steps = shape_options(parameters_);
@@ -123,7 +124,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted) {
     if (off == 0 || off >= off_before) return;
     off_before = off;
     timed(result_.shape, [&] {
-      insert_missed(mesh, *surface_, before.missed_crossings, options_of_steps, controls_, result_.shape);
+      insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
       const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
       bring_near(mesh, *surface_, now.far_triangles, wanted.max_distance, options_of_nearing, controls_, result_.shape);
     });

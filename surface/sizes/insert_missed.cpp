@@ -106,11 +106,10 @@ std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3
 }
 
 void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,
-               const ExactSurface& surface, const ShapeOptions& options, ShapeStats& stats) {
-  constexpr double kFreedom = 16;
+               const ExactSurface& surface, double freedom, const ShapeOptions& options, ShapeStats& stats) {
   Patch& patch = numbered.patch;
   StepGuard guard(patch, plan.crossings, surface.isosurface, options, stats.search);
-  guard.set_freedom(kFreedom);
+  guard.set_freedom(freedom);
   std::vector<std::uint32_t> near;
   for (const Vec3& p : missed) {
     Box3 at;
@@ -131,7 +130,7 @@ void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const V
 
 }  // namespace
 
-void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed,
+void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed, double freedom,
                    const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
   Controls own = controls;
   if (missed.empty() || own.poll()) return;
@@ -153,7 +152,7 @@ void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<con
   const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kMissedReach, surface);
   work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
-                    insert_in(patch, plan, missed, surface, options, counted);
+                    insert_in(patch, plan, missed, surface, freedom, options, counted);
                   });
 }
 
