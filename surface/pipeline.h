@@ -42,13 +42,16 @@ class Pipeline {
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
+  void bring_near_by_steps(SurfaceMesh& mesh);
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
+  void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
+  void improve_decimated(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
   void find_crossings();
   void drop_crossings();

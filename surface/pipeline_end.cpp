@@ -31,6 +31,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
     if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh, options);
   } else {
     refine_by_distance(mesh, options);
+    bring_near_by_steps(mesh);
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
@@ -105,6 +106,28 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
     if (round == 0) improve(mesh, kCautiousRounds);
     if (result_.refine.insertions == before) return;
   }
+}
+
+// A few triangles may be too far where nothing can be inserted, as along the faces of the box. Finer cubes would take
+// the place of all of their component; steps of the shape stage take that of these triangles alone.
+void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
+  if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
+  constexpr double kReach = 0.9;  // of the distance promised
+  constexpr double kFreedom = 2;  // with more, crossings of one component would be reached from another that is near
+  Promise nearer = promise_;
+  nearer.max_distance *= kReach;
+  const auto check = [&] {
+    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+  };
+  take_steps_nearer(mesh, nearer, kFreedom);
+  check();
+  if (!last_.geometry.is_near()) return;
+  const SurfaceMesh before = mesh;
+  improve(mesh, parameters_.shape.rounds);
+  check();
+  if (last_.geometry.is_near()) return;
+  mesh = before;
+  check();
 }
 
 // What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.

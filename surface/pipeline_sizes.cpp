@@ -13,6 +13,7 @@
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
 #include "surface/repair/finish/last_resort.h"
+#include "surface/shape/shape.h"
 #include "surface/shape/shape_options.h"
 #include "surface/sizes/decimation.h"
 #include "surface/sizes/error_steps.h"
@@ -63,6 +64,7 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
     timed(result_.certify_stage, [&] { find_crossings(); });
   }
   decimate_mesh(mesh);
+  improve_decimated(mesh);
   timed(result_.certify_stage, [&] {
     last_.geometry = check_geometry(mesh, *surface_, promise_);
     if (last_.crossing.crossing_pairs > 0) last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
@@ -100,22 +102,33 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
   }
-  // What refinement does not reach may be off by more than steps of the shape stage are.
-  constexpr int kStepRounds = 2;
+  constexpr double kFreedom = 16;
+  take_steps_nearer(mesh, nearer, kFreedom);
+  check(promise_);
+  return last_.geometry.is_near();
+}
+
+// What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`.
+void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom) {
+  constexpr int kStepRounds = 6;
+  // What is missed may be off by more than steps of the shape stage are.
   ShapeOptions options_of_steps = shape_options(parameters_);
-  options_of_steps.max_height = nearer.max_distance;
+  options_of_steps.max_height = wanted.max_distance;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
   ShapeOptions options_of_nearing = shape_options(parameters_);
   options_of_nearing.max_height = std::max(options_of_nearing.max_height, ShapeOptions{}.max_height);
-  for (int round = 0; round < kStepRounds && check(nearer) > 0 && !controls_.poll(); ++round) {
+  std::int64_t off_before = std::numeric_limits<std::int64_t>::max();
+  for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
+    const GeometryCheck before = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, wanted); });
+    const std::int64_t off = before.mesh_off + std::ssize(before.missed_crossings);
+    if (off == 0 || off >= off_before) return;
+    off_before = off;
     timed(result_.shape, [&] {
-      insert_missed(mesh, *surface_, last_.geometry.missed_crossings, options_of_steps, controls_, result_.shape);
-      const GeometryCheck now = check_geometry(mesh, *surface_, nearer);
-      bring_near(mesh, *surface_, now.far_triangles, nearer.max_distance, options_of_nearing, controls_, result_.shape);
+      insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
+      const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
+      bring_near(mesh, *surface_, now.far_triangles, wanted.max_distance, options_of_nearing, controls_, result_.shape);
     });
   }
-  check(promise_);
-  return last_.geometry.is_near();
 }
 
 // Without criteria 1 and 2 of the paper a few long triangles may lie across a fold, and nothing can be inserted into
@@ -191,6 +204,15 @@ void Pipeline::decimate_mesh(SurfaceMesh& mesh) {
   const double reached = std::min(kRounding * result_.decimation.largest_error, options.max_error);
   promise_.max_distance = std::max(promise_.max_distance, reached);
   result_.promised_distance = promise_.max_distance;
+}
+
+// Decimation makes no angle smaller than it was, but some were small where steps had brought triangles near, and in
+// what comes from finer cubes. With fewer vertices they have room to get better, within the distance promised.
+void Pipeline::improve_decimated(SurfaceMesh& mesh) {
+  if (!improves_shape(parameters_) || controls_.stopped()) return;
+  ShapeOptions options = shape_options(parameters_);
+  options.max_height = options.max_distance = options.max_sample = promise_.max_distance;
+  timed(result_.shape, [&] { improve_shape(mesh, *surface_, options, controls_, result_.shape); });
 }
 
 }  // namespace deliso

@@ -153,12 +153,13 @@ NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan) {
 
 void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> patches, SurfaceMesh& mesh) {
   std::vector<bool> is_gone(mesh.triangles.size(), false);
-  bool is_any_gone = false;
+  bool is_any_gone = false;  // a triangle or a vertex
   for (std::size_t k = 0; k < plans.size(); ++k) {
     const Patch& patch = patches[k].patch;
     if (patch.steps() == 0) continue;
     std::vector<std::uint32_t> numbers = patches[k].vertices;
     for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
+      is_any_gone = is_any_gone || patch.star(v).empty();
       if (v < numbers.size()) {
         mesh.points[numbers[v]] = patch.point(v);
       } else {

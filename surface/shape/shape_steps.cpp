@@ -22,7 +22,7 @@ void ShapeSteps::propose(ShapeStep kind, std::uint32_t triangle, std::size_t cor
                          std::vector<PatchStep>& steps) {
   switch (kind) {
     case ShapeStep::kFlip:
-      return flip(side_of(triangle, corner), steps);
+      return flip(side_of(triangle, corner), enough, steps);
     case ShapeStep::kRemove:
       return remove(patch_.corners(triangle)[corner], steps);
     case ShapeStep::kMove:
@@ -66,10 +66,12 @@ Vec3 ShapeSteps::normal_of(const std::vector<std::uint32_t>& triangles) const {
   return length > 0 ? sum / length : Vec3{};
 }
 
-void ShapeSteps::flip(const Side& side, std::vector<PatchStep>& steps) {
+void ShapeSteps::flip(const Side& side, double enough, std::vector<PatchStep>& steps) {
   const auto [triangle, a, b, c, beyond, d] = side;
   if (beyond == kNoVertex) {
     drop(side, steps);
+    drop_two(side, steps);
+    open(side, enough, steps);
     return;
   }
   PatchStep step{ShapeStep::kFlip, {triangle, beyond}, {{c, a, d}, {c, d, b}}, kNoVertex, {}, 1, {}};
@@ -81,22 +83,6 @@ void ShapeSteps::flip(const Side& side, std::vector<PatchStep>& steps) {
   steps.push_back(std::move(step));
 }
 
-// A triangle in a face of the box, with an edge of the boundary: without it, its other two edges are the boundary.
-void ShapeSteps::drop(const Side& side, std::vector<PatchStep>& steps) {
-  if (!curve(side.a, side.b, {side.c}) || !patch_.find_link(side.c, link_) || !link_.is_closed) return;
-  PatchStep step{ShapeStep::kFlip, {side.triangle}, {}, kNoVertex, {}, 1, {}};
-  step.opened = side.c;
-  if (are_whole(step.removed)) steps.push_back(std::move(step));
-}
-
-// The only triangle at a vertex of the boundary goes with it, unless it is all of its component.
-void ShapeSteps::remove_ear(std::uint32_t v, std::vector<PatchStep>& steps) {
-  const std::uint32_t a = link_.vertices[0], b = link_.vertices[1];
-  if (!curve(a, b, {v}) || patch_.across(link_.triangles[0], a, b) == kNoVertex) return;
-  PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 1, {}};
-  if (are_whole(step.removed)) steps.push_back(std::move(step));
-}
-
 void ShapeSteps::remove(std::uint32_t v, std::vector<PatchStep>& steps) {
   constexpr std::size_t kLongestLink = 12;
   if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return;
@@ -104,7 +90,7 @@ void ShapeSteps::remove(std::uint32_t v, std::vector<PatchStep>& steps) {
     remove_ear(v, steps);
     return;
   }
-  if (!link_.is_closed || link_.vertices.size() < 4 || link_.vertices.size() > kLongestLink) return;
+  if (!link_.is_closed || link_.vertices.size() < 3 || link_.vertices.size() > kLongestLink) return;
   PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 0, {}};
   if (!are_whole(step.removed)) return;
   std::vector<Vec3> polygon;
@@ -155,20 +141,6 @@ void ShapeSteps::finish(PatchStep step, const Place& best, const std::vector<Vec
   step.point = best.point;
   step.quality = best.quality;
   steps.push_back(std::move(step));
-}
-
-// The part of a boundary curve from one vertex to another, if they and those between lie in one face alone.
-std::optional<BoundaryCurve> ShapeSteps::curve(std::uint32_t begin, std::uint32_t end,
-                                               std::initializer_list<std::uint32_t> between) const {
-  const Box3& box = search_.isosurface().box();
-  unsigned faces = faces_at(box, patch_.point(begin)) & faces_at(box, patch_.point(end));
-  for (const std::uint32_t v : between) {
-    const unsigned own = faces_at(box, patch_.point(v));
-    if (std::popcount(own) != 1) return std::nullopt;
-    faces &= own;
-  }
-  if (std::popcount(faces) != 1) return std::nullopt;
-  return BoundaryCurve{patch_.point(begin), patch_.point(end), outward_normal(faces)};
 }
 
 void ShapeSteps::move(std::uint32_t v, double enough, std::vector<PatchStep>& steps) {

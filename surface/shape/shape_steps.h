@@ -35,8 +35,10 @@ class ShapeSteps {
     std::uint32_t d = kNoVertex;
   };
   [[nodiscard]] Side side_of(std::uint32_t triangle, std::size_t corner) const;
-  void flip(const Side& side, std::vector<PatchStep>& steps);
+  void flip(const Side& side, double enough, std::vector<PatchStep>& steps);
   void drop(const Side& side, std::vector<PatchStep>& steps);
+  void drop_two(const Side& side, std::vector<PatchStep>& steps);
+  void open(const Side& side, double enough, std::vector<PatchStep>& steps);
   void remove_ear(std::uint32_t v, std::vector<PatchStep>& steps);
   void remove(std::uint32_t v, std::vector<PatchStep>& steps);
   void move(std::uint32_t v, double enough, std::vector<PatchStep>& steps);

@@ -18,6 +18,8 @@ namespace {
 // A triangle may always lie this far from the isosurface, as a fraction of its longest edge (epsilon1 of the paper is
 // 0.1 of the circumradius).
 constexpr double kFreeHeight = 0.1;
+// Distances from triangles flatter than this are not exact; one may replace a flatter one.
+constexpr double kTinySine = 1e-3;
 
 // Whether a point is within a distance of a triangle.
 bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) {
@@ -57,6 +59,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
       isosurface_(isosurface),
       max_height_(options.max_height),
       max_edge_(options.max_edge),
+      max_sample_(options.max_sample),
       heights_(patch, isosurface, counters),
       vertices_(thinned(patch.points()), options.max_height),
       crossings_(crossings, options.max_distance) {}
@@ -76,7 +79,7 @@ bool StepGuard::apply(const PatchStep& step) {
   }
   if (longest_added <= std::max(max_edge_, old_longest_) && keeps_disks(step) && lies_near(first_added) &&
       keeps_volume(old_volume, first_added) && keeps_sides(first_added) && crosses_nothing(first_added) &&
-      covers_witnesses(first_added)) {
+      (!keeps_witnesses_ || covers_witnesses(first_added)) && samples_stay_near(first_added)) {
     return true;
   }
   patch_.undo();
@@ -107,9 +110,14 @@ bool StepGuard::learn_old(std::span<const std::uint32_t> removed) {
   }
   heights_.set_old_normal(old_normal);
   old_height_ = 0;
+  old_unfaced_ = {};
   for (const std::uint32_t t : removed) {
     const double height = heights_.of_placed(t);
-    if (std::isfinite(height)) old_height_ = std::max(old_height_, height);
+    if (std::isfinite(height)) {
+      old_height_ = std::max(old_height_, height);
+    } else {
+      old_unfaced_.add(patch_.corner_points(t));
+    }
   }
   return true;
 }
@@ -179,13 +187,6 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
   return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
 }
 
-bool StepGuard::lies_near(std::size_t first_added) {
-  for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (heights_.of(static_cast<std::uint32_t>(first_added + i), limits_[i]) > limits_[i]) return false;
-  }
-  return true;
-}
-
 // Whether more than so many triangles hang together with one. Goes from star to star, which is fast.
 bool StepGuard::is_large(std::uint32_t triangle, std::size_t most) {
   ++search_;
@@ -236,9 +237,11 @@ bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_
 }
 
 bool StepGuard::crosses_nothing(std::size_t first_added) {
+  double least_old = 1;
+  for (const auto& [a, b, c] : old_triangles_) least_old = std::min(least_old, sine_of_least_angle(a, b, c));
   for (std::size_t i = first_added; i < patch_.triangle_count(); ++i) {
     const auto t = static_cast<std::uint32_t>(i);
-    if (!(patch_.quality(t) > 0)) return false;
+    if (!(patch_.quality(t) > std::min(kTinySine, least_old))) return false;
     near_.clear();
     patch_.append_near(patch_.box_of(t), near_);
     for (const std::uint32_t u : near_) {

@@ -28,6 +28,9 @@ class StepGuard {
     heights_.set_freedom(freedom);
   }
 
+  // Whether the mesh has to stay near what it was near.
+  void set_witnesses(bool are_kept) { keeps_witnesses_ = are_kept; }
+
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
   // triangles are whole.
   bool apply(const PatchStep& step);
@@ -44,10 +47,17 @@ class StepGuard {
     Witnesses(std::span<const Vec3> all, double distance)
         : points(all.begin(), all.end()), grid(points, distance), reach(distance) {}
   };
+  // Triangles without a height.
+  struct Unfaced {
+    double area = 0, longest = 0;
+
+    void add(const std::array<Vec3, 3>& corners);
+  };
   [[nodiscard]] bool covers_witnesses(std::size_t first_added);
   [[nodiscard]] bool was_covered(const Vec3& p, double reach) const;
   [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
+  [[nodiscard]] bool samples_stay_near(std::size_t first_added) const;
   [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
@@ -56,7 +66,8 @@ class StepGuard {
 
   Patch& patch_;
   const Isosurface& isosurface_;
-  double max_height_, max_edge_, freedom_ = 1;
+  double max_height_, max_edge_, max_sample_, freedom_ = 1;
+  bool keeps_witnesses_ = true;
   TriangleHeights heights_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface
@@ -67,6 +78,7 @@ class StepGuard {
   std::vector<std::array<Vec3, 3>> new_triangles_;  // and of those added
   double old_longest_ = 0;                          // the longest of their edges
   double old_height_ = 0;                           // the largest of their distances from the isosurface
+  Unfaced old_unfaced_;                             // of the removed triangles
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> seen_;  // of each triangle: the latest search that came to it

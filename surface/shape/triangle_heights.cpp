@@ -9,13 +9,6 @@
 
 namespace deliso {
 
-namespace {
-
-// With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
-constexpr double kSideways = 4, kOneCorner = 8;
-
-}  // namespace
-
 // Whether a triangle faces lower values as the field in some cell around its corners tells: the test of stage 2, but at
 // creases, where cells meet, one of them is enough; at two corners or, in the end, at one.
 bool TriangleHeights::faces_down(std::uint32_t triangle, const Vec3& normal) const {

@@ -13,13 +13,15 @@ namespace deliso {
 
 // A triangle may always lie this far from the isosurface (mesh-space units).
 inline constexpr double kFreeDistance = 0.05;
+// With these freedoms a triangle need only face lower values in one of the cells at two of its corners, or at one.
+inline constexpr double kSideways = 4, kOneCorner = 8;
 
 class TriangleHeights {
  public:
   TriangleHeights(const Patch& patch, const Isosurface& isosurface, SearchCounters& counters)
       : patch_(patch), isosurface_(isosurface), counters_(counters) {}
 
-  // From 4 on triangles need only face lower values in one of the cells at two of their corners, from 8 on at one.
+  // See kSideways and kOneCorner.
   void set_freedom(double freedom) { freedom_ = freedom; }
   // Of the triangles that a step removes: the sum of their normals.
   void set_old_normal(const Vec3& normal) { old_normal_ = normal; }

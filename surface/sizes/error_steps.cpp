@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "delaunay/base/parallel.h"
 #include "surface/certificate/geometry_check.h"
-#include "surface/mesh/triangle_distance.h"
-#include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/shape_steps.h"
 #include "surface/shape/step_guard.h"
@@ -35,6 +32,7 @@ class NearnessSteps {
         stats_(stats),
         left_(patch.bad) {}
 
+  void remove_spikes();
   // Up to `depth` steps are tried together.
   void run(double freedom, int depth, const Controls& controls);
 
@@ -74,6 +72,31 @@ bool NearnessSteps::has_room(const PatchStep& step) {
   }
   if (step.vertex != kNoVertex) box.extend(step.point);
   return room_.holds(box, near_);
+}
+
+// A vertex of one sheet to which another has come to reach: its three triangles span what is no isosurface. What it
+// covers alone is missed then, and is looked for where it is.
+void NearnessSteps::remove_spikes() {
+  guard_.set_freedom(16);
+  guard_.set_witnesses(false);
+  VertexLink link;
+  for (std::size_t i = 0; i < left_.size(); ++i) {
+    const std::uint32_t t = left_[i];
+    for (const std::uint32_t v : patch_.corners(t)) {
+      if (!patch_.has(t) || !patch_.find_link(v, link) || !link.is_closed || link.triangles.size() != 3) continue;
+      if (std::any_of(link.triangles.begin(), link.triangles.end(),
+                      [&](std::uint32_t u) { return far_area(u) == 0; })) {
+        continue;
+      }
+      PatchStep step{ShapeStep::kRemove, link.triangles, {{}}, kNoVertex, {}, 0, {}};
+      std::copy(link.vertices.begin(), link.vertices.end(), step.added[0].begin());
+      if (!has_room(step) || !guard_.apply(step)) continue;
+      ++stats_.steps[static_cast<std::size_t>(step.kind)];
+      left_.push_back(static_cast<std::uint32_t>(patch_.triangle_count() - 1));
+      break;
+    }
+  }
+  guard_.set_witnesses(true);
 }
 
 void NearnessSteps::run(double freedom, int depth, const Controls& controls) {
@@ -142,103 +165,9 @@ void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const 
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
                     NearnessSteps steps(patch, plan, surface, most, options, counted);
                     const Controls part = controls.for_part(1, mesh.points.size());
+                    steps.remove_spikes();
                     for (const double freedom : {1.0, 4.0, 16.0}) steps.run(freedom, 1, part);
                     for (const int depth : {2, 3}) steps.run(16, depth, part);  // a few
-                  });
-}
-
-namespace {
-
-// The nearest of a patch's triangles; kNoVertex if there is none.
-std::uint32_t nearest_in(const Patch& patch, const Vec3& p) {
-  std::uint32_t nearest = kNoVertex;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
-    if (!patch.has(t)) continue;
-    const auto [a, b, c] = patch.corner_points(t);
-    const double squared = squared_distance_to_triangle(p, a, b, c);
-    if (squared < least) {
-      least = squared;
-      nearest = t;
-    }
-  }
-  return nearest;
-}
-
-// The star of a new vertex over the rim of a triangle and those of its neighbours that `sides` names, as bits.
-PatchStep star_step(const Patch& patch, std::uint32_t t, const Vec3& p, unsigned sides) {
-  PatchStep step;
-  step.kind = ShapeStep::kInsert;
-  step.removed = {t};
-  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
-  step.point = step.start = p;
-  const auto& corners = patch.corners(t);
-  for (unsigned side = 0; side < 3; ++side) {
-    const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
-    const std::uint32_t beyond = (sides >> side & 1u) != 0 ? patch.across(t, a, b) : kNoVertex;
-    if (beyond == kNoVertex) {
-      step.added.push_back({step.vertex, a, b});
-      continue;
-    }
-    const auto& others = patch.corners(beyond);
-    const std::uint32_t apex =
-        *std::find_if(others.begin(), others.end(), [&](std::uint32_t v) { return v != a && v != b; });
-    step.removed.push_back(beyond);
-    step.added.push_back({step.vertex, a, apex});
-    step.added.push_back({step.vertex, apex, b});
-  }
-  return step;
-}
-
-void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,
-               const ExactSurface& surface, const ShapeOptions& options, ShapeStats& stats) {
-  constexpr double kFreedom = 16;
-  Patch& patch = numbered.patch;
-  StepGuard guard(patch, plan.crossings, surface.isosurface, options, stats.search);
-  guard.set_freedom(kFreedom);
-  std::vector<std::uint32_t> near;
-  for (const Vec3& p : missed) {
-    Box3 at;
-    at.extend(p);
-    if (!plan.room.holds(at, near)) continue;
-    const std::uint32_t t = nearest_in(patch, p);
-    if (t == kNoVertex) continue;
-    const auto& corners = patch.corners(t);
-    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return patch.point(v) == p; })) continue;
-    for (const unsigned sides : {7u, 0u, 1u, 2u, 4u, 3u, 5u, 6u}) {
-      const PatchStep step = star_step(patch, t, p, sides);
-      if (!guard.apply(step)) continue;
-      ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
-      break;
-    }
-  }
-}
-
-}  // namespace
-
-void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed,
-                   const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
-  Controls own = controls;
-  if (missed.empty() || own.poll()) return;
-  const BoxTree tree(
-      mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); },
-      surface.threads);
-  std::vector<std::uint32_t> nearest;
-  const double farthest = surface.isosurface.box().diagonal();
-  for (const Vec3& p : missed) {
-    const auto measure = [&](std::uint32_t t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
-    };
-    const std::uint32_t t = tree.nearest(p, farthest * farthest, measure).first;
-    if (t != BoxTree::kNone) nearest.push_back(t);
-  }
-  std::sort(nearest.begin(), nearest.end());
-  nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
-  const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kReach, surface);
-  work_in_patches(mesh, plans, surface.threads, stats,
-                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
-                    insert_in(patch, plan, missed, surface, options, counted);
                   });
 }
 

@@ -18,8 +18,9 @@ void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const 
                 const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
 
 // The same for points of the isosurface that are too far from the mesh, as at tips of thin parts: each becomes a
-// vertex, in its nearest triangle or in that and neighbours of it, where the guard allows it.
-void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed,
+// vertex, in its nearest triangle or in that and neighbours of it, where the guard allows it with
+// this freedom.
+void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed, double freedom,
                    const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
 
 }  // namespace deliso

@@ -55,5 +55,28 @@ TEST(Patches, BadTrianglesOfOneVoxelShareABox) {
   }
 }
 
+// As many triangles as before, but a vertex in them is another: the old one stayed among the mesh's points, and
+// crossings near it seemed to be near the mesh.
+TEST(Patches, NoVertexWithoutTrianglesIsPutBack) {
+  SurfaceMesh mesh;
+  mesh.points = {{1, 1, 1}, {3, 1, 1}, {2, 3, 1}, {2, 2, 2}};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  PatchPlan plan;
+  plan.room.add({{0, 0, 0}, {4, 4, 4}});
+  plan.triangles = {0, 1, 2};
+  const std::vector<PatchPlan> plans = {plan};
+  ShapeStats stats;
+  work_in_patches(mesh, plans, 1, stats, [](NumberedPatch& taken, const PatchPlan&, ShapeStats&) {
+    PatchStep step;
+    step.removed = {0, 1, 2};
+    step.added = {{0, 1, 4}, {1, 2, 4}, {2, 0, 4}};
+    step.vertex = 4;
+    step.point = {2, 2, 0};
+    taken.patch.apply(step);
+  });
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{1, 1, 1}, {3, 1, 1}, {2, 3, 1}, {2, 2, 0}}));
+}
+
 }  // namespace
 }  // namespace deliso

@@ -1,0 +1,47 @@
+// Whether the triangles of a step are as near to the isosurface as they have to be.
+#include <algorithm>
+#include <cmath>
+
+#include "surface/certificate/geometry_check.h"
+#include "surface/shape/step_guard.h"
+#include "surface/shape/triangle_heights.h"
+#include "surface/shape/triangle_shape.h"
+
+namespace deliso {
+
+// In necks and at edges as thin as they are rounded, some triangles have no height: the isosurface nowhere faces as
+// they do. Others like them may take their place, if they are not much larger in all and none is much longer.
+bool StepGuard::lies_near(std::size_t first_added) {
+  constexpr double kMuchLarger = 1.2;
+  Unfaced unfaced;
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    const auto t = static_cast<std::uint32_t>(first_added + i);
+    if (heights_.of(t, limits_[i]) <= limits_[i]) continue;
+    if (freedom_ < kOneCorner) return false;
+    unfaced.add(patch_.corner_points(t));
+    if (unfaced.area > kMuchLarger * old_unfaced_.area || unfaced.longest > kMuchLarger * old_unfaced_.longest) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Where a distance is promised that is not much more than a triangle's height, heights of centroids do not tell.
+bool StepGuard::samples_stay_near(std::size_t first_added) const {
+  if (!std::isfinite(max_sample_)) return true;
+  const auto is_far = [&](const std::array<Vec3, 3>& corners) {
+    return count_far_samples(isosurface_, corners, max_sample_) > 0;
+  };
+  if (std::any_of(old_triangles_.begin(), old_triangles_.end(), is_far)) return true;
+  for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
+    if (is_far(patch_.corner_points(static_cast<std::uint32_t>(t)))) return false;
+  }
+  return true;
+}
+
+void StepGuard::Unfaced::add(const std::array<Vec3, 3>& p) {
+  area += norm(cross(p[1] - p[0], p[2] - p[0])) / 2;
+  longest = std::max(longest, longest_edge(p));
+}
+
+}  // namespace deliso

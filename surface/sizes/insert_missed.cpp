@@ -1,0 +1,159 @@
+// Insertion of crossings that the mesh misses.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "surface/mesh/triangle_distance.h"
+#include "surface/search/box_tree.h"
+#include "surface/shape/patches.h"
+#include "surface/shape/step_guard.h"
+#include "surface/sizes/error_steps.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr double kMissedReach = 3;  // of the surroundings of a triangle, in its longest edges
+
+// The nearest of a patch's triangles; kNoVertex if there is none.
+std::uint32_t nearest_in(const Patch& patch, const Vec3& p) {
+  std::uint32_t nearest = kNoVertex;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
+    if (!patch.has(t)) continue;
+    const auto [a, b, c] = patch.corner_points(t);
+    const double squared = squared_distance_to_triangle(p, a, b, c);
+    if (squared < least) {
+      least = squared;
+      nearest = t;
+    }
+  }
+  return nearest;
+}
+
+// The star of a new vertex over the rim of a triangle and those of its neighbours that `sides` names, as bits.
+PatchStep star_step(const Patch& patch, std::uint32_t t, const Vec3& p, unsigned sides) {
+  PatchStep step;
+  step.kind = ShapeStep::kInsert;
+  step.removed = {t};
+  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
+  step.point = step.start = p;
+  const auto& corners = patch.corners(t);
+  for (unsigned side = 0; side < 3; ++side) {
+    const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
+    const std::uint32_t beyond = (sides >> side & 1u) != 0 ? patch.across(t, a, b) : kNoVertex;
+    if (beyond == kNoVertex) {
+      step.added.push_back({step.vertex, a, b});
+      continue;
+    }
+    const auto& others = patch.corners(beyond);
+    const std::uint32_t apex =
+        *std::find_if(others.begin(), others.end(), [&](std::uint32_t v) { return v != a && v != b; });
+    step.removed.push_back(beyond);
+    step.added.push_back({step.vertex, a, apex});
+    step.added.push_back({step.vertex, apex, b});
+  }
+  return step;
+}
+
+// The star of a new vertex over the rim of some triangles. Corners that are theirs alone are gone.
+PatchStep cavity_step(const Patch& patch, const std::vector<std::uint32_t>& cavity, const Vec3& p) {
+  PatchStep step;
+  step.kind = ShapeStep::kInsert;
+  step.removed = cavity;
+  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
+  step.point = step.start = p;
+  for (const std::uint32_t t : cavity) {
+    const auto& corners = patch.corners(t);
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
+      const std::uint32_t beyond = patch.across(t, a, b);
+      if (std::find(cavity.begin(), cavity.end(), beyond) == cavity.end()) step.added.push_back({step.vertex, a, b});
+    }
+  }
+  return step;
+}
+
+// The triangles around a vertex, as far as they face a point that is beyond it, or all face away from one below it.
+std::vector<std::uint32_t> facing(const Patch& patch, std::uint32_t v, const Vec3& p) {
+  const auto side = [&](std::uint32_t t) {
+    const auto [a, b, c] = patch.corner_points(t);
+    return dot(cross(b - a, c - a), p - patch.point(v));
+  };
+  double sum = 0;
+  for (const std::uint32_t t : patch.star(v)) sum += side(t);
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t t : patch.star(v)) {
+    if ((side(t) > 0) == (sum > 0)) found.push_back(t);
+  }
+  return found;
+}
+
+// A tip of a finger may stand out beyond a vertex: over the rim of what faces it, or of all triangles around the
+// vertex, which is gone then.
+std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3& p) {
+  const auto& corners = patch.corners(t);
+  const std::uint32_t nearest =
+      *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t u) {
+        return squared_distance(patch.point(v), p) < squared_distance(patch.point(u), p);
+      });
+  const std::span<const std::uint32_t> star = patch.star(nearest);
+  return {cavity_step(patch, facing(patch, nearest, p), p), cavity_step(patch, {star.begin(), star.end()}, p)};
+}
+
+void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,
+               const ExactSurface& surface, double freedom, const ShapeOptions& options, ShapeStats& stats) {
+  Patch& patch = numbered.patch;
+  StepGuard guard(patch, plan.crossings, surface.isosurface, options, stats.search);
+  guard.set_freedom(freedom);
+  std::vector<std::uint32_t> near;
+  for (const Vec3& p : missed) {
+    Box3 at;
+    at.extend(p);
+    if (!plan.room.holds(at, near)) continue;
+    const std::uint32_t t = nearest_in(patch, p);
+    if (t == kNoVertex) continue;
+    const auto& corners = patch.corners(t);
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return patch.point(v) == p; })) continue;
+    std::vector<PatchStep> steps;
+    for (const unsigned sides : {7u, 0u, 1u, 2u, 4u, 3u, 5u, 6u}) steps.push_back(star_step(patch, t, p, sides));
+    for (PatchStep& step : tip_steps(patch, t, p)) steps.push_back(std::move(step));
+    const bool is_done =
+        std::any_of(steps.begin(), steps.end(), [&](const PatchStep& step) { return guard.apply(step); });
+    if (is_done) ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
+  }
+}
+
+}  // namespace
+
+void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed, double freedom,
+                   const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
+  Controls own = controls;
+  if (missed.empty() || own.poll()) return;
+  const BoxTree tree(
+      mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); },
+      surface.threads);
+  std::vector<std::uint32_t> nearest;
+  const double farthest = surface.isosurface.box().diagonal();
+  for (const Vec3& p : missed) {
+    const auto measure = [&](std::uint32_t t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
+    };
+    const std::uint32_t t = tree.nearest(p, farthest * farthest, measure).first;
+    if (t != BoxTree::kNone) nearest.push_back(t);
+  }
+  std::sort(nearest.begin(), nearest.end());
+  nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
+  const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kMissedReach, surface);
+  work_in_patches(mesh, plans, surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
+                    insert_in(patch, plan, missed, surface, freedom, options, counted);
+                  });
+}
+
+}  // namespace deliso
