@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cstddef>
 #include <iostream>
@@ -60,6 +61,26 @@ constexpr std::size_t kStackBytes = std::size_t{1} << 20;
   for (std::size_t i = kStackBytes; i >= kPage; i -= kPage) pages[i - 1] = 0;
 }
 
+// When memory ends, what was made is destroyed again, and the destructor of a JSON document allocates. So some memory
+// is kept back until then, in pieces small enough to be given out again by the heap.
+class Reserve {
+ public:
+  static void keep() {
+    for (std::atomic<char*>& piece : pieces) piece = new char[kPiece];
+    std::set_new_handler(give_back);
+  }
+
+ private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 14;
+
+  [[noreturn]] static void give_back() {
+    for (std::atomic<char*>& piece : pieces) delete[] piece.exchange(nullptr);
+    throw std::bad_alloc();
+  }
+
+  static inline std::array<std::atomic<char*>, 8> pieces = {};
+};
+
 ExitCode run(int argc, const char* const* argv) {
   CommandLine line(
       "Certified Delaunay meshes of isosurfaces of scalar volumes",
@@ -86,6 +107,7 @@ ExitCode run_program(int argc, const char* const* argv) {
   try {
     check_room_for_stack();
     grow_stack();
+    Reserve::keep();
     stop_at_signals();
     const ExitCode exit_code = run(argc, argv);
     // A result that did not reach its reader (a full disk, say) is no success.
