@@ -108,9 +108,10 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   return last_.geometry.is_near();
 }
 
-// What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`.
+// What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`. Spikes
+// are removed once other steps do not help: they may be all that covers a tip.
 void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom) {
-  constexpr int kStepRounds = 6;
+  constexpr int kStepRounds = 8;
   // What is missed may be off by more than steps of the shape stage are.
   ShapeOptions options_of_steps = shape_options(parameters_);
   options_of_steps.max_height = wanted.max_distance;
@@ -118,15 +119,18 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, doubl
   ShapeOptions options_of_nearing = shape_options(parameters_);
   options_of_nearing.max_height = std::max(options_of_nearing.max_height, ShapeOptions{}.max_height);
   std::int64_t off_before = std::numeric_limits<std::int64_t>::max();
+  bool removes_spikes = false;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, wanted); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_crossings);
-    if (off == 0 || off >= off_before) return;
+    if (off == 0 || (off >= off_before && removes_spikes)) return;
+    removes_spikes = removes_spikes || off >= off_before;
     off_before = off;
     timed(result_.shape, [&] {
       insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
       const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
-      bring_near(mesh, *surface_, now.far_triangles, wanted.max_distance, options_of_nearing, controls_, result_.shape);
+      bring_near(mesh, *surface_, now.far_triangles, {wanted.max_distance, removes_spikes}, options_of_nearing,
+                 controls_, result_.shape);
     });
   }
 }

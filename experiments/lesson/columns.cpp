@@ -15,8 +15,8 @@ namespace {
 
 using Values = std::vector<const Json*>;
 
-constexpr double kScale = 1e5;              // digits behind the point that coordinates have
-constexpr double kLargest = 1'000'000'000;  // so that twice of it has 32 bits
+constexpr double kScale = 1e5;                   // digits behind the point that coordinates have
+constexpr double kLargestValue = 1'000'000'000;  // so that twice of it has 32 bits
 constexpr std::size_t kMostParts = 4;
 
 bool are_all(const Values& values, const auto& predicate) {
@@ -39,12 +39,12 @@ std::string text_of_ints(const std::vector<std::int64_t>& ints) {
   return std::to_string(bytes_each) + base64(bytes);
 }
 
-bool is_int(const Json& value) { return value.is_number_integer() && std::abs(value.get<double>()) <= kLargest; }
+bool is_int(const Json& value) { return value.is_number_integer() && std::abs(value.get<double>()) <= kLargestValue; }
 
 bool is_scaled(const Json& value) {
   if (!value.is_number()) return false;
   const double scaled = value.get<double>() * kScale;
-  return std::abs(scaled) <= kLargest && std::abs(scaled - std::nearbyint(scaled)) < 1e-6;
+  return std::abs(scaled) <= kLargestValue && std::abs(scaled - std::nearbyint(scaled)) < 1e-6;
 }
 
 Json column_of(const Values& values);

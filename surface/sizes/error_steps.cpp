@@ -157,15 +157,15 @@ bool NearnessSteps::try_step(const PatchStep& step, Trial trial, int depth) {
 
 }  // namespace
 
-void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const std::uint32_t> far, double most,
-                const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
+void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const std::uint32_t> far,
+                const Nearness& wanted, const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
   if (far.empty()) return;
   const std::vector<PatchPlan> plans = plan_patches(mesh, far, kReach, surface);
   work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
-                    NearnessSteps steps(patch, plan, surface, most, options, counted);
+                    NearnessSteps steps(patch, plan, surface, wanted.most, options, counted);
                     const Controls part = controls.for_part(1, mesh.points.size());
-                    steps.remove_spikes();
+                    if (wanted.removes_spikes) steps.remove_spikes();
                     for (const double freedom : {1.0, 4.0, 16.0}) steps.run(freedom, 1, part);
                     for (const int depth : {2, 3}) steps.run(16, depth, part);  // a few
                   });

@@ -11,11 +11,16 @@
 
 namespace deliso {
 
-// Improves triangles of a mesh in mesh space of which samples are farther than `most` from the isosurface, by the steps
-// of the shape stage and within its guard: each step leaves less area that is too far. Only points and triangles are
-// kept. The same for any number of threads.
-void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const std::uint32_t> far, double most,
-                const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
+struct Nearness {
+  double most = 0;              // that a sample of a triangle may be away from the isosurface (mesh-space units)
+  bool removes_spikes = false;  // first: vertices of one sheet to which another has come to reach
+};
+
+// Improves triangles of a mesh in mesh space of which samples are too far from the isosurface, by the steps of the
+// shape stage and within its guard: each step leaves less area that is too far. Only points and triangles are kept. The
+// same for any number of threads.
+void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const std::uint32_t> far,
+                const Nearness& wanted, const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
 
 // The same for points of the isosurface that are too far from the mesh, as at tips of thin parts: each becomes a
 // vertex, in its nearest triangle or in that and neighbours of it, where the guard allows it with
