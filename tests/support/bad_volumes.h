@@ -42,7 +42,7 @@ class BadVolume : public ::testing::Test {
     return read_text(directory_ / "good.nrrd");
   }
 
-  TemporaryDirectory directory_;
+  TemporaryFolder directory_;
 };
 
 }  // namespace deliso::test

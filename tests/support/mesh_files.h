@@ -10,20 +10,13 @@
 
 #include "delaunay/base/check.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "tests/support/temporary_folder.h"
 
 namespace deliso::testing {
 
 class MeshIo : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = std::filesystem::path(::testing::TempDir()) / (std::string("deliso_mesh_io_") + info->name());
-    std::filesystem::remove_all(directory_);
-    std::filesystem::create_directories(directory_);
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
-  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return directory_ / name; }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   std::filesystem::path write_bytes(const std::string& name, const std::string& bytes) {
     std::ofstream(file(name), std::ios::binary) << bytes;
     return file(name);
@@ -45,7 +38,7 @@ class MeshIo : public ::testing::Test {
     return "";
   }
 
-  std::filesystem::path directory_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace deliso::testing

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace deliso::testing {
 
 struct ProgramResult {
@@ -30,24 +32,6 @@ ProgramResult run_deliso(const std::vector<std::string>& arguments, std::optiona
 // The same of another program.
 ProgramResult run_program_at(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                              std::optional<SignalAfter> signal = std::nullopt);
-
-// An empty folder, removed with all it holds at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  // The path of a file in it.
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  // Names of all it holds, sorted.
-  [[nodiscard]] std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& bytes);

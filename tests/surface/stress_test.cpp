@@ -9,6 +9,7 @@
 #include "surface/deliso.h"
 #include "surface/verification/verification.h"
 #include "tests/stress/stress_run.h"
+#include "tests/support/temporary_folder.h"
 #include "volume/io/volume_file.h"
 
 namespace deliso {
@@ -16,13 +17,12 @@ namespace {
 
 // A few of each kind whose runs are short.
 TEST(Stress, EveryShortRunIsProvenOrRefused) {
-  const std::filesystem::path directory = std::filesystem::path(::testing::TempDir()) / "deliso_stress";
-  std::filesystem::create_directories(directory);
+  const TemporaryFolder folder;
   for (const testing::StressKind& kind : testing::stress_kinds()) {
     if (kind.share > 1) continue;
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const testing::StressCase stress_case = testing::make_stress_case(kind, seed);
-      const testing::StressResult result = testing::run_stress_case(stress_case, 60, directory);
+      const testing::StressResult result = testing::run_stress_case(stress_case, 60, folder.path());
       const bool is_right = result.outcome == testing::Outcome::kProven || result.outcome == testing::Outcome::kRefused;
       EXPECT_TRUE(is_right) << kind.name << " " << seed;
       for (const std::string& reason : result.reasons) {

@@ -7,13 +7,15 @@
 
 #include "delaunay/base/check.h"
 #include "experiments/config/config.h"
+#include "tests/support/temporary_folder.h"
 
 namespace deliso {
 namespace {
 
 // What reading the text as a file of parameters gives, or the refusal.
 Json read_as_config(const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "deliso_whole_document.json";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "document.json";
   std::ofstream(path) << text;
   try {
     return parameters_to_json(read_parameters(path));

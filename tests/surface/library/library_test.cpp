@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "surface/library/deliso/deliso.h"
+#include "tests/support/temporary_folder.h"
 
 namespace deliso::testing {
 namespace {
@@ -322,15 +323,13 @@ TEST(Library, ParametersAreThoseOfTheTable) {
 }
 
 TEST(Library, FilesKeepVolumesAndMeshes) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "deliso_library_files";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   const auto volume = x_fastest<float>();
   const Mesh made = mesh(volume.view, kIsovalue).mesh;
   save_mesh(made, folder / "mesh.ply");
   expect_equal(load_mesh(folder / "mesh.ply"), made);
   EXPECT_NE(error_of([&] { save_mesh(made, folder / "mesh.txt"); }).find("mesh.txt"), std::string::npos);
   EXPECT_NE(error_of([&] { load_volume(folder / "none.nrrd"); }).find("none.nrrd"), std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Library, VersionsAgree) {

@@ -55,7 +55,7 @@ TEST(ForeignVolumes, WrittenAnewAreReadAsTheirToolsReadThem) {
   const std::string python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
   if (std::system((python + " -c 'import mrcfile, nibabel, numpy, vtk' 2>/dev/null").c_str()) != 0)
     GTEST_SKIP() << "needs python3-nibabel, python3-numpy, python3-vtk9 and python3-mrcfile";
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const int seed : {2, 3}) {
     const std::string command = python + " " + (kForeign / "foreign_volumes.py").string() + " " +
                                 directory.path().string() + " " + std::to_string(seed);
@@ -77,7 +77,7 @@ std::optional<Volume> read_or_refuse(const std::filesystem::path& path, const Re
 }
 
 TEST(ForeignVolumes, CutOffAnywhereAreRefusedOrWhole) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::filesystem::copy(kForeign, directory.path());
   for (const Json& expected : Json::parse(read_text(kForeign / "expected.json"))) {
     const std::string name = expected["file"];
@@ -96,7 +96,7 @@ TEST(ForeignVolumes, CutOffAnywhereAreRefusedOrWhole) {
 }
 
 TEST(ForeignVolumes, WithBytesChangedAreReadOrRefused) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::filesystem::copy(kForeign, directory.path());
   std::uint64_t seed = 1;
   for (const Json& expected : Json::parse(read_text(kForeign / "expected.json"))) {
@@ -117,7 +117,7 @@ TEST(ForeignVolumes, WithBytesChangedAreReadOrRefused) {
 }
 
 TEST(ForeignVolumes, AreKnownByTheirContentAndPackedByTheirs) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const char* const name : {"nifti1_i2.nii", "nifti2_u8.nii.gz", "npy_f4_C.npy", "mrc_mode2.mrc", "meta_f4.mha"}) {
     if (!std::filesystem::exists(kForeign / name)) continue;
     std::filesystem::copy(kForeign / name, directory / "volume.dat", std::filesystem::copy_options::overwrite_existing);

@@ -59,7 +59,7 @@ class Formats : public testing::Test {
     write_text(directory_ / name, content);
     expect_input_error([&] { read_placed_volume(directory_ / name, options); }, parts, name);
   }
-  TemporaryDirectory directory_;
+  TemporaryFolder directory_;
 };
 
 ReadOptions channel(std::uint64_t n) {

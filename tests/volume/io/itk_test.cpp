@@ -36,7 +36,7 @@ TEST(Itk, ReadsTheSameOfOurFormats) {
 }
 
 TEST(Itk, ReadsTheSameOfAskewVolumes) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::string samples;
   for (int n = 0; n < 24; ++n) samples += static_cast<char>(n * 7);
   write_text(directory / "a.nrrd",
@@ -56,7 +56,7 @@ TEST(Itk, ReadsTheSameOfAskewVolumes) {
 }
 
 TEST(Itk, RefusesInOneSentence) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   write_text(directory / "a.gipl", "no gipl");
   write_text(directory / "a.nii", "no nifti");
   for (const char* const name : {"a.gipl", "a.nii"})

@@ -53,7 +53,7 @@ using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std
 TYPED_TEST_SUITE(MappedSamplesOfType, SampleTypes);
 
 TYPED_TEST(MappedSamplesOfType, AreThoseThatAreRead) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::vector<TypeParam> samples = random_samples<TypeParam>(60, 3);
   SampleLayout layout;
   layout.type = static_cast<StoredType>(sample_type(Samples(samples)));
@@ -81,7 +81,7 @@ TYPED_TEST(MappedSamplesOfType, AreThoseThatAreRead) {
 }
 
 TYPED_TEST(MappedSamplesOfType, LieOnTheirSizeInFilesThatWeWrite) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid({3, 4, 5}, random_samples<TypeParam>(60, 4), {1, 0.125, 3e-7}, {0, 1, -1.0 / 7});
   write_nrrd(grid, directory / "v.nrrd", NrrdEncoding::kRaw);
   EXPECT_EQ((std::filesystem::file_size(directory / "v.nrrd") - 60 * sizeof(TypeParam)) % 8, 0u);
@@ -91,7 +91,7 @@ TYPED_TEST(MappedSamplesOfType, LieOnTheirSizeInFilesThatWeWrite) {
 }
 
 TEST(MappedSamples, OutliveTheFileTheyCameFrom) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   write_text(directory / "v", "abcdefgh");
   const Samples samples = read(directory / "v", kEight, kAlways);
   std::filesystem::remove(directory / "v");
@@ -101,7 +101,7 @@ TEST(MappedSamples, OutliveTheFileTheyCameFrom) {
 }
 
 TEST(MappedSamples, FilesTooShortOrTooLongAreRefusedAsWhenRead) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const std::uint64_t mapped_from : {kAlways, kNever}) {
     for (const std::string text : {"abcdefg", "abcdefghi"}) {
       write_text(directory / "v", text);
@@ -112,7 +112,7 @@ TEST(MappedSamples, FilesTooShortOrTooLongAreRefusedAsWhenRead) {
 }
 
 TEST(MappedSamples, LargeVolumesAreMappedAndSmallOnesAreNot) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const auto large = directory / "v_512x512x256_uint8.raw";
   write_text(large, "");
   std::filesystem::resize_file(large, kMappedFileBytes);  // a hole: takes no room
@@ -122,7 +122,7 @@ TEST(MappedSamples, LargeVolumesAreMappedAndSmallOnesAreNot) {
 }
 
 TEST(MappedFile, HoldsTheBytesOfAFileOfTheExpectedSizeOnly) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   write_text(directory / "v", "abc");
   const auto mapped = MappedFile::open(directory / "v", 3);
   ASSERT_NE(mapped, nullptr);
@@ -135,7 +135,7 @@ TEST(MappedFile, HoldsTheBytesOfAFileOfTheExpectedSizeOnly) {
 }
 
 TEST(WriteVolume, PieceByPieceGivesTheSameFile) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid whole = generate_field("noise", 9, 5);
   for (const std::int32_t slices : {1, 3, 9}) {
     for (const std::string name : {"a.nrrd", "a_9x9x9_uint8.raw"}) {
@@ -150,7 +150,7 @@ TEST(WriteVolume, PieceByPieceGivesTheSameFile) {
 }
 
 TEST(WriteVolume, PiecesThatDoNotAddUpAreOurFault) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const VolumeHeader header{{2, 2, 2}, SampleType::kU8};
   const auto write = [&](const Samples& piece) {
     write_volume(
@@ -159,9 +159,9 @@ TEST(WriteVolume, PiecesThatDoNotAddUpAreOurFault) {
   EXPECT_THROW(write(std::vector<std::uint8_t>(3)), InternalError);
   EXPECT_THROW(write(std::vector<std::uint8_t>()), InternalError);
   EXPECT_THROW(write(std::vector<float>(8)), InternalError);
-  EXPECT_EQ(directory.entries(), 0);
+  EXPECT_EQ(directory.names().size(), 0u);
   write(std::vector<std::uint8_t>(4));
-  EXPECT_EQ(directory.entries(), 1);
+  EXPECT_EQ(directory.names().size(), 1u);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ const std::vector<std::uint8_t> kBytes{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};  /
 const std::string kRawBytes = bytes_of(kBytes, false);
 
 // An attached raw file of 2 x 3 x 2 bytes with these lines in its header besides the necessary ones.
-ScalarGrid read_with(const TemporaryDirectory& directory, const std::string& lines) {
+ScalarGrid read_with(const TemporaryFolder& directory, const std::string& lines) {
   const auto path = directory / "volume.nrrd";
   write_text(path, "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 2 3 2\nencoding: raw\n" + lines + "\n" + kRawBytes);
   return read_nrrd(path);
@@ -58,7 +58,7 @@ using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std
 TYPED_TEST_SUITE(NrrdOfType, SampleTypes);
 
 TYPED_TEST(NrrdOfType, WrittenFilesReadBackBitForBit) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid({5, 6, 7}, random_samples<TypeParam>(210, 1), {0.1, 1e-100, 3}, {-1.0 / 3, 1e-300, 0});
   for (const NrrdEncoding encoding : {NrrdEncoding::kRaw, NrrdEncoding::kGzip}) {
     write_nrrd(grid, directory / "a.nrrd", encoding);
@@ -68,11 +68,11 @@ TYPED_TEST(NrrdOfType, WrittenFilesReadBackBitForBit) {
     EXPECT_EQ(back.spacing(), grid.spacing());
     EXPECT_EQ(back.origin(), grid.origin());
   }
-  EXPECT_EQ(directory.entries(), 1);
+  EXPECT_EQ(directory.names().size(), 1u);
 }
 
 TYPED_TEST(NrrdOfType, BothByteOrdersAndEncodingsGiveTheSamples) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const auto samples = random_samples<TypeParam>(24, 2);
   const std::string type = nrrd_type_name(sample_type(Samples(samples)));
   for (const bool big : {false, true})
@@ -87,7 +87,7 @@ TYPED_TEST(NrrdOfType, BothByteOrdersAndEncodingsGiveTheSamples) {
 
 TEST(Nrrd, DataOfManyChunksReadBack) {
   // 3.1 MiB of incompressible samples: several buffers of the reader, the writer and zlib.
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid({131, 113, 111}, random_samples<std::int16_t>(std::size_t{131} * 113 * 111, 3));
   write_nrrd(grid, directory / "a.nrrd");
   EXPECT_EQ(read_nrrd(directory / "a.nrrd").samples(), grid.samples());
@@ -114,7 +114,7 @@ TEST(Nrrd, EverySpellingOfATypeIsKnown) {
 }
 
 TEST(Nrrd, CommentsKeysAndDescriptiveFieldsAreTolerated) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid = read_with(directory,
                                     "# a comment: with a colon\n"
                                     "key:=value: with a colon\n"
@@ -133,14 +133,14 @@ TEST(Nrrd, CommentsKeysAndDescriptiveFieldsAreTolerated) {
 }
 
 TEST(Nrrd, LineEndsOfWindowsAndFieldsInCapitalsAreTolerated) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   write_text(directory / "a.nrrd",
              "NRRD0004\r\nType: uchar\r\nDimension: 3\r\nSizes:  2 3\t2 \r\nEncoding: raw\r\n\r\n" + kRawBytes);
   EXPECT_EQ(read_nrrd(directory / "a.nrrd").samples(), Samples(kBytes));
 }
 
 TEST(Nrrd, GeometryFromSpacingsAndAxisLimits) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid a = read_with(directory, "spacings: 0.5 +1.5 2e1\naxis mins: -1 0 NaN\n");
   EXPECT_EQ(a.spacing(), (Vec3{0.5, 1.5, 20}));
   EXPECT_EQ(a.origin(), (Vec3{-1, 0, 0}));
@@ -161,7 +161,7 @@ TEST(Nrrd, GeometryFromSpacingsAndAxisLimits) {
 }
 
 TEST(Nrrd, GeometryFromSpaceDirections) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid = read_with(directory,
                                     "space dimension: 3\nspace directions: (0.5,0,0) (0, 1.5, 0) (0,0,2)\n"
                                     "space origin: (-1,2,3.25)\n");
@@ -172,7 +172,7 @@ TEST(Nrrd, GeometryFromSpaceDirections) {
 
 TEST(Nrrd, AxesThatRunBackwardsKeepTheirWorldPositions) {
   // Sample (i, j, k) of the file lies at origin + i d0 + j d1 + k d2, whatever the signs: check every one.
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (int signs = 0; signs < 8; ++signs) {
     const Vec3 step{(signs & 1) != 0 ? -0.5 : 0.5, (signs & 2) != 0 ? -1.0 : 1.0, (signs & 4) != 0 ? -2.0 : 2.0};
     const ScalarGrid grid =
@@ -193,7 +193,7 @@ TEST(Nrrd, AxesThatRunBackwardsKeepTheirWorldPositions) {
 }
 
 TEST(Nrrd, AnAxisOfOneSampleMayComeFirstOrLast) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const std::string& lines :
        {std::string("sizes: 1 2 3 2\nspacings: NaN 1 2 3\n"), std::string("sizes: 2 3 2 1\nspacings: 1 2 3 NaN\n"),
         std::string("sizes: 1 2 3 2\nspace directions: none (1,0,0) (0,2,0) (0,0,3)\nspace dimension: 3\n")}) {
@@ -209,7 +209,7 @@ TEST(Nrrd, AnAxisOfOneSampleMayComeFirstOrLast) {
 }
 
 TEST(Nrrd, DetachedHeadersFindTheirDataBesideThem) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::filesystem::create_directory(directory / "sub");
   const std::string head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 3 2\n";
   write_text(directory / "sub/v.raw", kRawBytes);
@@ -225,7 +225,7 @@ TEST(Nrrd, DetachedHeadersFindTheirDataBesideThem) {
 }
 
 TEST(Nrrd, LinesAndBytesBeforeTheDataAreSkipped) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::string head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 3 2\ndata file: v.dat\n";
   const auto read = [&](const std::string& lines, const std::string& data) {
     write_text(directory / "v.dat", data);
@@ -242,7 +242,7 @@ TEST(Nrrd, LinesAndBytesBeforeTheDataAreSkipped) {
 }
 
 TEST(Nrrd, GzipDataOfSeveralMembersAreOneStream) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   write_text(directory / "a.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 3 2\nencoding: gzip\n\n" +
                                        gzip_of(kRawBytes.substr(0, 5)) + gzip_of("") + gzip_of(kRawBytes.substr(5)));
   EXPECT_EQ(read_nrrd(directory / "a.nrrd").samples(), Samples(kBytes));
@@ -250,7 +250,7 @@ TEST(Nrrd, GzipDataOfSeveralMembersAreOneStream) {
 
 TEST(Nrrd, HighlyCompressibleDataAreNotTakenForALie) {
   // Zeros compress by nearly deflate's limit of 1032 to 1.
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid({200, 200, 200}, std::vector<std::uint8_t>(8000000));
   write_nrrd(grid, directory / "a.nrrd");
   EXPECT_LT(std::filesystem::file_size(directory / "a.nrrd"), 9000u);
@@ -258,7 +258,7 @@ TEST(Nrrd, HighlyCompressibleDataAreNotTakenForALie) {
 }
 
 TEST(Nrrd, WritingReplacesAFileOnlyWhenItSucceeds) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ScalarGrid grid({2, 3, 2}, kBytes);
   write_text(directory / "a.nrrd", "old");
   write_nrrd(grid, directory / "a.nrrd");
@@ -267,7 +267,7 @@ TEST(Nrrd, WritingReplacesAFileOnlyWhenItSucceeds) {
   std::filesystem::create_directory(directory / "b.nrrd");
   expect_input_error([&] { write_nrrd(grid, directory / "b.nrrd"); }, {"b.nrrd", "not a regular file"});
   expect_input_error([&] { write_nrrd(grid, directory / "none/c.nrrd"); }, {"c.nrrd", "cannot be made"});
-  EXPECT_EQ(directory.entries(), 2);
+  EXPECT_EQ(directory.names().size(), 2u);
 }
 
 }  // namespace

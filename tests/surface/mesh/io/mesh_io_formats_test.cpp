@@ -59,7 +59,7 @@ TEST_F(MeshIo, StlRefusesCoordinatesBeyondFloats) {
   TriangleMesh mesh = testing::tetrahedron_mesh();
   mesh.points[2].y = 1e300;
   EXPECT_THROW(write_mesh(mesh, file("mesh.stl")), InputError);
-  EXPECT_TRUE(fs::is_empty(directory_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(MeshIo, AnAsciiStlThatCallsItselfSolidAndABinaryOneThatDoesTooAreToldApart) {

@@ -173,7 +173,7 @@ TEST_F(MeshIo, WritesWholeOrNotAtAll) {
   EXPECT_THROW(read_mesh(file("directory.ply")), InputError);
   EXPECT_TRUE(fs::is_empty(file("directory.ply")));
   fs::remove(file("directory.ply"));
-  EXPECT_TRUE(fs::is_empty(directory_)) << "a temporary file was left";
+  EXPECT_TRUE(fs::is_empty(folder_.path())) << "a temporary file was left";
 
   // Over an existing file.
   write_bytes("mesh.ply", "old");
