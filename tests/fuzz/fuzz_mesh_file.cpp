@@ -33,6 +33,7 @@ void require_valid(const TriangleMesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) require(v < mesh.points.size(), "triangles name vertices that exist");
   }
+  require(mesh.labels.empty() || mesh.labels.size() == mesh.triangles.size(), "all triangles have labels, or none");
 }
 
 bool are_equal(const TriangleMesh& a, const TriangleMesh& b) {
