@@ -143,6 +143,12 @@ TEST_F(MeshIo, LabelsOfVtkCellsAreThoseOfTheirTriangles) {
   const std::string of_cells = "CELL_DATA 4\nFIELD f 2\nq 2 4 float\n1 2 3 4 5 6 7 8\nlabel 1 4 double\n1 -5 7 1e30\n";
   EXPECT_EQ(labels(of_points + of_cells), (Labels{-5, -5, 7, 0, 0}));
   EXPECT_EQ(labels(of_points), Labels());
+  // As VTK writes the array by which a mesh is coloured.
+  EXPECT_EQ(
+      labels(
+          "POINT_DATA 4\nSCALARS label int\nLOOKUP_TABLE default\n9 9 9 9\nMETADATA\nINFORMATION 0\n\nCELL_DATA 4\n"
+          "SCALARS q float 2\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\nSCALARS label int 1\nLOOKUP_TABLE t\n1 2 3 4\n"),
+      (Labels{2, 2, 3, 4, 4}));
   // What is of no kind that is known, or no number, is no reason to refuse a mesh.
   EXPECT_EQ(labels("CELL_DATA 4\nCOLOR_SCALARS c 1\n1 2 3 4\n"), Labels());
   EXPECT_EQ(labels("CELL_DATA 4\nFIELD f 1\nlabel 1 4 int\n1 2 three\n"), Labels());
