@@ -32,6 +32,12 @@ std::string label_note(const std::vector<std::int32_t>& labels) {
   return note(kLabelNote, list);
 }
 
+void keep_noted_labels(MeshFile& file) {
+  if (file.format != MeshFormat::kMedit) return;
+  const bool are_noted = note_in(file.comments, kLabelNote).value_or("").find(',') != std::string::npos;
+  if (!are_noted) file.mesh.labels.clear();
+}
+
 bool take_field_notes(const std::vector<std::string>& comments, FieldOptions& options) {
   const auto value = [&](std::string_view key) { return note_in(comments, key); };
   if (options.label.empty()) options.label = value(kLabelNote).value_or("");

@@ -8,6 +8,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/config/json.h"
+#include "surface/mesh/io/mesh_io.h"
 #include "volume/filters/labels.h"
 #include "volume/filters/meshed_field.h"
 #include "volume/io/base/volume.h"
@@ -71,6 +72,8 @@ std::string kinds_remark(const SampleKinds& kinds, const ChosenField* chosen = n
 void append_field_notes(const FieldOptions& options, const FieldParameters& parameters, bool is_closed,
                         std::vector<std::string>& lines);
 std::string label_note(const std::vector<std::int32_t>& labels);
+// Medit gives every triangle a number: it is a label only where the file notes several labels.
+void keep_noted_labels(MeshFile& file);
 // Returns whether the mesh is noted to be closed along the box.
 bool take_field_notes(const std::vector<std::string>& comments, FieldOptions& options);
 

@@ -31,6 +31,7 @@
 #include "experiments/system/stop_signal.h"
 #include "surface/deliso.h"
 #include "surface/library/rounded_output.h"
+#include "surface/library/run_report.h"
 #include "surface/mesh/mesh_frame.h"
 #include "volume/filters/labels.h"
 
@@ -189,6 +190,7 @@ Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const W
                    result.certificate);
   }
   const MeshQuality quality = measure_quality(result.mesh, meshing.threads);
+  move_positions(world.from_grid, result);
   return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result), quality};
 }
 
@@ -271,7 +273,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   command.add_help("--help-parameters", "The parameters of --config and --set, with their defaults", parameters_help);
   command.examples(
       "deliso mesh head.nrrd --isovalue 50 -o head.ply\n"
-      "deliso mesh head.nii.gz --isovalue 50 --set boundary=closed -o head.smesh && tetgen -pqAT1e-14 head.smesh\n"
+      "deliso mesh head.nii.gz --isovalue 50 --set boundary=closed -o head.smesh && tetgen -pYqAT1e-14 head.smesh\n"
       "deliso mesh engine_256x256x256_uint8.raw --isovalue 100 --set promise.max_distance=0.5 --threads 2 -o e.vtp\n"
       "deliso mesh - --isovalue 50 -o - < head.nrrd | deliso info -");
   command.callback(exit_code, [options] { return run_mesh(*options); });

@@ -140,7 +140,8 @@ ExitCode run_verify(VerifyCommandOptions options) {
   check_distinct({{"MESH", options.mesh}, {"VOLUME", options.volume.path}}, {{"--report", options.report}});
   check_space(options.world.space);
   check_one_standard_input({{"MESH", options.mesh}, {"VOLUME", options.volume.path}});
-  const MeshFile file = read_mesh_input(options.mesh, options.format);
+  MeshFile file = read_mesh_input(options.mesh, options.format);
+  keep_noted_labels(file);
   const TriangleMesh& mesh = file.mesh;
   // What is not given is taken from the mesh's file.
   if (take_field_notes(file.comments, options.field)) options.closed = true;

@@ -25,7 +25,8 @@ constexpr std::size_t kTrianglesAtOnce = 4096;
 // `falling`: the direction in which the field is likely to fall.
 bool changes_side(const Isosurface& isosurface, const Vec3& p, bool is_above, const Vec3& falling, double distance) {
   const double length = norm_of_any_size(falling);
-  if (!(length > 0) || !std::isfinite(length)) return false;
+  // Of a gradient that is all but zero the quotient overflows: it is no direction.
+  if (!(length > 0) || !std::isfinite(length) || !std::isfinite(distance / length)) return false;
   const Vec3 offset = ((is_above ? distance : -distance) / length) * falling;  // the likelier side first
   return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
 }

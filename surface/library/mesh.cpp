@@ -19,8 +19,7 @@ namespace {
 void move_to_world(MeshingResult& result, const Affine& map) {
   result.mesh = transformed(std::move(result.mesh), map);
   if (result.stage1_mesh) result.stage1_mesh = transformed(std::move(*result.stage1_mesh), map);
-  for (BadTriangle& bad : result.shape.worst) bad.centroid = map(bad.centroid);
-  for (DroppedPiece& dropped : result.dropped) dropped.piece.at = map(dropped.piece.at);
+  move_positions(map, result);
 }
 
 std::vector<std::pair<std::string, double>> seconds_by_stage(const MeshingResult& result) {

@@ -241,6 +241,11 @@ JsonTree parameters_tree(const Parameters& parameters) {
   return tree;
 }
 
+void move_positions(const Affine& to_world, MeshingResult& result) {
+  for (BadTriangle& bad : result.shape.worst) bad.centroid = to_world(bad.centroid);
+  for (DroppedPiece& dropped : result.dropped) dropped.piece.at = to_world(dropped.piece.at);
+}
+
 JsonTree run_report(double isovalue, const MeshingOptions& options, const MeshingResult& result,
                     const MeshQuality& quality) {
   const TopologySum topology = sum_of(mesh_topology(result));

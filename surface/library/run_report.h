@@ -13,6 +13,7 @@
 #include "surface/deliso.h"
 #include "surface/library/json_tree.h"
 #include "surface/mesh/mesh_quality.h"
+#include "volume/affine.h"
 
 namespace deliso {
 
@@ -44,6 +45,9 @@ std::vector<TopologyCount> mesh_topology(const MeshingResult& result);
 
 // What a run that stopped early left undone, one sentence each; empty when it was not stopped.
 std::vector<std::string> unmet_goals(const MeshingOptions& options, const MeshingResult& result);
+
+// Moves the positions that a report tells, of poor triangles and of what was left out, with the mesh into the world.
+void move_positions(const Affine& to_world, MeshingResult& result);
 
 // The report of a run, but for what only its caller knows: the program, the volume's file.
 JsonTree run_report(double isovalue, const MeshingOptions& options, const MeshingResult& result,

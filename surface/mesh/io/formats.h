@@ -43,10 +43,10 @@ TriangleMesh parse_obj(std::string_view bytes, const std::string& file);
 TriangleMesh parse_stl(std::string_view bytes, const std::string& file);
 // Whether a file of `size` bytes that begins so is STL as binary data: its size fits its number of triangles.
 bool is_binary_stl(std::string_view head, std::uint64_t size);
-// Triangles and quadrilaterals; what else a .mesh holds is skipped.
+// Triangles and quadrilaterals, with their references for labels; what else a .mesh holds is skipped.
 TriangleMesh parse_medit(std::string_view bytes, const std::string& file);
-// Polygons and triangle strips of PolyData; lines, single vertices and all values are skipped. Texts of the field
-// "comments" are appended to `comments`, if given.
+// Polygons and triangle strips of PolyData; lines, single vertices and all values but labels are skipped. Texts of the
+// field "comments" are appended to `comments`, if given.
 TriangleMesh parse_legacy_vtk(std::string_view bytes, const std::string& file, MeshComments* comments = nullptr);
 TriangleMesh parse_vtp(std::string_view bytes, const std::string& file, MeshComments* comments = nullptr);
 

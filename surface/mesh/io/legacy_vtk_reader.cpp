@@ -1,5 +1,5 @@
-// Reads PolyData of VTK's legacy format, versions 1 to 5.1: points, polygons, strips. What comes behind them (values of
-// points and of cells) is not looked at.
+// Reads PolyData of VTK's legacy format, versions 1 to 5.1: points, polygons, strips. Of the values of points and cells
+// behind them the labels of cells are kept.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/check.h"
@@ -22,27 +23,6 @@ namespace deliso {
 
 namespace {
 
-bool same_letters(std::string_view word, std::string_view capitals) {
-  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
-  return std::equal(word.begin(), word.end(), capitals.begin(), capitals.end(),
-                    [&](char a, char b) { return upper(a) == b; });
-}
-
-std::string percent_decoded(std::string_view text) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-  };
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool is_code = text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0;
-    out += is_code ? static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2])) : text[i];
-    if (is_code) i += 2;
-  }
-  return out;
-}
-
 class LegacyVtkParser {
  public:
   LegacyVtkParser(std::string_view bytes, const std::string& file, MeshComments* comments)
@@ -52,7 +32,10 @@ class LegacyVtkParser {
     read_head();
     while (std::optional<std::vector<std::string_view>> words = next_words()) {
       const std::string_view keyword = (*words)[0];
-      if (same_letters(keyword, "POINT_DATA") || same_letters(keyword, "CELL_DATA")) break;
+      if (same_letters(keyword, "POINT_DATA") || same_letters(keyword, "CELL_DATA")) {
+        read_labels(*words);
+        break;
+      }
       read_section(*words);
     }
     if (!has_points_) fail("the keyword POINTS", "");
@@ -114,7 +97,7 @@ class LegacyVtkParser {
     if (same_letters(keyword, "METADATA")) {  // up to a blank line
       for (auto line = next_row(); line && !line->empty();) line = next_row();
     } else if (same_letters(keyword, "FIELD") && words.size() == 3) {
-      for (std::int64_t left = count(words[2]); left > 0; --left) read_field_array();
+      for (std::int64_t left = count(words[2]); left > 0; --left) read_field_array(nullptr);
     } else if (same_letters(keyword, "POINTS") && words.size() == 3) {
       read_points(count(words[1]), type_of(words[2]));
     } else if (words.size() == 3 && (same_letters(keyword, "POLYGONS") || same_letters(keyword, "TRIANGLE_STRIPS") ||
@@ -206,21 +189,66 @@ class LegacyVtkParser {
         at += length + 1;
       }
     }
-    if (!is_wanted) return;
+    if (!is_wanted) {
+      cells_.before += ends.size();
+      return;
+    }
     append_polygons(
         corners, ends, are_strips, 0, static_cast<std::int64_t>(mesh_.points.size()),
-        [this](const std::string& expected, std::int64_t found) { fail(expected, std::to_string(found)); }, mesh_);
+        [this](const std::string& expected, std::int64_t found) { fail(expected, std::to_string(found)); }, mesh_,
+        cells_);
   }
 
-  void read_field_array() {
+  // Of fields, which hold ours, and of scalars, which others make of them. Values are no reason to refuse a mesh.
+  void read_labels(std::vector<std::string_view> words) {
+    std::vector<double> labels;
+    try {
+      std::int64_t tuples = 0;
+      for (bool of_cells = false; labels.empty();) {
+        const std::string_view keyword = words[0];
+        if (same_letters(keyword, "POINT_DATA") || same_letters(keyword, "CELL_DATA")) {
+          of_cells = same_letters(keyword, "CELL_DATA");
+          tuples = words.size() == 2 ? count(words[1]) : 0;
+        } else if (same_letters(keyword, "FIELD") && words.size() == 3) {
+          for (std::int64_t left = count(words[2]); left > 0; --left) read_field_array(of_cells ? &labels : nullptr);
+        } else if (same_letters(keyword, "SCALARS") && (words.size() == 3 || words.size() == 4)) {
+          const std::int64_t components = words.size() == 4 ? count(words[3]) : 1;
+          static_cast<void>(next_words());  // the name of a table
+          read_array(words[1], components, tuples, words[2], of_cells ? &labels : nullptr);
+        } else if (same_letters(keyword, "METADATA")) {
+          read_section(words);
+        } else {
+          break;
+        }
+        const auto next = next_words();
+        if (!next) break;
+        words = *next;
+      }
+    } catch (const InputError&) {  // what was found before it is kept
+    }
+    if (!labels.empty()) append_labels(cells_, labels, mesh_);
+  }
+
+  void read_field_array(std::vector<double>* labels) {
     const auto words = next_words();
     if (!words || words->size() != 4) fail("name, components, number and type of an array", words ? (*words)[0] : "");
+    read_array((*words)[0], count((*words)[1]), count((*words)[2]), (*words)[3], labels);
+  }
+  // An array of labels goes into `labels`, if given.
+  void read_array(std::string_view name, std::int64_t components, std::int64_t tuples, std::string_view type,
+                  std::vector<double>* labels) {
     constexpr std::int64_t kMost = std::int64_t{1} << 48;
-    const std::int64_t components = count((*words)[1]), tuples = count((*words)[2]);
-    if (components > 0 && tuples > kMost / components) fail("fewer numbers", (*words)[2]);
-    if (!same_letters((*words)[3], "STRING"))
-      return read_numbers(components * tuples, type_of((*words)[3]), [](double) {});
-    const bool is_kept = comments_ != nullptr && (*words)[0] == "comments";
+    if (components > 0 && tuples > kMost / components) fail("fewer numbers", std::to_string(tuples));
+    if (!same_letters(type, "STRING")) {
+      const bool is_label = labels != nullptr && name == kLabelArray && components == 1;
+      std::vector<double> values;
+      read_numbers(components * tuples, type_of(type), [&](double value) {
+        if (is_label) values.push_back(value);
+      });
+      if (is_label) *labels = std::move(values);
+      return;
+    }
+    const bool is_kept = comments_ != nullptr && name == "comments";
     for (std::int64_t i = 0; i < components * tuples; ++i) {
       const std::string text = is_text_ ? text_row() : text_of_bytes();
       if (is_kept) comments_->push_back(text);
@@ -249,6 +277,7 @@ class LegacyVtkParser {
   std::size_t position_ = 0;
   bool is_text_ = false;
   bool has_points_ = false;
+  CellNumbers cells_;
   TriangleMesh mesh_;
 };
 

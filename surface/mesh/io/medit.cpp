@@ -105,8 +105,9 @@ class MeditParser {
         largest_ = std::max(largest_, v);
         polygon_.push_back(static_cast<std::uint32_t>(v - 1));
       }
-      in_.number("the reference of a triangle");
+      const double reference = in_.number("the reference of a triangle");
       append_fan(mesh_, polygon_);
+      mesh_.labels.resize(mesh_.triangles.size(), label_of_number(reference));
     }
   }
 

@@ -145,7 +145,7 @@ class BodyParser {
       }
     }
     if (element.is_vertex) mesh_.points.push_back(p);
-    if (has_labels_) mesh_.labels.resize(mesh_.triangles.size(), whole_label());
+    if (has_labels_) mesh_.labels.resize(mesh_.triangles.size(), label_of_number(label_));
   }
 
   void parse_face(const PlyProperty& property) {
@@ -158,12 +158,6 @@ class BodyParser {
       polygon_.push_back(static_cast<std::uint32_t>(v));
     }
     append_fan(mesh_, polygon_);
-  }
-
-  // What is no label of ours becomes 0.
-  [[nodiscard]] std::int32_t whole_label() const {
-    const bool fits = std::abs(label_) < static_cast<double>(std::numeric_limits<std::int32_t>::max());
-    return fits ? static_cast<std::int32_t>(label_) : 0;
   }
 
   const PlyHeader& header_;

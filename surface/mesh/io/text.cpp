@@ -1,5 +1,6 @@
 #include "surface/mesh/io/text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <system_error>
 
@@ -90,6 +91,27 @@ void append_point(std::string& text, const Vec3& p) {
   text += ' ';
   append_number(text, p.z);
   text += '\n';
+}
+
+bool same_letters(std::string_view word, std::string_view capitals) {
+  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
+  return std::equal(word.begin(), word.end(), capitals.begin(), capitals.end(),
+                    [&](char a, char b) { return upper(a) == b; });
+}
+
+std::string percent_decoded(std::string_view text) {
+  const auto digit = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_code = text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0;
+    out += is_code ? static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2])) : text[i];
+    if (is_code) i += 2;
+  }
+  return out;
 }
 
 }  // namespace deliso

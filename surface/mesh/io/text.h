@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -62,6 +63,17 @@ void append_number(std::string& text, Number value) {
 }
 // Appends "x y z" and a line feed.
 void append_point(std::string& text, const Vec3& p);
+
+// Whether a word is that in capitals, whatever its case.
+bool same_letters(std::string_view word, std::string_view capitals);
+// A text in which %XX stands for the byte with this hexadecimal number.
+std::string percent_decoded(std::string_view text);
+
+// A label from a file. What is no label of ours becomes 0.
+inline std::int32_t label_of_number(double value) {
+  const bool fits = std::abs(value) < static_cast<double>(std::numeric_limits<std::int32_t>::max());
+  return fits ? static_cast<std::int32_t>(value) : 0;
+}
 
 // Appends the fan of triangles of a polygon: corner 0 with every edge that does not touch it.
 template <class Polygon>

@@ -1,5 +1,6 @@
 // Reads PolyData of VTK's XML format: all pieces; arrays as text, as base64 or appended, packed by zlib or not.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -37,9 +38,11 @@ class NamedStream : public ByteStream {
   std::string name_;
 };
 
+constexpr std::array<std::string_view, 5> kSections{"Points", "Polys", "Strips", "CellData", "FieldData"};
+
 struct VtpPiece {
   XmlTag tag;
-  std::optional<XmlTag> points, connectivity, offsets, strip_connectivity, strip_offsets;
+  std::optional<XmlTag> points, connectivity, offsets, strip_connectivity, strip_offsets, labels;
 };
 
 class VtpParser {
@@ -50,6 +53,7 @@ class VtpParser {
   TriangleMesh parse() {
     read_tags();
     for (const VtpPiece& piece : pieces_) read_piece(piece);
+    if (!mesh_.labels.empty()) mesh_.labels.resize(mesh_.triangles.size(), 0);  // a last piece without
     return std::move(mesh_);
   }
 
@@ -64,8 +68,8 @@ class VtpParser {
         take_encoding(*tag);
         is_poly_data = true;
       } else if (tag->name == "Piece") {
-        pieces_.push_back({*tag, {}, {}, {}, {}, {}});
-      } else if (tag->name == "Points" || tag->name == "Polys" || tag->name == "Strips" || tag->name == "FieldData") {
+        pieces_.push_back({*tag, {}, {}, {}, {}, {}, {}});
+      } else if (std::find(kSections.begin(), kSections.end(), tag->name) != kSections.end()) {
         section = tag->is_closed ? "" : tag->name;
       } else if (tag->name.starts_with('/') && tag->name.substr(1) == section) {
         section.clear();
@@ -107,6 +111,7 @@ class VtpParser {
     if (section == "Polys" && name == "offsets") piece.offsets = tag;
     if (section == "Strips" && name == "connectivity") piece.strip_connectivity = tag;
     if (section == "Strips" && name == "offsets") piece.strip_offsets = tag;
+    if (section == "CellData" && name == kLabelArray && tag.value("NumberOfComponents", "1") == "1") piece.labels = tag;
   }
 
   // Only texts as text: comments are no reason to refuse a file.
@@ -190,8 +195,13 @@ class VtpParser {
         if (!is_finite(mesh_.points.back())) file_.fail("a point has a coordinate that is no finite number");
       }
     }
-    read_cells(count_of(piece.tag, "NumberOfPolys"), piece.connectivity, piece.offsets, false, before);
-    read_cells(count_of(piece.tag, "NumberOfStrips"), piece.strip_connectivity, piece.strip_offsets, true, before);
+    const std::uint64_t polygons = count_of(piece.tag, "NumberOfPolys"), strips = count_of(piece.tag, "NumberOfStrips");
+    CellNumbers cells;
+    cells.before =
+        static_cast<std::size_t>(count_of(piece.tag, "NumberOfVerts") + count_of(piece.tag, "NumberOfLines"));
+    read_cells(polygons, piece.connectivity, piece.offsets, false, before, cells);
+    read_cells(strips, piece.strip_connectivity, piece.strip_offsets, true, before, cells);
+    if (piece.labels) append_labels(cells, numbers_of(*piece.labels, cells.before + polygons + strips), mesh_);
   }
 
   std::vector<std::int64_t> whole_numbers_of(const XmlTag& tag, std::uint64_t count) const {
@@ -205,7 +215,7 @@ class VtpParser {
   }
 
   void read_cells(std::uint64_t cells, const std::optional<XmlTag>& connectivity, const std::optional<XmlTag>& offsets,
-                  bool are_strips, std::size_t base) {
+                  bool are_strips, std::size_t base, CellNumbers& cell_numbers) {
     if (cells == 0) return;
     if (!connectivity || !offsets) file_.fail("a piece has polygons but no arrays 'connectivity' and 'offsets'");
     const std::vector<std::int64_t> ends = whole_numbers_of(*offsets, cells);
@@ -216,7 +226,7 @@ class VtpParser {
         [this](const std::string& expected, std::int64_t found) {
           file_.fail("expected " + expected + ", found " + std::to_string(found));
         },
-        mesh_);
+        mesh_, cell_numbers);
   }
 
   std::string_view text_;

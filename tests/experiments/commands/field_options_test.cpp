@@ -122,6 +122,18 @@ TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
     EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2,-5", "--smooth", "1", "-o", name, "--ascii"}).exit_code, 0);
     EXPECT_EQ(read_mesh(name).triangles, mesh.triangles);
   }
+  // What was written is verified, all of it and one label alone; so is a file of one label, whose components Medit
+  // numbers.
+  for (const std::string extension : {".ply", ".vtk", ".vtp", ".mesh"}) {
+    SCOPED_TRACE(extension);
+    const std::string several = folder_ / ("several" + extension), one = folder_ / ("one" + extension);
+    EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2,-5", "--smooth", "1", "-o", several}).exit_code, 0);
+    EXPECT_EQ(read_mesh(several).labels, mesh.labels);
+    EXPECT_EQ(run_deliso({"verify", several, volume_}).exit_code, 0);
+    EXPECT_EQ(run_deliso({"verify", several, volume_, "--label", "2"}).exit_code, 0);
+    EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2", "--smooth", "1", "-o", one}).exit_code, 0);
+    EXPECT_EQ(run_deliso({"verify", one, volume_}).exit_code, 0);
+  }
   const std::string text = read_file(numbers);
   const std::size_t at = text.find("label 1 " + std::to_string(mesh.triangles.size()) + " int\n");
   ASSERT_NE(at, std::string::npos);

@@ -56,10 +56,12 @@ std::string ByteStream::take_rest() {
   std::string out;
   while (true) {
     const std::size_t before = out.size();
-    out.resize(before + kStreamChunkBytes);
+    // One more than there may be, which tells the end. A small file does not take the memory of a large one.
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kStreamChunkBytes - 1, bound())) + 1;
+    out.resize(before + wanted);
     const std::size_t found = read(std::as_writable_bytes(std::span(out).subspan(before)));
     out.resize(before + found);
-    if (found < kStreamChunkBytes) return out;
+    if (found < wanted) return out;
   }
 }
 

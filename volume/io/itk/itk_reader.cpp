@@ -3,6 +3,7 @@
 
 #include "volume/io/itk/itk_reader.h"
 
+#include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkGDCMImageIOFactory.h>
 #include <itkGDCMSeriesFileNames.h>
@@ -12,13 +13,16 @@
 #include <itkImageFileReader.h>
 #include <itkImageIOFactory.h>
 #include <itkImageSeriesReader.h>
+#include <itkMetaDataObject.h>
 #include <itkMetaImageIOFactory.h>
 #include <itkNiftiImageIOFactory.h>
 #include <itkNrrdImageIOFactory.h>
 #include <itkTIFFImageIOFactory.h>
 #include <itkVTKImageIOFactory.h>
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -46,7 +50,9 @@ class NamedFile : public ByteStream {
 void register_formats() {
   static std::once_flag once;
   std::call_once(once, [] {
+    // What they have to say comes as errors, or is none of the user's business.
     itk::Object::GlobalWarningDisplayOff();
+    gdcm::Trace::WarningOff();
     itk::GDCMImageIOFactory::RegisterOneFactory();
     itk::TIFFImageIOFactory::RegisterOneFactory();
     itk::HDF5ImageIOFactory::RegisterOneFactory();
@@ -105,6 +111,8 @@ VolumeDescription description_of(const ByteStream& file, const itk::ImageIOBase&
     volume.index_to_world.columns.at(n) = io.GetSpacing(n) * Vec3{direction[0], direction[1], direction[2]};
     volume.index_to_world.offset[n] = io.GetOrigin(n);
   }
+  if (volume.format == "GDCMImageIO" && volume.layout.dims[2] == 1)
+    file.fail("the file holds one slice, expected a volume: give the folder of its series");
   if (axes == 4) volume.layout.volumes = io.GetDimensions(3);
   volume.layout.components = io.GetNumberOfComponents();
   const std::optional<StoredType> type = stored_type_of(io);
@@ -112,6 +120,24 @@ VolumeDescription description_of(const ByteStream& file, const itk::ImageIOBase&
   volume.layout.type = *type;
   volume.layout.endian = kHostEndian;
   return volume;
+}
+
+std::string millimetres(double length) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g mm", length);
+  return text.data();
+}
+
+// ITK puts the slices at even distances, wherever they are: a missing one, or two at a place, would move the others.
+void check_distances_of_slices(const NamedFile& file, const itk::Image<double, 3>& image) {
+  constexpr double kMostOff = 0.01;  // of a distance: positions are rounded
+  double off = 0;
+  const double distance = image.GetSpacing()[2];
+  itk::ExposeMetaData(image.GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", off);
+  if (off > kMostOff * distance)
+    file.fail("the slices of the series are up to " + millimetres(off) + " off their mean distance of " +
+              millimetres(distance) +
+              ", expected even distances: a slice may be missing or double, dcm2niix makes even ones");
 }
 
 // A folder of DICOM files: its largest series, as doubles.
@@ -122,7 +148,8 @@ Volume read_series(const std::filesystem::path& path, const ChannelChoice& choic
   names->SetUseSeriesDetails(true);
   names->SetDirectory(path.string());
   std::vector<std::string> files;
-  for (const std::string& series : names->GetSeriesUIDs()) {
+  const std::vector<std::string> all = names->GetSeriesUIDs();
+  for (const std::string& series : all) {
     std::vector<std::string> found = names->GetFileNames(series);
     if (found.size() > files.size()) files = std::move(found);
   }
@@ -131,8 +158,9 @@ Volume read_series(const std::filesystem::path& path, const ChannelChoice& choic
   reader->SetFileNames(files);
   reader->Update();
   const Image& image = *reader->GetOutput();
+  check_distances_of_slices(file, image);
   VolumeDescription volume;
-  volume.format = "DICOM";
+  volume.format = all.size() < 2 ? "DICOM" : "DICOM, the longest of " + std::to_string(all.size()) + " series";
   volume.space = space_name("LPS");
   volume.units = "mm";
   volume.layout.type = StoredType::kF64;

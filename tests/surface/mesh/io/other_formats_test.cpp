@@ -132,6 +132,53 @@ TEST_F(MeshIo, VtkFilesOfOtherWritersAreRead) {
   EXPECT_EQ(two.triangles[1], (std::array<std::uint32_t, 3>{3, 4, 5}));
 }
 
+// VTK numbers all cells of a piece: single vertices and lines, then polygons, then strips.
+TEST_F(MeshIo, LabelsOfVtkCellsAreThoseOfTheirTriangles) {
+  using Labels = std::vector<std::int32_t>;
+  const std::string head =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n";
+  const std::string cells = "VERTICES 1 2\n1 0\nPOLYGONS 2 9\n4 0 1 2 3\n3 0 1 2\nTRIANGLE_STRIPS 1 5\n4 0 1 3 2\n";
+  const auto labels = [&](const std::string& values) { return parse_legacy_vtk(head + cells + values, "m").labels; };
+  const std::string of_points = "POINT_DATA 4\nFIELD f 1\nlabel 1 4 int\n9 9 9 9\n";
+  const std::string of_cells = "CELL_DATA 4\nFIELD f 2\nq 2 4 float\n1 2 3 4 5 6 7 8\nlabel 1 4 double\n1 -5 7 1e30\n";
+  EXPECT_EQ(labels(of_points + of_cells), (Labels{-5, -5, 7, 0, 0}));
+  EXPECT_EQ(labels(of_points), Labels());
+  // As VTK writes the array by which a mesh is coloured.
+  EXPECT_EQ(
+      labels(
+          "POINT_DATA 4\nSCALARS label int\nLOOKUP_TABLE default\n9 9 9 9\nMETADATA\nINFORMATION 0\n\nCELL_DATA 4\n"
+          "SCALARS q float 2\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\nSCALARS label int 1\nLOOKUP_TABLE t\n1 2 3 4\n"),
+      (Labels{2, 2, 3, 4, 4}));
+  // What is of no kind that is known, or no number, is no reason to refuse a mesh.
+  EXPECT_EQ(labels("CELL_DATA 4\nCOLOR_SCALARS c 1\n1 2 3 4\n"), Labels());
+  EXPECT_EQ(labels("CELL_DATA 4\nFIELD f 1\nlabel 1 4 int\n1 2 three\n"), Labels());
+  EXPECT_EQ(labels("CELL_DATA 4\nFIELD f 1\nlabel 1 2 int\n8 9\n"), (Labels{9, 9, 0, 0, 0}));
+  const auto piece = [](const std::string& values) {
+    return "<Piece NumberOfPoints=\"3\" NumberOfLines=\"1\" NumberOfPolys=\"1\">" + values +
+           "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray>"
+           "</Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+           "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys></Piece>";
+  };
+  const std::string array = "<DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">4 6</DataArray>";
+  const std::string with = piece("<CellData>" + array + "</CellData>"),
+                    without = piece("<PointData>" + array + "</PointData>");
+  const auto labels_of_pieces = [](const std::string& pieces) {
+    return parse_vtp("<VTKFile type=\"PolyData\"><PolyData>" + pieces + "</PolyData></VTKFile>", "m").labels;
+  };
+  EXPECT_EQ(labels_of_pieces(without + with), (Labels{0, 6}));
+  EXPECT_EQ(labels_of_pieces(with + without), (Labels{6, 0}));
+  EXPECT_EQ(labels_of_pieces(without), Labels());
+  EXPECT_NE(reading_error("m.vtp", "<VTKFile type=\"PolyData\"><PolyData>" +
+                                       piece("<CellData><DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">4 x"
+                                             "</DataArray></CellData>") +
+                                       "</PolyData></VTKFile>")
+                .find("\"x\""),
+            std::string::npos);
+  const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n";
+  EXPECT_EQ(parse_medit(medit + "Triangles 1\n1 2 3 7\nQuadrilaterals 1\n1 2 3 4 -2\nEnd\n", "m").labels,
+            (Labels{7, -2, -2}));
+}
+
 // ---- Gmsh ----
 
 struct GmshMesh {

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Writes volumes with other tools (nibabel, NumPy, VTK, mrcfile) and what they say of them.
+"""Writes volumes with other tools (nibabel, NumPy, VTK, mrcfile, Teem, CGAL) and what they say of them.
 
-Usage: foreign_volumes.py FOLDER [SEED]. Debian has them as python3-nibabel, python3-numpy, python3-vtk9 and
-python3-mrcfile. FOLDER/expected.json gets for each file the dimensions, the SHA-256 of the samples as DelIso keeps them
+Usage: foreign_volumes.py FOLDER [SEED]. Debian has them as python3-nibabel, python3-numpy, python3-vtk9,
+python3-mrcfile; without teem-apps there are no NRRD files, without libcgal-dev no INR files. FOLDER/expected.json gets for each file the dimensions, the SHA-256 of the samples as DelIso keeps them
 (x fastest, little endian), the map from index to world in three rows, the space and the units. The samples and the maps
 are read back by the tool that wrote the file, where it can read it.
 """
 import hashlib
 import json
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 
 import mrcfile
 import nibabel
@@ -21,6 +24,7 @@ FOLDER = sys.argv[1]
 RANDOM = numpy.random.RandomState(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
 SIZE = (6, 5, 4)  # x, y, z
 EXPECTED = []
+READ = []  # of each expectation the samples [x, y, z] and the map, as the tool read them
 
 
 def kept(samples):
@@ -39,6 +43,7 @@ def kept(samples):
 def expect(name, tool, samples, affine, space="", units="", channel=None, array=""):
     """samples[x, y, z]; affine: 3 x 4 or 4 x 4, from index to world."""
     data = kept(numpy.asarray(samples))
+    READ.append((data, numpy.asarray(affine, dtype=float)[:3]))
     EXPECTED.append({
         "file": name, "tool": tool, "dims": list(data.shape),
         "sha256": hashlib.sha256(data.tobytes(order="F")).hexdigest(),
@@ -270,11 +275,86 @@ def write_metaimage():
             expect(name, "VTK", vtk_samples(back, array)[..., 0], vtk_affine(back), LPS, "mm")
 
 
+def teem_read(path):
+    """Samples [..., x, y, z] and the map, as Teem reads them: its own raw output and what it prints of the header."""
+    raw = subprocess.run(["teem-unu", "save", "-f", "nrrd", "-e", "raw", "-en", "little", "-i", path],
+                         check=True, capture_output=True).stdout
+    head, data = raw.split(b"\n\n", 1)
+    fields = dict(line.split(": ", 1) for line in head.decode().splitlines() if ": " in line and line[0] != "#")
+    types = {"unsigned char": "u1", "signed char": "i1", "short": "<i2", "unsigned short": "<u2", "int": "<i4",
+             "unsigned int": "<u4", "long long int": "<i8", "unsigned long long int": "<u8", "float": "<f4",
+             "double": "<f8"}
+    samples = numpy.frombuffer(data, types[fields["type"]]).reshape(
+        [int(n) for n in fields["sizes"].split()], order="F")
+    columns = [v for v in fields["space directions"].split(" ") if v != "none"]
+    vectors = columns + [fields["space origin"]]
+    return samples, numpy.array([[float(x) for x in v.strip("()").split(",")] for v in vectors]).transpose()
+
+
+def write_nrrd():
+    cases = (("u1", "uchar", "raw"), ("i2", "short", "gzip"), (">f4", "float", "raw"), ("<f8", "double", "gzip"),
+             ("i4", "int", "ascii"), (">u2", "ushort", "hex"), ("i1", "signed char", "hex"),
+             ("<u4", "uint", "raw"), ("<i8", "longlong", "gzip"))
+    for number, (dtype, teem_type, encoding) in enumerate(cases):
+        affine, space = oblique(), ("LPS", "RAS", "left-posterior-superior")[number % 3]
+        vectors = ["(%s)" % ",".join(repr(float(v)) for v in affine[:3, n]) for n in range(4)]
+        samples = random_samples(dtype)
+        name = "nrrd_%s_%s.%s" % (dtype.replace(">", "big_").replace("<", ""), encoding.replace("ascii", "text"),
+                                  "nhdr" if number % 4 == 1 else "nrrd")
+        made = subprocess.run(
+            ["teem-unu", "make", "-t", teem_type, "-s", *map(str, SIZE), "-en", "big" if dtype[0] == ">" else "little",
+             "-spc", space, "-dirs", " ".join(vectors[:3]), "-orig", vectors[3], "-spu", "mm", "mm", "mm"],
+            input=samples.tobytes(order="F"), check=True, capture_output=True).stdout
+        subprocess.run(["teem-unu", "save", "-f", "nrrd", "-e", encoding, "-o", name,
+                        "-en", "big" if dtype[0] == ">" else "little"],
+                       input=made, check=True, cwd=FOLDER)
+        back, read_affine = teem_read(path_of(name))
+        expect(name, "Teem", back, read_affine, RAS if space == "RAS" else LPS, "mm")
+
+
+def write_raw():
+    for dtype, type_name in (("u1", "uint8"), ("<i2", "int16"), ("<u4", "uint32"), ("<f4", "float32"), ("<f8", "float64")):
+        name = "raw_%dx%dx%d_%s.raw" % (*SIZE, type_name)
+        random_samples(dtype).transpose().tofile(path_of(name))
+        back = numpy.fromfile(path_of(name), dtype).reshape(SIZE, order="F")
+        expect(name, "NumPy", back, numpy.eye(4))
+
+
+def write_inr():
+    """By a small program with CGAL's ImageIO."""
+    affine = numpy.diag([0.5, 1.25, 2.0, 1.0])
+    affine[:3, 3] = [-3.5, 10, 7.75]
+    geometry = ["0.5", "1.25", "2", "-3.5", "10", "7.75"]
+    with tempfile.TemporaryDirectory() as build:
+        program = os.path.join(build, "inr")
+        source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "inr_by_cgal.cpp")
+        subprocess.run(["g++", "-w", "-DCGAL_USE_ZLIB", source, "-o", program, "-lz"], check=True)
+        for dtype in ("u1", "<u2", "<i2", "<f4", "<f8"):
+            samples, size = random_samples(dtype), numpy.dtype(dtype).itemsize
+            name = "inr_%s.inr%s" % (dtype.replace("<", ""), ".gz" if dtype == "<i2" else "")
+            kind = numpy.dtype(dtype).kind
+            subprocess.run([program, "write", path_of(name), *map(str, SIZE), str(size), kind, *geometry],
+                           input=samples.tobytes(order="F"), check=True)
+            out = subprocess.run([program, "read", path_of(name)], check=True, capture_output=True).stdout
+            head, data = out.split(b"\n", 1)
+            words = head.decode().split()
+            numbers = [float(w) for w in words[5:]]
+            read_affine = numpy.diag(numbers[:3] + [1.0])
+            read_affine[:3, 3] = numbers[3:]
+            back = numpy.frombuffer(data, "<%s%s" % (words[4], words[3])).reshape([int(n) for n in words[:3]], order="F")
+            expect(name, "CGAL", back, read_affine)
+
+
 write_nifti()
 write_npy()
 write_mrc()
 write_vti()
 write_legacy_vtk()
 write_metaimage()
+write_raw()
+if shutil.which("teem-unu"):
+    write_nrrd()
+if os.path.exists("/usr/include/CGAL/ImageIO.h") and shutil.which("g++"):
+    write_inr()
 with open(path_of("expected.json"), "w") as out:
     out.write("[\n" + ",\n".join(json.dumps(entry) for entry in EXPECTED) + "\n]\n")
