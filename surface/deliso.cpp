@@ -1,5 +1,6 @@
 #include "surface/deliso.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -59,15 +60,7 @@ void Pipeline::run(double isovalue) {
   check_parameters(parameters_);
   find_exact_surface(isovalue);
 
-  controls_.enter("initial");
-  DelS del_s0 = timed(result_.initial, [&] {
-    return init_triangulation(*surface_, parameters_, options_.seed, controls_, result_.initial_search);
-  });
-  del_s0->set_observer(options_.observer);
-  if (options_.observer != nullptr) options_.observer->triangulated(*del_s0);
-  controls_.enter("recover");
-  DelS del_s1 = recover_topology(std::move(del_s0));
-  SurfaceMesh mesh = refine(std::move(del_s1));
+  SurfaceMesh mesh = refine(stage1({}));
 
   result_.stopped_in = controls_.stopped_in();
   controls_.report("certify", mesh.points.size(), 0);
@@ -89,12 +82,24 @@ void Pipeline::find_exact_surface(double isovalue) {
   });
   surface_.emplace(ExactSurface{*isosurface_, topology_, options_.threads});
   r_min_box_ = r_min_box(*isosurface_, parameters_.r_min_of);
+}
+
+SurfaceMesh Pipeline::stage1(std::span<const Vec3> samples) {
   // With threads to spare, what repair will ask is found beside stage 1.
   if (repairs(parameters_)) cache_ = std::make_unique<ExactSurfaceCache>(*surface_);
+  controls_.enter("initial");
+  DelS del_s0 = timed(result_.initial, [&] {
+    return init_triangulation(*surface_, parameters_, options_.seed, controls_, result_.initial_search);
+  });
+  del_s0->set_observer(controls_.observer());
+  if (controls_.observer() != nullptr) controls_.observer()->triangulated(*del_s0);
+  controls_.enter("recover");
+  return mended_mesh(recover_topology(std::move(del_s0), samples));
 }
 
 // Recover(Del S0), Figure 5; then with samples of parts that the mesh misses, or to the thresholds of stage 2.
-Pipeline::DelS Pipeline::recover_topology(DelS del_s) {
+Pipeline::DelS Pipeline::recover_topology(DelS del_s, std::span<const Vec3> samples) {
+  constexpr double kClosest = 0.25;  // that samples come to each other, of the distance promised
   const RecoverOptions options = recover_options(parameters_, r_min_box_, options_.threads);
   timed(result_.recover, [&] {
     recover(*del_s, options, controls_, result_.recover);
@@ -102,6 +107,10 @@ Pipeline::DelS Pipeline::recover_topology(DelS del_s) {
     // Targets are asked for only where the triangles that they make cross are looked for.
     const bool wants_targets = parameters_.algorithm == Algorithm::kTwoStage && repairs(parameters_);
     coverage_targets_ = recover_missed_parts(*del_s, *surface_, options, wants_targets, controls_, result_.recover);
+    if (samples.empty()) return;
+    RecoverOptions dense = options;
+    dense.size_bound = std::min(options.size_bound, kClosest * promise_.max_distance);
+    recover_with(*del_s, samples, dense, controls_, result_.recover);
   });
   if (parameters_.algorithm == Algorithm::kFull3d) {
     std::vector<double> pole_heights =
@@ -113,8 +122,8 @@ Pipeline::DelS Pipeline::recover_topology(DelS del_s) {
   return del_s;
 }
 
-// Refine(Del S1), Figure 9. The tetrahedra, and the crossings of the exact topology, go before RefineGeom.
-SurfaceMesh Pipeline::refine(DelS del_s1) {
+// The tetrahedra go before RefineGeom.
+SurfaceMesh Pipeline::mended_mesh(DelS del_s1) {
   controls_.enter("repair");
   auto recovered = timed(result_.repair, [&] { return mended(std::move(del_s1)); });
   timed(result_.poles, [&] { recovered->compute_poles(); });
@@ -125,8 +134,12 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
   recovered.reset();
   cache_.reset();
   find_faults(mesh);
-  if (options_.keep_stage1_mesh) result_.stage1_mesh = to_world(mesh, *isosurface_);
+  if (options_.keep_stage1_mesh && !result_.stage1_mesh) result_.stage1_mesh = to_world(mesh, *isosurface_);
+  return mesh;
+}
 
+// Refine(Del S1), Figure 9.
+SurfaceMesh Pipeline::refine(SurfaceMesh mesh) {
   controls_.enter("refine");
   RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
   options.observer = options_.observer;
@@ -136,13 +149,11 @@ SurfaceMesh Pipeline::refine(DelS del_s1) {
     };
   }
   result_.r_min_voxels = options.r_min;
-  if (is_sized(parameters_)) start_ = mesh;
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
   options.announce = {};
   if (result_.build.bounds_a_solid) finish(mesh, options);
-  start_.reset();
   drop_crossings();
   return mesh;
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "surface/base/controls.h"
@@ -32,8 +33,12 @@ class Pipeline {
   using DelS = std::unique_ptr<RestrictedDelaunay>;  // Del S restricted to the isosurface
 
   void find_exact_surface(double isovalue);
-  DelS recover_topology(DelS del_s0);
-  SurfaceMesh refine(DelS del_s1);
+  // Init, Recover, repair and BuildTriMesh. Recover takes in these samples, too, where the mesh of a first time has
+  // been too far from the isosurface.
+  SurfaceMesh stage1(std::span<const Vec3> samples);
+  DelS recover_topology(DelS del_s0, std::span<const Vec3> samples);
+  SurfaceMesh mended_mesh(DelS del_s1);
+  SurfaceMesh refine(SurfaceMesh mesh);
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
   void take_inner_seconds(const RecoveredSurface& recovered);
   void find_faults(const SurfaceMesh& mesh);
@@ -48,7 +53,8 @@ class Pipeline {
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
   void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
-  void begin_again(SurfaceMesh& mesh, const RefineOptions& options);
+  void begin_again(SurfaceMesh& mesh);
+  bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);
@@ -69,7 +75,6 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
-  std::optional<SurfaceMesh> start_;          // what RefineGeom begins with, where an error or a number is stated
   AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
   Promise promise_;
   MeshFaults last_;  // of the mesh that RefineGeom has made

@@ -28,7 +28,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   improve(mesh, parameters_.shape.rounds);
   if (!parameters_.certify) return;
   if (is_sized(parameters_)) {
-    if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh, options);
+    if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh);
   } else {
     refine_by_distance(mesh, options);
     bring_near_by_steps(mesh);

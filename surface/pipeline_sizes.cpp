@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "surface/base/sizes.h"
@@ -19,6 +21,7 @@
 #include "surface/sizes/error_steps.h"
 #include "surface/sizes/error_targets.h"
 #include "surface/sizes/long_edges.h"
+#include "surface/sizes/samples_near_faults.h"
 
 namespace deliso {
 
@@ -112,12 +115,9 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
 // are removed once other steps do not help: they may be all that covers a tip.
 void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom) {
   constexpr int kStepRounds = 8;
-  // What is missed may be off by more than steps of the shape stage are.
-  ShapeOptions options_of_steps = shape_options(parameters_);
-  options_of_steps.max_height = wanted.max_distance;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
-  ShapeOptions options_of_nearing = shape_options(parameters_);
-  options_of_nearing.max_height = std::max(options_of_nearing.max_height, ShapeOptions{}.max_height);
+  ShapeOptions options_of_steps = shape_options(parameters_);
+  options_of_steps.max_height = std::max(options_of_steps.max_height, ShapeOptions{}.max_height);
   std::int64_t off_before = std::numeric_limits<std::int64_t>::max();
   bool removes_spikes = false;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
@@ -129,35 +129,56 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, doubl
     timed(result_.shape, [&] {
       insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
       const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
-      bring_near(mesh, *surface_, now.far_triangles, {wanted.max_distance, removes_spikes}, options_of_nearing,
-                 controls_, result_.shape);
+      bring_near(mesh, *surface_, now.far_triangles, {wanted.max_distance, removes_spikes}, options_of_steps, controls_,
+                 result_.shape);
     });
   }
 }
 
-// Without criteria 1 and 2 of the paper a few long triangles may lie across a fold, and nothing can be inserted into
-// them: they would be turned over. With all criteria such places are reached in smaller steps, and decimation takes out
-// what is not needed.
-void Pipeline::begin_again(SurfaceMesh& mesh, const RefineOptions& options) {
-  Parameters paper = parameters_;
-  paper.size.max_error.reset();
-  paper.size.target_vertices.reset();
-  SurfaceMesh again = std::move(*start_);
-  timed(result_.refine, [&] {
-    const RefineOptions all_criteria = refine_options(paper, r_min_box_, coverage_targets_, options_.threads);
-    set_side_adjacency(again);
-    refine_geometry(again, *isosurface_, all_criteria, controls_, result_.refine);
-  });
+// Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
+// of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs once more with many
+// samples there; decimation takes out what is not needed.
+void Pipeline::begin_again(SurfaceMesh& mesh) {
+  constexpr int kMostTimes = 3;
+  constexpr double kSpacing = 2, kLargest = 0.25;  // of samples, in distances promised, and in voxels; halved each time
+  constexpr std::size_t kMostSamples = 1'000'000;
+  if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
+  Observer* const observer = controls_.observer();
+  controls_.set_observer(nullptr);  // it learns of the mesh alone
+  double spacing = std::min(kSpacing * promise_.max_distance, kLargest);
+  CellsNearFaults cells(*isosurface_);
+  for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time, spacing /= 2) {
+    cells.add(mesh, last_.geometry);
+    const std::vector<Vec3> samples = cells.samples(spacing);
+    if (samples.size() > kMostSamples || !take_nearer_mesh(samples, mesh)) break;
+  }
+  controls_.set_observer(observer);
+  if (observer != nullptr) observer->reshaped(mesh);
+}
+
+// The mesh that these samples give to stage 1, if it is nearer to the isosurface.
+bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh) {
+  const MeshFaults last_before = last_;
+  const AssignmentFaults faults_before = faults_;
+  RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
+  SurfaceMesh again = stage1(samples);
+  controls_.enter("refine");
+  const RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
+  timed(result_.refine, [&] { refine_geometry(again, *isosurface_, options, controls_, result_.refine); });
   if (parameters_.size.max_edge) limit_edges(again, options);
   improve(again, parameters_.shape.rounds);
-  const MeshFaults before = last_;
   refine_to_error(again, options);
   const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_crossings); };
-  if (off(last_.geometry) < off(before.geometry)) {
+  const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);
+  if (is_nearer) {
     mesh = std::move(again);
   } else {
-    last_ = before;
+    last_ = last_before;
+    faults_ = faults_before;
+    std::swap(result_.repair, repair_before);
   }
+  result_.repair.seconds += repair_before.seconds;
+  return is_nearer;
 }
 
 // Where the mesh is farthest from the isosurface first: each round allows a smaller height, until there are enough

@@ -164,7 +164,8 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
 
 // Corners lie on the isosurface, so what is near them needs no look; and every point of a triangle is within its
 // longest edge over the square root of 3 of a corner.
-std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most) {
+std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most,
+                               std::int64_t enough) {
   const double squared_longest = squared_longest_of(corners);
   if (squared_longest <= 3 * most * most) return 0;
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -178,6 +179,7 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
   if (is_close && order <= 3 && squared_longest <= order * order * most * most) return 0;
   std::int64_t count = 0;
   for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
+    if (count >= enough) return;
     const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= most * most; };
     if (squared_distance(p, centroid) <= squared_free || std::any_of(corners.begin(), corners.end(), is_beside)) return;
     if (!is_near(isosurface, p, normal, most)) ++count;

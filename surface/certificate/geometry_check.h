@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
@@ -29,8 +30,10 @@ struct GeometryCheck {
   [[nodiscard]] bool is_near() const { return mesh_off == 0 && missed_crossings.empty(); }
 };
 
-// How many samples of a triangle are farther than `most` from the isosurface, by the check below.
-std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most);
+// How many samples of a triangle are farther than `most` from the isosurface, by the check below; counted up to
+// `enough`.
+std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most,
+                               std::int64_t enough = std::numeric_limits<std::int64_t>::max());
 
 // Of a mesh in mesh space with the exact topology's crossings. Triangles are sampled where the distances of their
 // corners do not tell, at points one voxel apart. The same for any number of threads.

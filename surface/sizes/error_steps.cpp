@@ -1,6 +1,7 @@
 #include "surface/sizes/error_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -37,7 +38,8 @@ class NearnessSteps {
   void run(double freedom, int depth, const Controls& controls);
 
  private:
-  [[nodiscard]] double far_area(std::uint32_t t) const;
+  [[nodiscard]] double far_area(std::uint32_t t);
+  [[nodiscard]] bool is_spike(std::uint32_t v);
   [[nodiscard]] bool has_room(const PatchStep& step);
   // What a trial of several steps has to be better than.
   struct Trial {
@@ -55,14 +57,23 @@ class NearnessSteps {
   ShapeSteps steps_;
   ShapeStats& stats_;
   std::vector<std::uint32_t> left_, near_;
+  struct Known {
+    std::array<Vec3, 3> corners;  // the number of a triangle undone may be another's
+    double far_area = 0;
+  };
+  std::vector<Known> known_;  // by triangle
 };
 
-// Its area, as far as samples of it are too far.
-double NearnessSteps::far_area(std::uint32_t t) const {
+// Its area, if samples of it are too far. Most are asked for again and again.
+double NearnessSteps::far_area(std::uint32_t t) {
   const auto corners = patch_.corner_points(t);
-  const std::int64_t count = count_far_samples(isosurface_, corners, most_);
-  const double area = norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
-  return count == 0 ? 0 : area;
+  if (known_.size() <= t) known_.resize(patch_.triangle_count());
+  Known& known = known_[t];
+  if (known.corners != corners) {
+    const bool is_far = count_far_samples(isosurface_, corners, most_, 1) > 0;
+    known = {corners, is_far ? norm(cross(corners[1] - corners[0], corners[2] - corners[0])) : 0};
+  }
+  return known.far_area;
 }
 
 bool NearnessSteps::has_room(const PatchStep& step) {
@@ -74,29 +85,39 @@ bool NearnessSteps::has_room(const PatchStep& step) {
   return room_.holds(box, near_);
 }
 
-// A vertex of one sheet to which another has come to reach: its three triangles span what is no isosurface. What it
+// A vertex of one sheet to which another has come to reach: most of its triangles span what is no isosurface. What it
 // covers alone is missed then, and is looked for where it is.
 void NearnessSteps::remove_spikes() {
+  constexpr double kEnough = 0.3;  // the sine of an angle that is good enough
   guard_.set_freedom(16);
   guard_.set_witnesses(false);
-  VertexLink link;
+  std::vector<PatchStep> steps;
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const std::uint32_t t = left_[i];
-    for (const std::uint32_t v : patch_.corners(t)) {
-      if (!patch_.has(t) || !patch_.find_link(v, link) || !link.is_closed || link.triangles.size() != 3) continue;
-      if (std::any_of(link.triangles.begin(), link.triangles.end(),
-                      [&](std::uint32_t u) { return far_area(u) == 0; })) {
-        continue;
-      }
-      PatchStep step{ShapeStep::kRemove, link.triangles, {{}}, kNoVertex, {}, 0, {}};
-      std::copy(link.vertices.begin(), link.vertices.end(), step.added[0].begin());
-      if (!has_room(step) || !guard_.apply(step)) continue;
-      ++stats_.steps[static_cast<std::size_t>(step.kind)];
-      left_.push_back(static_cast<std::uint32_t>(patch_.triangle_count() - 1));
-      break;
+    for (std::size_t corner = 0; corner < 3 && patch_.has(t); ++corner) {
+      if (!is_spike(patch_.corners(t)[corner])) continue;
+      steps.clear();
+      steps_.propose(ShapeStep::kRemove, t, corner, kEnough, steps);
+      const auto first = static_cast<std::uint32_t>(patch_.triangle_count());
+      const bool is_done = std::any_of(steps.begin(), steps.end(),
+                                       [&](const PatchStep& step) { return has_room(step) && guard_.apply(step); });
+      if (!is_done) continue;
+      ++stats_.steps[static_cast<std::size_t>(ShapeStep::kRemove)];
+      for (std::uint32_t added = first; added < patch_.triangle_count(); ++added) left_.push_back(added);
     }
   }
   guard_.set_witnesses(true);
+}
+
+bool NearnessSteps::is_spike(std::uint32_t v) {
+  constexpr double kMost = 0.5;  // of the area around it
+  double area = 0, far = 0;
+  for (const std::uint32_t t : patch_.star(v)) {
+    const auto [a, b, c] = patch_.corner_points(t);
+    area += norm(cross(b - a, c - a));
+    far += far_area(t);
+  }
+  return far > kMost * area;
 }
 
 void NearnessSteps::run(double freedom, int depth, const Controls& controls) {

@@ -11,6 +11,7 @@
 #include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
+#include "surface/shape/triangle_shape.h"
 #include "surface/sizes/error_steps.h"
 
 namespace deliso {
@@ -78,31 +79,37 @@ PatchStep cavity_step(const Patch& patch, const std::vector<std::uint32_t>& cavi
   return step;
 }
 
-// The triangles around a vertex, as far as they face a point that is beyond it, or all face away from one below it.
-std::vector<std::uint32_t> facing(const Patch& patch, std::uint32_t v, const Vec3& p) {
-  const auto side = [&](std::uint32_t t) {
-    const auto [a, b, c] = patch.corner_points(t);
-    return dot(cross(b - a, c - a), p - patch.point(v));
-  };
-  double sum = 0;
-  for (const std::uint32_t t : patch.star(v)) sum += side(t);
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t t : patch.star(v)) {
-    if ((side(t) > 0) == (sum > 0)) found.push_back(t);
-  }
-  return found;
+double least_quality(const Patch& patch, const PatchStep& step) {
+  const auto at = [&](std::uint32_t v) { return v == step.vertex ? step.point : patch.point(v); };
+  double least = 1;
+  for (const auto& [a, b, c] : step.added) least = std::min(least, sine_of_least_angle(at(a), at(b), at(c)));
+  return least;
 }
 
-// A tip of a finger may stand out beyond a vertex: over the rim of what faces it, or of all triangles around the
-// vertex, which is gone then.
+// A tip of a finger may stand out beyond a vertex: over the rim of some of the triangles around it that follow each
+// other, or of all, and the vertex is gone then. The best triangles first.
 std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3& p) {
   const auto& corners = patch.corners(t);
   const std::uint32_t nearest =
       *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t u) {
         return squared_distance(patch.point(v), p) < squared_distance(patch.point(u), p);
       });
-  const std::span<const std::uint32_t> star = patch.star(nearest);
-  return {cavity_step(patch, facing(patch, nearest, p), p), cavity_step(patch, {star.begin(), star.end()}, p)};
+  std::vector<PatchStep> steps;
+  VertexLink link;
+  if (!patch.find_link(nearest, link)) return steps;
+  const std::size_t count = link.triangles.size();
+  for (std::size_t first = 0; first < count; ++first) {
+    std::vector<std::uint32_t> cavity;
+    const std::size_t most = link.is_closed ? (first == 0 ? count : count - 1) : count - first;
+    for (std::size_t i = 0; i < most; ++i) {
+      cavity.push_back(link.triangles[(first + i) % count]);
+      steps.push_back(cavity_step(patch, cavity, p));
+      steps.back().quality = least_quality(patch, steps.back());
+    }
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const PatchStep& a, const PatchStep& b) { return a.quality > b.quality; });
+  return steps;
 }
 
 void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,

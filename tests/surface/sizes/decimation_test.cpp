@@ -169,8 +169,8 @@ TEST(Sizes, StepsReachAnErrorWhereRefinementDoesNot) {
   }
 }
 
-// Long triangles across a fold, into which nothing could be inserted: begun again with all criteria of the paper.
-TEST(HeavySizes, FoldsAreReachedWithAllCriteria) {
+// Long triangles across a fold, into which nothing could be inserted: stage 1 runs again with samples there.
+TEST(HeavySizes, FoldsAreReachedWithMoreSamples) {
   const auto directory = data_directory();
   if (!directory) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
   const ScalarGrid grid = read_volume(*directory / "engine.nrrd");
