@@ -42,6 +42,7 @@ void Pipeline::limit_edges(SurfaceMesh& mesh, RefineOptions options) {
   options.criterion2 = Criterion2::kCircumradius;
   options.epsilon1 = std::numeric_limits<double>::infinity();
   options.epsilon2 = length / 2;  // of a pole height of 1
+  options.h_min = 0;
   options.r_min = std::min(options.r_min, kSmall * length);
   timed(result_.refine, [&] {
     set_side_adjacency(mesh);
@@ -142,6 +143,7 @@ void Pipeline::begin_again(SurfaceMesh& mesh, const RefineOptions& options) {
   Parameters paper = parameters_;
   paper.size.max_error.reset();
   paper.size.target_vertices.reset();
+  paper.stage2.h_min = 0;
   SurfaceMesh again = std::move(*start_);
   timed(result_.refine, [&] {
     const RefineOptions all_criteria = refine_options(paper, r_min_box_, coverage_targets_, options_.threads);
