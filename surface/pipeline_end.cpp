@@ -77,7 +77,7 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
     ShapeOptions options = shape_options(parameters_);
     options.rounds = std::min(options.rounds, most_rounds);
     improve_shape(mesh, *surface_, options, controls_, result_.shape);
-    if (options_.observer != nullptr) options_.observer->reshaped(mesh);
+    if (controls_.observer() != nullptr) controls_.observer()->reshaped(mesh);
   });
 }
 

@@ -45,6 +45,7 @@ void Pipeline::limit_edges(SurfaceMesh& mesh, RefineOptions options) {
   options.criterion2 = Criterion2::kCircumradius;
   options.epsilon1 = std::numeric_limits<double>::infinity();
   options.epsilon2 = length / 2;  // of a pole height of 1
+  options.h_min = 0;
   options.r_min = std::min(options.r_min, kSmall * length);
   timed(result_.refine, [&] {
     set_side_adjacency(mesh);

@@ -100,9 +100,9 @@ double parse_length(const std::string& text, const std::string& option, const Vo
 }
 
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume) {
-  constexpr std::array<std::string_view, 6> kLengths{"stage1.size_bound_voxels", "stage2.max_distance",
-                                                     "promise.max_distance",     "field.smooth",
-                                                     "size.max_error",           "size.max_edge"};
+  constexpr std::array<std::string_view, 7> kLengths{
+      "stage1.size_bound_voxels", "stage2.max_distance", "stage2.h_min", "promise.max_distance", "field.smooth",
+      "size.max_error",           "size.max_edge"};
   const std::size_t equals = assignment.find('=');
   const std::string key = assignment.substr(0, equals);
   if (equals == std::string::npos || std::find(kLengths.begin(), kLengths.end(), key) == kLengths.end())

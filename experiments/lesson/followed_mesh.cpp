@@ -54,12 +54,14 @@ Json FollowedMesh::changes(const Json& shape) const {
   }
   for (const Triangle& triangle : left) gone.push_back(triangle);
   if (2 * at.size() > points.size() || 2 * come.size() > shape.at("triangles").size()) return shape;
-  return {{"e", "shape"},
-          {"count", points.size()},
-          {"at", std::move(at)},
-          {"points", std::move(moved)},
-          {"come", std::move(come)},
-          {"gone", std::move(gone)}};
+  Json changes = {{"e", "shape"},
+                  {"count", points.size()},
+                  {"at", std::move(at)},
+                  {"points", std::move(moved)},
+                  {"come", std::move(come)},
+                  {"gone", std::move(gone)}};
+  if (shape.contains("why")) changes["why"] = shape.at("why");
+  return changes;
 }
 
 }  // namespace deliso

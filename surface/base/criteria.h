@@ -8,7 +8,9 @@
 //   4. r > r_min               3. r > r_min             not too small to be refined
 //      h > max_distance           h > max_distance      ours: the absolute distance to the surface
 //
-// x_sigma is inserted when sigma is larger than r_min and one of the others holds.
+// x_sigma is inserted when sigma is larger than r_min and one of the others holds. Ours, too: where h is at or below
+// h_min, criteria 1 and 2 of stage 2 lapse. At a crease of the isosurface, where voxel cells meet, h / r stays what it
+// is however small the triangles are, and poles come down to the surface: both would be refined to r_min everywhere.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +29,7 @@ struct Criteria {
   double max_distance = std::numeric_limits<double>::infinity();  // largest h
   double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / h_mean; needs pole heights
   Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / h_mean
+  double h_min = 0;  // criteria 1 and 2 of stage 2 ask for nothing at or below this h
 };
 
 // r_min in mesh space, from the fraction of the smallest side of a box that a parameter gives: one of 256 smallest
@@ -71,8 +74,14 @@ inline double larger(double a, double b) { return a < b ? b : a; }
 inline double approximate_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {
   return larger(larger(badness1(sigma, limit), badness3(sigma, limit)), distance_badness(sigma, limit));
 }
+// A badness of criterion 1 or 2 in stage 2, where they lapse at or below h_min: no more than 1 there.
+inline double unless_lapsed(double badness, const TriangleMeasures& sigma, const Criteria& limit) {
+  const double above = sigma.h / limit.h_min;
+  return above < badness ? above : badness;
+}
 inline double refine_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {
-  return larger(approximate_geometry_badness(sigma, limit), badness2(sigma, limit));
+  const double by_ratio = larger(badness1(sigma, limit), badness2(sigma, limit));
+  return larger(larger(unless_lapsed(by_ratio, sigma, limit), badness3(sigma, limit)), distance_badness(sigma, limit));
 }
 
 }  // namespace deliso

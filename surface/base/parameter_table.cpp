@@ -171,6 +171,10 @@ constexpr std::array kTable = {
                                               "no refinement at or below this circumradius"),
     row<&P::stage2, &Stage2Parameters::max_distance>("stage2.max_distance", kPositive, "voxels",
                                                      "refine a triangle whose height is above this; null: no bound"),
+    row<&P::stage2, &Stage2Parameters::h_min>("stage2.h_min", kNotNegative, "voxels",
+                                              "no refinement for epsilon1 and epsilon2 of a triangle whose height is "
+                                              "at or below this: at creases they would ask for r_min everywhere; 0: "
+                                              "as in the paper"),
     row<&P::stage2, &Stage2Parameters::criterion2>("stage2.criterion2", kAny, "",
                                                    "which length of a triangle epsilon2 compares with the mean pole "
                                                    "height; circumradius is our reading of the paper"),

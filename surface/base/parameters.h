@@ -1,5 +1,5 @@
-// The parameters of the mesher. Defaults are the paper's where it gives them. The table in surface/base/parameter_table.h
-// names them for files, the command line and the library.
+// The parameters of the mesher. Defaults are the paper's where it gives them. The table in
+// surface/base/parameter_table.h names them for files, the command line and the library.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,7 @@ struct Stage2Parameters {
   double rho = 2.0;                                   // r / l above which a triangle is refined; >= 1
   double r_min = 0.001;                               // no refinement at or below this radius, as a fraction of b; >= 0
   std::optional<double> max_distance;                 // h above which a triangle is refined, in smallest spacings; > 0
+  double h_min = 0;                                   // h at or below which criteria 1 and 2 lapse, likewise; >= 0
   Criterion2 criterion2 = Criterion2::kCircumradius;  // what is compared with the mean pole height
   NewPole new_pole = NewPole::kMean;  // a new vertex takes its neighbours' mean pole height, or the nearest one's
   bool store_hits = true;             // keep x_sigma with each triangle; else it is searched whenever it is needed

@@ -51,6 +51,7 @@ JsonTree refine_json(const RefineStats& refine) {
   json["stopped_at_r_min"] = refine.stopped_at_r_min;
   json["restarts"] = refine.restarts;
   json["halvings"] = refine.halvings;
+  json["flips"] = refine.flips;
   json["coverage_targets"] = refine.coverage_targets;
   return json;
 }

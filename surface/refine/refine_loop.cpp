@@ -16,6 +16,8 @@ constexpr double kNearestVertex = 0.5;
 constexpr double kFarthestMove = 0.8;
 // How often coverage targets are inserted; in between, the mesh is refined.
 constexpr int kCoverageTargetRounds = 4;
+// Edges are halved from this length on (mesh-space units); with h_min, when what is coarse is far off, any is.
+constexpr double kHalvedEdge = 1.5;
 
 }  // namespace
 
@@ -27,6 +29,7 @@ void RefineLoop::run(Controls& controls, int threads) {
     guard_.emplace(mesh_, threads);
     refine_queued(controls);
   }
+  if (flip_edges(controls, threads)) refine_queued(controls);
   for (int i = 0; i < kCoverageTargetRounds && insert_coverage_targets(controls, threads); ++i) refine_queued(controls);
   guard_.reset();
 }
@@ -43,39 +46,6 @@ void RefineLoop::refine_queued(Controls& controls) {
     if (treat(popped->queued.element)) wake_neighbours();
     if (next) mesh_.prefetch_around(*next);
   }
-}
-
-RefinementChange RefineLoop::take_back() {
-  RefinementChange change = start_->restore(mesh_);
-  start_.reset();
-  return change;
-}
-
-void RefineLoop::Start::keep(std::uint32_t t, const RefinementMesh& mesh) {
-  if (t >= is_kept_.size() || is_kept_[t]) return;
-  is_kept_[t] = true;
-  places_.push_back(t);
-  triangles_.push_back(mesh.triangles[t]);
-}
-
-RefinementChange RefineLoop::Start::restore(RefinementMesh& mesh) {
-  RefinementChange change;
-  change.new_triangles.assign(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(is_kept_.size()),
-                              mesh.triangles.end());
-  change.new_vertices.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(vertex_count_), mesh.vertices.end());
-  for (std::size_t i = 0; i < places_.size(); ++i) std::swap(mesh.triangles[places_[i]], triangles_[i]);
-  change.places = std::move(places_);
-  change.triangles = std::move(triangles_);
-  mesh.triangles.resize(is_kept_.size());
-  mesh.vertices.resize(vertex_count_);
-  mesh.forget_attempts();
-  return change;
-}
-
-void RefinementChange::redo(RefinementMesh& mesh) const {
-  for (std::size_t i = 0; i < places.size(); ++i) mesh.triangles[places[i]] = triangles[i];
-  mesh.triangles.insert(mesh.triangles.end(), new_triangles.begin(), new_triangles.end());
-  mesh.vertices.insert(mesh.vertices.end(), new_vertices.begin(), new_vertices.end());
 }
 
 // Whether a coarse triangle is to be refined in this part.
@@ -125,7 +95,8 @@ bool RefineLoop::treat(std::uint32_t triangle) {
     }
   }
   if (refusal && !is_blocked_) {
-    const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.r_min, stats_.search);
+    const auto halving = halving_candidate(mesh_, isosurface_, triangle, options_.h_min > 0 ? 0 : kHalvedEdge,
+                                           options_.r_min, stats_.search);
     if (halving && !insert(*halving, nullptr)) {
       ++stats_.halvings;
       refusal.reset();

@@ -71,6 +71,13 @@ class RefineLoop {
   void replace_disk(const Candidate& candidate);
   void wake_neighbours();
   bool retry_crossed();
+  struct FlippedEdge;
+  bool flip_edges(Controls& controls, int threads);
+  [[nodiscard]] std::optional<FlippedEdge> flipped_edge(std::uint32_t triangle, unsigned side) const;
+  [[nodiscard]] bool is_edge(std::uint32_t triangle, unsigned corner, std::uint32_t other) const;
+  [[nodiscard]] double height_at_middle(const Vec3& a, const Vec3& b, const Vec3& direction);
+  [[nodiscard]] bool improves(const FlippedEdge& edge);
+  void flip(const FlippedEdge& edge);
   void requeue(std::uint32_t triangle);
   void learn(std::uint32_t triangle, const NewTriangle& measured);
   void queue(std::uint32_t triangle, const NewTriangle& measured);

@@ -64,7 +64,8 @@ Lesson.spaceStory = (() => {
       case "restart":
         return "Triangles came to meet: all of stage 2 is taken back, and begins again with more care.";
       case "shape":
-        return "Badly shaped triangles are improved (not in the paper).";
+        return e.why ? "Edges across folds are flipped to run along them (not in the paper)." :
+                       "Badly shaped triangles are improved (not in the paper).";
       case "refined":
         return "No triangle is left that can be refined.";
       case "certify":
@@ -99,7 +100,8 @@ Lesson.spaceStory = (() => {
       case "restart":
         return "Everything since BuildTriMesh was taken back.";
       case "shape":
-        return "Flips, moves and merges have improved small angles.";
+        return e.why ? "Edges across folds were flipped to run along them." :
+                       "Flips, moves and merges have improved small angles.";
       case "certify":
         return `Certificate: topology ${e.homeomorphic ? "equal" : "different"}, ${
             count(e.crossing, "pair of triangles crosses", "pairs of triangles cross")}, ${

@@ -35,12 +35,20 @@ double shortest_edge(const std::array<Vec3, 3>& p) {
 
 // The criterion of section 3.2 that a triangle is farthest beyond.
 const char* worst_criterion(const TriangleMeasures& sigma, const Criteria& limits) {
-  const std::array<std::pair<double, const char*>, 4> all = {{{badness1(sigma, limits), "criterion1"},
-                                                              {badness2(sigma, limits), "criterion2"},
-                                                              {badness3(sigma, limits), "criterion3"},
-                                                              {distance_badness(sigma, limits), "max_distance"}}};
+  const std::array<std::pair<double, const char*>, 4> all = {
+      {{unless_lapsed(badness1(sigma, limits), sigma, limits), "criterion1"},
+       {unless_lapsed(badness2(sigma, limits), sigma, limits), "criterion2"},
+       {badness3(sigma, limits), "criterion3"},
+       {distance_badness(sigma, limits), "max_distance"}}};
   return std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; })
       ->second;
+}
+
+void add_mesh(const RefinementMesh& mesh, TraceEvent& event) {
+  event["triangles"] = TraceEvent::array();
+  event["points"] = TraceEvent::array();
+  for (const auto& triangle : mesh.triangles) event["triangles"].push_back(triangle.corners);
+  for (const auto& vertex : mesh.vertices) event["points"].push_back(array_of(vertex.point));
 }
 
 }  // namespace
@@ -234,6 +242,12 @@ void TraceWriter::disk_refused(const RefinementMesh& mesh, std::uint32_t triangl
   sink_(event);
 }
 
+void TraceWriter::flipped(const RefinementMesh& mesh) {
+  TraceEvent event{{"e", "shape"}, {"why", "folds"}};
+  add_mesh(mesh, event);
+  sink_(event);
+}
+
 void TraceWriter::restarted() {
   has_restarted_ = true;
   sink_({{"e", "restart"}});
@@ -245,10 +259,7 @@ void TraceWriter::refined(const RefinementMesh& mesh) {
   if (!has_restarted_) {
     event["triangles"] = mesh.triangles.size();
   } else {
-    event["triangles"] = TraceEvent::array();
-    event["points"] = TraceEvent::array();
-    for (const auto& triangle : mesh.triangles) event["triangles"].push_back(triangle.corners);
-    for (const auto& vertex : mesh.vertices) event["points"].push_back(array_of(vertex.point));
+    add_mesh(mesh, event);
   }
   sink_(event);
 }

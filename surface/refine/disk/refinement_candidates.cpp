@@ -9,10 +9,10 @@ namespace {
 
 // A boundary edge is split only at least this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
-// Triangles with an edge of at least this length (mesh-space units) are coarse.
-constexpr double kCoarseEdge = 1.5;
 // A halved edge may have a vertex this near to its middle, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
+// Edges shorter than this (mesh-space units) may not: they are halved for their distance, not for their shape.
+constexpr double kLongEdge = 1.5, kNearestToShort = 0.4;
 
 // A coverage target is not inserted so near to a vertex (mesh-space units).
 constexpr double kTargetToVertex = 0.3;
@@ -50,7 +50,8 @@ std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh
 }
 
 std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
-                                                     std::uint32_t triangle, double r_min, SearchCounters& counters) {
+                                                     std::uint32_t triangle, double least_edge, double r_min,
+                                                     SearchCounters& counters) {
   const auto length = [&](unsigned i) { return distance(mesh.corner(triangle, i + 1), mesh.corner(triangle, i + 2)); };
   unsigned longest = 0;
   for (unsigned i = 1; i < 3; ++i) {
@@ -58,7 +59,7 @@ std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh,
   }
   const double edge = length(longest);
   const TriangleSide across = mesh.triangles[triangle].neighbours[longest];
-  if (edge < std::max(kCoarseEdge, 2 * r_min) || across == kNoSide) return std::nullopt;
+  if (edge < std::max(least_edge, 2 * r_min) || across == kNoSide) return std::nullopt;
   const Vec3& a = mesh.corner(triangle, longest + 1);
   const Vec3& b = mesh.corner(triangle, longest + 2);
   const auto normal = [&](std::uint32_t t) {
@@ -70,7 +71,7 @@ std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh,
   const Line line{0.5 * (a + b), sum / norm(sum)};
   const auto hit = isosurface.nearest_falling_hit(line, 0.5 * edge, counters);
   if (!hit || !isosurface.box().contains(line.at(*hit))) return std::nullopt;
-  const double nearest = std::max(kNearestToMiddle * edge, r_min);
+  const double nearest = std::max((edge < kLongEdge ? kNearestToShort : kNearestToMiddle) * edge, r_min);
   return RefinementCandidate{line.at(*hit), 0.5 * edge, nearest, triangle, kNoSide, 4 * triangle + longest};
 }
 

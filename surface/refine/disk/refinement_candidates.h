@@ -31,9 +31,10 @@ RefinementCandidate target_candidate(const MissedTarget& missed, double r_min);
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                       TriangleSide side, double r_min, SearchCounters& counters);
 
-// For a coarse triangle, one with an edge of at least 1.5 mesh-space units and 2 `r_min`: a point of the surface near
-// the middle of its longest edge, along the common normal of the two triangles at that edge, which then form E.
+// For a triangle with an edge of at least `least_edge` and 2 `r_min`: a point of the surface near the middle of its
+// longest edge, along the common normal of the two triangles at that edge, which then form E.
 std::optional<RefinementCandidate> halving_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
-                                                     std::uint32_t triangle, double r_min, SearchCounters& counters);
+                                                     std::uint32_t triangle, double least_edge, double r_min,
+                                                     SearchCounters& counters);
 
 }  // namespace deliso

@@ -103,8 +103,7 @@ bool CrossingGuard::meets(const PlacedTriangle& s, const PlacedTriangle& t) {
          triangle_contact(s.corners, s.points, t.corners, t.points) != TriangleContact::kNone;
 }
 
-CrossingGuard::PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) const {
-  const auto& corners = mesh_.triangles[triangle].corners;
+CrossingGuard::PlacedTriangle CrossingGuard::placed(const std::array<std::uint32_t, 3>& corners) const {
   const std::array<Vec3, 3> points = mesh_.corner_points(corners);
   return {corners, points, box_of(points)};
 }
@@ -198,6 +197,19 @@ bool CrossingGuard::crosses(const Vec3& p, const Vec3& up, double moved, const R
     return std::any_of(tight_in_star_.begin(), tight_in_star_.end(),
                        [&](std::size_t i) { return meets(star_[i], other); });
   });
+}
+
+bool CrossingGuard::crosses_flipped(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t,
+                                    std::uint32_t old_s, std::uint32_t old_t) {
+  for (const PlacedTriangle& flipped : {placed(s), placed(t)}) {
+    if (!has_area(flipped.points)) return true;
+    near_.clear();
+    tight_.append_near(flipped.box, near_);
+    for (const std::uint32_t other : near_) {
+      if (other != old_s && other != old_t && meets(flipped, placed(other))) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace deliso

@@ -32,6 +32,10 @@ class CrossingGuard {
   // of the mesh outside the disk, or folds over its neighbours. `moved`: a bound of the distance by which the mesh
   // moves; `up`: approximate normal of the star. Also computes p's clearance.
   bool crosses(const Vec3& p, const Vec3& up, double moved, const RefinementDisk& disk);
+  // Whether two triangles at a flipped edge, given by their corners, meet tight triangles of the mesh other than the
+  // two whose place they take.
+  [[nodiscard]] bool crosses_flipped(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t,
+                                     std::uint32_t old_s, std::uint32_t old_t);
   [[nodiscard]] float new_clearance() const { return new_clearance_; }
 
   // forget(): call before a triangle is removed. learn(): call after a triangle was added.
@@ -54,7 +58,10 @@ class CrossingGuard {
   [[nodiscard]] bool star_meets_itself() const;
   [[nodiscard]] bool folds(const Vec3& p, std::span<const RimEdge> rim);
   [[nodiscard]] PlacedTriangle star_triangle(const Vec3& p, const RimEdge& edge) const;
-  [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const;
+  [[nodiscard]] PlacedTriangle placed(const std::array<std::uint32_t, 3>& corners) const;
+  [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const {
+    return placed(mesh_.triangles[triangle].corners);
+  }
   [[nodiscard]] bool is_tight(std::uint32_t triangle) const;
   // 0 for a suspect vertex.
   [[nodiscard]] float effective_clearance(std::uint32_t vertex) const {

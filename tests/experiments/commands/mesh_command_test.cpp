@@ -215,11 +215,13 @@ TEST_F(MeshCommand, VertexBudgetStopsWithAValidPartialMesh) {
 }
 
 TEST_F(MeshCommand, SignalsStopWithAValidPartialMesh) {
-  generate("gyroid", 128);
+  generate("gyroid", 24);
   for (const int signal : {SIGINT, SIGTERM}) {
-    // Fine enough to keep any machine busy for much longer than the delay.
-    const ProgramResult result = mesh("0.1", {"--set", "stage2.epsilon2=0.01", "--set", "stage2.epsilon1=0.005"},
-                                      SignalAfter{signal, std::chrono::milliseconds(1500)});
+    // Few samples for stage 1, and so fine that stage 2 keeps any machine busy for much longer than the delay.
+    const ProgramResult result =
+        mesh("0.1",
+             {"--set", "stage2.epsilon2=0.001", "--set", "stage2.epsilon1=0.001", "--set", "stage2.r_min=1e-7"},
+             SignalAfter{signal, std::chrono::milliseconds(1500)});
     EXPECT_EQ(result.exit_code, 3) << result.err << " after " << result.seconds << " s";
     const Json json = report();
     EXPECT_EQ(json["unmet"][0].get<std::string>().find("stage 2 (refine) was stopped by a signal"), 0u);

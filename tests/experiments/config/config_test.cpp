@@ -43,7 +43,7 @@ constexpr const char* kDocumentedDefaults = R"({
   "initial": {"random_points": 0, "seeding": "components"},
   "stage1": {"epsilon": 0.2, "rho": 2.0, "r_min": 0.001, "size_bound_voxels": 0.3, "coverage": true,
              "one_sign_per_tetrahedron": true},
-  "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null,
+  "stage2": {"epsilon1": 0.1, "epsilon2": 0.2, "rho": 2.0, "r_min": 0.001, "max_distance": null, "h_min": 0.0,
              "criterion2": "circumradius", "new_pole": "mean", "store_hits": true, "pole_height": "nearer"},
   "r_min_of": "voxels",
   "queue_order": "worst_first",

@@ -36,7 +36,7 @@ class TwoTriangles {
   [[nodiscard]] const RefinementMesh& mesh() const { return mesh_; }
   [[nodiscard]] std::optional<RefinementCandidate> halving(std::uint32_t triangle, double r_min) const {
     SearchCounters counters;
-    return halving_candidate(mesh_, *scene_->isosurface, triangle, r_min, counters);
+    return halving_candidate(mesh_, *scene_->isosurface, triangle, 1.5, r_min, counters);
   }
   [[nodiscard]] Vec3 on_surface(const Vec3& p) const {
     const Vec3 g = scene_->isosurface->gradient(p);
