@@ -219,8 +219,7 @@ TEST_F(MeshCommand, SignalsStopWithAValidPartialMesh) {
   for (const int signal : {SIGINT, SIGTERM}) {
     // Few samples for stage 1, and so fine that stage 2 keeps any machine busy for much longer than the delay.
     const ProgramResult result =
-        mesh("0.1",
-             {"--set", "stage2.epsilon2=0.001", "--set", "stage2.epsilon1=0.001", "--set", "stage2.r_min=1e-7"},
+        mesh("0.1", {"--set", "stage2.epsilon2=0.001", "--set", "stage2.epsilon1=0.001", "--set", "stage2.r_min=1e-7"},
              SignalAfter{signal, std::chrono::milliseconds(1500)});
     EXPECT_EQ(result.exit_code, 3) << result.err << " after " << result.seconds << " s";
     const Json json = report();
