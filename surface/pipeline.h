@@ -54,7 +54,7 @@ class Pipeline {
   void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
-  bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh);
+  void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);

@@ -137,10 +137,10 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, doubl
 }
 
 // Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
-// of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs once more with many
-// samples there; decimation takes out what is not needed.
+// of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs again with more and
+// more samples there; decimation takes out what is not needed.
 void Pipeline::begin_again(SurfaceMesh& mesh) {
-  constexpr int kMostTimes = 3;
+  constexpr int kMostTimes = 4;
   constexpr double kSpacing = 2, kLargest = 0.25;  // of samples, in distances promised, and in voxels; halved each time
   constexpr std::size_t kMostSamples = 1'000'000;
   if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
@@ -151,14 +151,15 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
   for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time, spacing /= 2) {
     cells.add(mesh, last_.geometry);
     const std::vector<Vec3> samples = cells.samples(spacing);
-    if (samples.size() > kMostSamples || !take_nearer_mesh(samples, mesh)) break;
+    if (samples.size() > kMostSamples) break;
+    take_nearer_mesh(samples, mesh);
   }
   controls_.set_observer(observer);
   if (observer != nullptr) observer->reshaped(mesh);
 }
 
 // The mesh that these samples give to stage 1, if it is nearer to the isosurface.
-bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh) {
+void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh) {
   const MeshFaults last_before = last_;
   const AssignmentFaults faults_before = faults_;
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
@@ -179,7 +180,6 @@ bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
     std::swap(result_.repair, repair_before);
   }
   result_.repair.seconds += repair_before.seconds;
-  return is_nearer;
 }
 
 // Where the mesh is farthest from the isosurface first: each round allows a smaller height, until there are enough
