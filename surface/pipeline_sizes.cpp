@@ -193,6 +193,7 @@ void Pipeline::refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::si
   const double even_radius = std::sqrt(2 * area_of(mesh) / (3 * std::sqrt(3.0) * static_cast<double>(count)));
   options.r_min = std::min(options.r_min, kLeastRadius * even_radius);
   options.criterion2 = Criterion2::kCircumradius;
+  options.coverage_targets = coverage_targets_;  // others than at first, where stage 1 has run again
   double radius = 2 * even_radius;
   for (int round = 0; round < kMostRounds && mesh.points.size() < count && !controls_.poll(); ++round) {
     // Vertices grow as the inverse of the height.

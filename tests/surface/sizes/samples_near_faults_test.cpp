@@ -78,5 +78,17 @@ TEST(Sizes, StageOneRunsAgainWhereAnErrorIsNotReached) {
   }
 }
 
+// Refinement to a number of vertices after that once read coverage targets of the first time, which were gone.
+TEST(Sizes, ANumberIsReachedAfterStageOneHasRunAgain) {
+  const ScalarGrid grid =
+      read_volume(std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression" / "stated_error_3.nrrd");
+  MeshingOptions options;
+  options.parameters.size.max_error = 0.1;
+  options.parameters.size.target_vertices = 3000;
+  const MeshingResult result = mesh_isosurface(grid, 160.39228540724568, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_NEAR(static_cast<double>(result.mesh.points.size()), 3000, 60);
+}
+
 }  // namespace
 }  // namespace deliso
