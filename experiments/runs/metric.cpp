@@ -15,6 +15,12 @@ void collect(const Json& value, const std::string& path, std::vector<std::string
   }
 }
 
+std::vector<std::string> paths_of(const Json& record) {
+  std::vector<std::string> paths;
+  collect(record, "", paths);
+  return paths;
+}
+
 }  // namespace
 
 Json value_at(const Json& record, const std::string& path) {
@@ -29,10 +35,12 @@ Json value_at(const Json& record, const std::string& path) {
   return *value;
 }
 
-std::vector<std::string> record_paths(Task task, bool distances) {
-  std::vector<std::string> paths;
-  collect(empty_record(task, distances), "", paths);
-  return paths;
+const std::vector<std::string>& record_paths(Task task, bool distances) {
+  static const std::vector<std::string> kTopology = paths_of(empty_record(Task::kTopology, false));
+  static const std::vector<std::string> kMesh = paths_of(empty_record(Task::kMesh, false));
+  static const std::vector<std::string> kMeshWithDistances = paths_of(empty_record(Task::kMesh, true));
+  if (task == Task::kTopology) return kTopology;
+  return distances ? kMeshWithDistances : kMesh;
 }
 
 }  // namespace deliso

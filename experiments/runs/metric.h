@@ -13,6 +13,6 @@ namespace deliso {
 Json value_at(const Json& record, const std::string& path);
 
 // Every path at which the records of such an experiment hold a number, a text, a truth value or a list of numbers.
-std::vector<std::string> record_paths(Task task, bool distances);
+const std::vector<std::string>& record_paths(Task task, bool distances);
 
 }  // namespace deliso

@@ -42,7 +42,7 @@ void check_column(const StrictObject& object, const Reference& reference) {
 std::vector<Metric> parse_metrics(const StrictObject& object, const Experiment& experiment, Mistakes& mistakes) {
   std::vector<Metric> metrics;
   if (!object.has("metrics")) return metrics;
-  const std::vector<std::string> paths = record_paths(experiment.task, experiment.distances);
+  const std::vector<std::string>& paths = record_paths(experiment.task, experiment.distances);
   std::set<std::string> names;
   for (std::size_t i = 0; i < object.at("metrics").size(); ++i) {
     const StrictObject item(object.at("metrics")[i], object.place_of("metrics") + "/" + std::to_string(i), kMetricKeys,

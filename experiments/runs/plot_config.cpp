@@ -94,7 +94,7 @@ std::string metric_name(const StrictObject& object, std::string_view key, const 
 void check_counts(const StrictObject& object, const Experiment& experiment) {
   const auto path = object.get<std::string>("value", "");
   std::vector<std::string> lists;
-  const Json empty = empty_record(experiment.task, experiment.distances);
+  const Json& empty = empty_record(experiment.task, experiment.distances);
   for (const std::string& one : record_paths(experiment.task, experiment.distances)) {
     const Json held = value_at(empty, one);
     if (held.is_array() && !held.empty() && held[0].is_number()) lists.push_back(one);

@@ -121,6 +121,23 @@ Json header(const std::string& experiment, const std::string& dataset, const std
               {"variant", variant},      {"repeat", repeat},         {"status", status}};
 }
 
+Json make_empty_record(Task task, bool distances) {
+  const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
+  const RunInput input{"", grid, 1, nullptr, {}, nullptr};
+  Json record = header("", "", "", 1, kStatusDone);
+  if (task == Task::kTopology) {
+    append_report(topology_report(input, 0.5, 1), record);
+    return record;
+  }
+  const MeshingOptions options;
+  append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
+  record["command"] = command_json(CommandOutcome{});
+  if (!distances) return record;
+  record["distances"] = distances_json(JudgedMesh{});
+  record["verification"] = verification_json(JudgedMesh{});
+  return record;
+}
+
 }  // namespace
 
 Json mesher_json(const Variant& variant) {
@@ -206,21 +223,13 @@ std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRu
   return record;
 }
 
-Json empty_record(Task task, bool distances) {
-  const ScalarGrid grid({2, 2, 2}, std::vector<float>{0, 1, 1, 1, 1, 1, 1, 1});
-  const RunInput input{"", grid, 1, nullptr, {}, nullptr};
-  Json record = header("", "", "", 1, kStatusDone);
-  if (task == Task::kTopology) {
-    append_report(topology_report(input, 0.5, 1), record);
-    return record;
-  }
-  const MeshingOptions options;
-  append_report(mesh_report({"", grid, 0.5, options}, MeshingResult{}), record);
-  record["command"] = command_json(CommandOutcome{});
-  if (!distances) return record;
-  record["distances"] = distances_json(JudgedMesh{});
-  record["verification"] = verification_json(JudgedMesh{});
-  return record;
+const Json& empty_record(Task task, bool distances) {
+  // Made once: a report reads the name of the processor.
+  static const Json kTopology = make_empty_record(Task::kTopology, false);
+  static const Json kMesh = make_empty_record(Task::kMesh, false);
+  static const Json kMeshWithDistances = make_empty_record(Task::kMesh, true);
+  if (task == Task::kTopology) return kTopology;
+  return distances ? kMeshWithDistances : kMesh;
 }
 
 }  // namespace deliso

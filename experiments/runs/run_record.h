@@ -48,6 +48,6 @@ struct RunInput {
 std::optional<Json> run_and_record(const Experiment& experiment, const PlannedRun& run, const RunInput& input);
 
 // A record with all its keys and no values of a run.
-Json empty_record(Task task, bool distances);
+const Json& empty_record(Task task, bool distances);
 
 }  // namespace deliso

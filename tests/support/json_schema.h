@@ -47,6 +47,7 @@ inline bool validates(const Json& schema, const Json& value, const Json& root = 
                                                   "$ref",
                                                   "description",
                                                   "default"};
+  static const Json kNone = Json::object();
   for (const auto& [keyword, argument] : schema.items()) {
     EXPECT_NE(std::find(kKnown.begin(), kKnown.end(), keyword), kKnown.end()) << keyword;
     if (keyword == "type" && !type_fits(argument, value)) return false;
@@ -77,7 +78,7 @@ inline bool validates(const Json& schema, const Json& value, const Json& root = 
       }
     }
     if (!value.is_object()) continue;
-    const Json& properties = schema.contains("properties") ? schema["properties"] : Json::object();
+    const Json& properties = schema.contains("properties") ? schema["properties"] : kNone;
     for (const auto& [key, inner] : value.items()) {
       if (keyword == "properties" && argument.contains(key) && !validates(argument[key], inner, root)) return false;
       if (keyword != "additionalProperties" || properties.contains(key)) continue;

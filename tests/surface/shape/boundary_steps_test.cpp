@@ -49,7 +49,7 @@ ScalarGrid flat_waves(std::uint64_t seed) {
 // In each of the first a face of the box cut the mesh off where nothing could be inserted, so a few triangles were too
 // far, and finer cubes took the place of all; in the last an inner vertex was a hair off a face.
 TEST(BoundarySteps, FlatBoxesGetGoodAnglesWithoutFinerCubes) {
-  for (const std::uint64_t seed : {44, 61, 130, 141, 149, 155, 158, 214}) {
+  for (const std::uint64_t seed : {44U, 61U, 130U, 141U, 149U, 155U, 158U, 214U}) {
     const ScalarGrid grid = flat_waves(seed);
     const MeshingResult result = mesh_isosurface(grid, 0, {});
     EXPECT_TRUE(is_proven(result.certificate)) << seed;

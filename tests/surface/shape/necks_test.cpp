@@ -15,7 +15,7 @@ namespace {
 
 // No step was taken there, whatever stood before it: the smallest angles were 0.13 to 3.97 degrees.
 TEST(Necks, TrianglesThatNothingFacesAreReplacedByBetterOnes) {
-  for (const std::uint64_t seed : {9, 43, 61, 115, 125, 127}) {
+  for (const std::uint64_t seed : {9U, 43U, 61U, 115U, 125U, 127U}) {
     Rng rng(seed);
     const ScalarGrid grid = testing::sampled({9, 9, 9}, [&](const Vec3&) { return std::floor(256 * rng.uniform()); });
     const MeshingResult result = mesh_isosurface(grid, 127.5, {});
