@@ -1,20 +1,15 @@
 // The crossings of the isosurface that a mesh has no triangle near.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
-#include "surface/mesh/surface_mesh.h"
+#include "surface/certificate/mesh_points.h"
 
 namespace deliso {
 
-// Edges longer than this many reaches may pass a crossing whose surroundings hold none of their ends.
-inline constexpr double kLongEdge = 2;
-
-// Where no triangle is within `reach`, in the order of the crossings; in mesh space. `long_triangles`: all triangles
-// that have a long edge. The same for any number of threads.
-std::vector<Vec3> far_crossings(const SurfaceMesh& mesh, const ExactSurface& surface, double reach,
-                                const std::vector<std::uint32_t>& long_triangles);
+// Where no triangle is within the points' reach, in the order of the crossings; in mesh space. The same for any number
+// of threads.
+std::vector<Vec3> far_crossings(const MeshPoints& mesh_points, const ExactSurface& surface);
 
 }  // namespace deliso

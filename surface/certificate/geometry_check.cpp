@@ -101,15 +101,20 @@ std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactS
   return large;
 }
 
-void check_vertices(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+// Block by block, for neighbours ask for the same samples of the volume.
+void check_vertices(const MeshPoints& points, const ExactSurface& surface, const Promise& promise,
                     GeometryCheck& check) {
   const Isosurface& isosurface = surface.isosurface;
-  const auto append_if_off = [&](std::size_t v, std::vector<std::uint32_t>& off) {
+  const SurfaceMesh& mesh = points.mesh();
+  const auto append_if_off = [&](std::size_t place, std::vector<std::uint32_t>& off) {
+    const std::uint32_t v = points.order()[place];
+    if (v >= mesh.points.size()) return;
     const Vec3& p = mesh.points[v];
     if (isosurface.passes_within(p, promise.max_residual) || isosurface.value(p) == 0) return;
-    if (!is_near(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(std::uint32_t(v));
+    if (!is_near(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(v);
   };
-  check.off_vertices = collect_in_blocks<std::uint32_t>(mesh.points.size(), surface.threads, append_if_off);
+  check.off_vertices = collect_in_blocks<std::uint32_t>(points.order().size(), surface.threads, append_if_off);
+  std::sort(check.off_vertices.begin(), check.off_vertices.end());
   check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
 }
 
@@ -189,11 +194,11 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
 
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise) {
   GeometryCheck check;
-  check_vertices(mesh, surface, promise, check);
-  const std::vector<std::uint32_t> long_triangles = check_triangles(mesh, surface, promise, check);
+  const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, check));
+  check_vertices(points, surface, promise, check);
   // Two of these have no parts for several threads.
   run_tasks(3, surface.threads, [&](std::size_t task) {
-    if (task == 0) check.missed_crossings = far_crossings(mesh, surface, promise.max_distance, long_triangles);
+    if (task == 0) check.missed_crossings = far_crossings(points, surface);
     if (task == 1) check_orientation(mesh, surface, check);
     if (task == 2) check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
   });

@@ -48,7 +48,7 @@ TEST(FarCrossings, AreThoseThatNoTriangleIsNear) {
         far += expected.size();
         all += surface.topology.crossings.size();
         for (const int threads : {1, 3}) {
-          const auto found = far_crossings(mesh, scene->surface(threads), reach, long_triangles);
+          const auto found = far_crossings(MeshPoints(mesh, reach, long_triangles), scene->surface(threads));
           EXPECT_EQ(found.size(), expected.size()) << reach << ' ' << kept;
           EXPECT_TRUE(found == expected) << reach << ' ' << kept;
         }
