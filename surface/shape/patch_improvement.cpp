@@ -8,17 +8,6 @@ namespace deliso {
 
 namespace {
 
-// A step must improve the least quality of what it replaces by this factor: so few steps lead to the end.
-constexpr double kLeastGain = 1.02;
-// Searches go on until the quality is beyond the goal by this factor.
-constexpr double kEnough = 1.15;
-// In one round, for so many triangles, the worst ones, several steps are tried together, and for one more of each so
-// many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes have
-// thousands of bad triangles that stay.
-constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100;
-// The same for single steps.
-constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
-
 void sort_best_first(std::vector<PatchStep>& steps) {
   std::stable_sort(steps.begin(), steps.end(),
                    [](const PatchStep& a, const PatchStep& b) { return a.quality > b.quality; });
@@ -107,6 +96,10 @@ void PatchImprovement::queue_added(std::size_t first) {
 bool PatchImprovement::improve(std::uint32_t triangle) {
   candidates_.clear();
   for (std::size_t kind = 0; kind < static_cast<std::size_t>(ShapeStep::kCount); ++kind) {
+    // What a refinement has brought would only be taken away.
+    const bool takes_away =
+        kind == static_cast<std::size_t>(ShapeStep::kRemove) || kind == static_cast<std::size_t>(ShapeStep::kMerge);
+    if (is_refining_ && takes_away) continue;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t first = candidates_.size();
       steps_.propose(static_cast<ShapeStep>(kind), triangle, corner, kEnough * goal_, candidates_);

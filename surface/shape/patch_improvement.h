@@ -26,6 +26,9 @@ class PatchImprovement {
   // more than one bad triangle beyond those that it removes. `freedom`: by this factor steps may leave the isosurface
   // farther than usual. `depth`: up to so many steps are tried together; from 2 on also shorter ways to better places.
   void run(std::span<const std::uint32_t> bad, double freedom, int depth);
+  // Refines the mesh around the given triangles, where that leaves better ones and no more bad ones
+  // (local_refinement.cpp). `may_be_far`: on the way.
+  void refine_around(std::span<const std::uint32_t> bad, double freedom, bool may_be_far);
 
  private:
   struct Queued {
@@ -36,6 +39,17 @@ class PatchImprovement {
       return a.quality != b.quality ? a.quality > b.quality : a.triangle > b.triangle;
     }
   };
+  // A step must improve the least quality of what it replaces by this factor: so few steps lead to the end.
+  static constexpr double kLeastGain = 1.02;
+  // Searches go on until the quality is beyond the goal by this factor.
+  static constexpr double kEnough = 1.15;
+  // In one round, for so many triangles, the worst ones, several steps are tried together, and for one more of each so
+  // many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes
+  // have thousands of bad triangles that stay.
+  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100;
+  // So many triangles are tried in one round, and one more of each so many triangles of the patch.
+  static constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
+
   bool improve(std::uint32_t triangle);
   bool improve_on_the_way();
   [[nodiscard]] bool improves(const PatchStep& step) const;
@@ -49,6 +63,11 @@ class PatchImprovement {
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
+  void try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried);
+  bool refine_until_sound(std::uint32_t triangle, std::size_t first_added);
+  std::vector<std::uint32_t> wrong_added(std::size_t first_added);
+  bool split_longest(std::uint32_t triangle);
+  bool bisect(std::uint32_t triangle, std::size_t corner);
   bool try_step(const PatchStep& step);
   [[nodiscard]] bool has_room(const PatchStep& step);
   [[nodiscard]] double least_removed(const PatchStep& step) const;
@@ -56,6 +75,7 @@ class PatchImprovement {
 
   Patch& patch_;
   const BoxSet& room_;
+  bool is_refining_ = false, may_be_far_ = false;
   int depth_ = 1;
   std::size_t several_left_ = 0;
   double goal_;  // the sine of min_angle

@@ -36,6 +36,24 @@ void count_left(const NumberedPatch& patch, ShapeStats& stats) {
   }
 }
 
+// Steps first; then refinements, one after the other freer to leave the isosurface.
+void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
+  for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
+    improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
+    patch.bad = patch.patch.triangles_below(goal);
+  }
+  if (rounds < kMostDepth) return;
+  struct Refinement {
+    double freedom;
+    bool may_be_far;
+  };
+  for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {16, false}, {16, true}}) {
+    if (patch.bad.empty()) return;
+    improvement.refine_around(patch.bad, freedom, may_be_far);
+    patch.bad = patch.patch.triangles_below(goal);
+  }
+}
+
 }  // namespace
 
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
@@ -52,10 +70,7 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
-                    for (int round = 0; round < options.rounds && !patch.bad.empty(); ++round) {
-                      improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
-                      patch.bad = patch.patch.triangles_below(goal);
-                    }
+                    improve_patch(patch, improvement, goal, options.rounds);
                     count_left(patch, part);
                   });
   stats.keep_worst(kMostWorst);

@@ -215,6 +215,21 @@ void ShapeSteps::merge(std::uint32_t kept, std::uint32_t gone, bool is_boundary_
   place(std::move(step), starts, enough, steps);
 }
 
+// Where the isosurface passes the middle of an inner side: along the normal of both triangles, or, as at the rims of
+// thin walls, along a line from between the apexes or from one of them.
+std::optional<Vec3> ShapeSteps::middle_of(const Side& side) {
+  const Vec3 &a = patch_.point(side.a), &b = patch_.point(side.b), &c = patch_.point(side.c), &d = patch_.point(side.d);
+  const Vec3 middle = 0.5 * (a + b);
+  const double reach = distance(a, b);
+  auto hit = search_.on_isosurface(middle, normal_of({side.triangle, side.beyond}), reach);
+  for (const Vec3& from : {0.5 * (c + d), c, d}) {
+    if (hit) break;
+    const double length = distance(from, middle);
+    if (length > 0) hit = search_.on_isosurface(middle, (middle - from) / length, std::min(reach, length));
+  }
+  return hit;
+}
+
 void ShapeSteps::split(const Side& side, double enough, std::vector<PatchStep>& steps) {
   const auto [triangle, a, b, c, beyond, d] = side;
   const auto p = static_cast<std::uint32_t>(patch_.vertex_count());
@@ -226,9 +241,19 @@ void ShapeSteps::split(const Side& side, double enough, std::vector<PatchStep>& 
     return;
   }
   PatchStep step{ShapeStep::kSplit, {triangle, beyond}, {{p, b, c}, {p, c, a}, {p, a, d}, {p, d, b}}, p, {}, 0, {}};
-  const Vec3 &from = patch_.point(a), &to = patch_.point(b);
-  const auto middle = search_.on_isosurface(0.5 * (from + to), normal_of(step.removed), distance(from, to));
-  if (middle) place(std::move(step), {*middle}, enough, steps);
+  if (const auto middle = middle_of(side)) place(std::move(step), {*middle}, enough, steps);
+}
+
+void ShapeSteps::bisect(std::uint32_t triangle, std::size_t corner, std::vector<PatchStep>& steps) {
+  const Side side = side_of(triangle, corner);
+  if (side.beyond == kNoVertex) return split(side, 0, steps);
+  const auto [t, a, b, c, beyond, d] = side;
+  const auto p = static_cast<std::uint32_t>(patch_.vertex_count());
+  PatchStep step{ShapeStep::kSplit, {t, beyond}, {{p, b, c}, {p, c, a}, {p, a, d}, {p, d, b}}, p, {}, 0, {}};
+  const auto point = middle_of(side);
+  if (!point || !are_whole(step.removed)) return;
+  step.point = step.start = *point;
+  steps.push_back(std::move(step));
 }
 
 // A vertex over the rim of a triangle and its neighbours.

@@ -24,6 +24,9 @@ class ShapeSteps {
   void propose(ShapeStep kind, std::uint32_t triangle, std::size_t corner, double enough,
                std::vector<PatchStep>& steps);
 
+  // Appends the split of a side in its middle, whatever its quality.
+  void bisect(std::uint32_t triangle, std::size_t corner, std::vector<PatchStep>& steps);
+
   // Brings the point of a step half the way back to where its search started, on the isosurface; false when it cannot.
   bool halve(PatchStep& step);
 
@@ -35,6 +38,7 @@ class ShapeSteps {
     std::uint32_t d = kNoVertex;
   };
   [[nodiscard]] Side side_of(std::uint32_t triangle, std::size_t corner) const;
+  [[nodiscard]] std::optional<Vec3> middle_of(const Side& side);
   void flip(const Side& side, double enough, std::vector<PatchStep>& steps);
   void drop(const Side& side, std::vector<PatchStep>& steps);
   void drop_two(const Side& side, std::vector<PatchStep>& steps);

@@ -236,21 +236,27 @@ bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_
   return volume && *volume / *old_volume >= kLeastShare;
 }
 
+void StepGuard::append_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found) {
+  near_.clear();
+  patch_.append_near(patch_.box_of(triangle), near_);
+  for (const std::uint32_t u : near_) {
+    if (u == triangle || !(patch_.quality(u) > 0)) continue;
+    const TriangleContact contact = triangle_contact(patch_.corners(triangle), patch_.corner_points(triangle),
+                                                     patch_.corners(u), patch_.corner_points(u));
+    if (contact != TriangleContact::kNone) found.push_back(u);
+  }
+}
+
 bool StepGuard::crosses_nothing(std::size_t first_added) {
   double least_old = 1;
   for (const auto& [a, b, c] : old_triangles_) least_old = std::min(least_old, sine_of_least_angle(a, b, c));
   for (std::size_t i = first_added; i < patch_.triangle_count(); ++i) {
     const auto t = static_cast<std::uint32_t>(i);
     if (!(patch_.quality(t) > std::min(kTinySine, least_old))) return false;
-    near_.clear();
-    patch_.append_near(patch_.box_of(t), near_);
-    for (const std::uint32_t u : near_) {
-      if (u == t) continue;
-      if (!(patch_.quality(u) > 0)) continue;
-      const TriangleContact contact =
-          triangle_contact(patch_.corners(t), patch_.corner_points(t), patch_.corners(u), patch_.corner_points(u));
-      if (contact != TriangleContact::kNone) return false;
-    }
+    if (may_meet_) continue;
+    meeting_.clear();
+    append_meeting(t, meeting_);
+    if (!meeting_.empty()) return false;
   }
   return true;
 }

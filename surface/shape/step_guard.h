@@ -31,6 +31,17 @@ class StepGuard {
   // Whether the mesh has to stay near what it was near.
   void set_witnesses(bool are_kept) { keeps_witnesses_ = are_kept; }
 
+  // What triangles of a step may do within a trial that has to end without: meet others (append_meeting() tells), and
+  // lie far from the isosurface (far() tells which did, of all steps since forget_far()).
+  void set_lenience(bool may_meet, bool may_be_far) {
+    may_meet_ = may_meet;
+    may_be_far_ = may_be_far;
+  }
+  void forget_far() { far_.clear(); }
+  [[nodiscard]] const std::vector<std::uint32_t>& far() const { return far_; }
+  // Appends the triangles that meet a triangle beyond what they share.
+  void append_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found);
+
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
   // triangles are whole.
   bool apply(const PatchStep& step);
@@ -67,7 +78,7 @@ class StepGuard {
   Patch& patch_;
   const Isosurface& isosurface_;
   double max_height_, max_edge_, max_sample_, freedom_ = 1;
-  bool keeps_witnesses_ = true;
+  bool keeps_witnesses_ = true, may_meet_ = false, may_be_far_ = false;
   TriangleHeights heights_;
   Witnesses vertices_;   // of the patch as it was first; how near follows from the step
   Witnesses crossings_;  // of the isosurface
@@ -80,7 +91,7 @@ class StepGuard {
   double old_height_ = 0;                           // the largest of their distances from the isosurface
   Unfaced old_unfaced_;                             // of the removed triangles
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
-  std::vector<std::uint32_t> near_;
+  std::vector<std::uint32_t> near_, meeting_, far_;
   std::vector<std::uint32_t> seen_;  // of each triangle: the latest search that came to it
   std::uint32_t search_ = 0;
   VertexLink link_;

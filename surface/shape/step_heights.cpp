@@ -17,11 +17,13 @@ bool StepGuard::lies_near(std::size_t first_added) {
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     const auto t = static_cast<std::uint32_t>(first_added + i);
     if (heights_.of(t, limits_[i]) <= limits_[i]) continue;
-    if (freedom_ < kOneCorner) return false;
     unfaced.add(patch_.corner_points(t));
-    if (unfaced.area > kMuchLarger * old_unfaced_.area || unfaced.longest > kMuchLarger * old_unfaced_.longest) {
-      return false;
+    if (freedom_ >= kOneCorner && unfaced.area <= kMuchLarger * old_unfaced_.area &&
+        unfaced.longest <= kMuchLarger * old_unfaced_.longest) {
+      continue;
     }
+    if (!may_be_far_) return false;
+    far_.push_back(t);
   }
   return true;
 }

@@ -1,0 +1,55 @@
+// Walls and necks thinner than their triangles are long, where no few steps give good angles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/base/rng.h"
+#include "surface/deliso.h"
+#include "surface/verification/verification.h"
+#include "tests/support/mesh_fields.h"
+
+namespace deliso {
+namespace {
+
+// White noise, each sample the mean of those around it: parts a voxel or two in size.
+ScalarGrid smooth_noise(std::uint64_t seed) {
+  constexpr std::size_t kSide = 10;
+  Rng rng(seed);
+  std::vector<double> white(kSide * kSide * kSide);
+  for (double& sample : white) sample = 256 * rng.uniform();
+  return testing::sampled({kSide, kSide, kSide}, [&](const Vec3& p) {
+    double sum = 0, count = 0;
+    for (int n = 0; n < 27; ++n) {
+      const Vec3 q = p + Vec3{double(n % 3 - 1), double(n / 3 % 3 - 1), double(n / 9 - 1)};
+      if (std::min({q.x, q.y, q.z}) < 0 || std::max({q.x, q.y, q.z}) > kSide - 1) continue;
+      sum += white[static_cast<std::size_t>(q.x + kSide * (q.y + kSide * q.z))];
+      ++count;
+    }
+    return std::floor(sum / count);
+  });
+}
+
+// Steps alone leave 23 triangles with angles below 30 degrees.
+TEST(LocalRefinement, LeavesNoBadTrianglesInThinParts) {
+  std::int64_t left = 0;
+  for (const std::uint64_t seed : {1U, 13U, 15U, 16U, 24U, 27U, 33U, 37U, 45U}) {
+    const ScalarGrid grid = smooth_noise(seed);
+    MeshingOptions options;
+    options.parameters.stage2.rho = 1;
+    const MeshingResult result = mesh_isosurface(grid, 127.5, options);
+    EXPECT_TRUE(is_proven(result.certificate)) << seed;
+    EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used).proven) << seed;
+    left += result.shape.bad_after;
+    options.threads = 3;
+    const MeshingResult again = mesh_isosurface(grid, 127.5, options);
+    EXPECT_TRUE(again.mesh.points == result.mesh.points) << seed;
+    EXPECT_TRUE(again.mesh.triangles == result.mesh.triangles) << seed;
+  }
+  EXPECT_LE(left, 2);
+}
+
+}  // namespace
+}  // namespace deliso
