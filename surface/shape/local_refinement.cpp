@@ -14,7 +14,7 @@ namespace deliso {
 
 namespace {
 
-constexpr int kMostSteps = 300;      // of one refinement
+constexpr int kMostTrialSteps = 300;
 constexpr double kLeastEdge = 1e-2;  // that is split, in mesh-space units
 
 double squared_side(const Patch& patch, std::uint32_t t, std::size_t corner) {
@@ -83,7 +83,7 @@ bool PatchImprovement::refine_until_sound(std::uint32_t triangle, std::size_t fi
   guard_.forget_far();
   queue_ = {};
   queue_.push({patch_.quality(triangle), triangle});
-  for (int left = kMostSteps; left > 0;) {
+  for (int left = kMostTrialSteps; left > 0;) {
     for (; left > 0 && !queue_.empty(); --left) {
       const std::uint32_t t = queue_.top().triangle;
       queue_.pop();
