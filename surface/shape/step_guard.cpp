@@ -83,6 +83,7 @@ bool StepGuard::apply(const PatchStep& step) {
     return true;
   }
   patch_.undo();
+  std::erase_if(far_, [&](std::uint32_t t) { return t >= first_added; });
   return false;
 }
 
