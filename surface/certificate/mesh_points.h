@@ -1,5 +1,5 @@
-// Points that a mesh goes through, sorted into blocks of space, to find those near a place and to go through them so that
-// neighbours follow one another.
+// Points that a mesh goes through, sorted into blocks of space, to find those near a place and to go through them so
+// that neighbours follow one another.
 #pragma once
 
 #include <cstddef>

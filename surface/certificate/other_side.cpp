@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "delaunay/base/box3.h"
+#include "raycast/voxel_intersection.h"
 
 namespace deliso {
 
@@ -13,21 +14,28 @@ namespace {
 
 constexpr int kHalvings = 10;
 
-// The search around one point. Within a cell the interpolant is linear along each axis, so a box has its extremes at
-// its corners: where all corners are on p's side, so is the whole box.
+// The search around one point in one cell, which is [0, 1]^3 here. The interpolant is linear along each axis there, so
+// a box has its extremes at its corners: where all corners are on p's side, so is the whole box.
 class SideSearch {
  public:
   SideSearch(const Isosurface& isosurface, const Vec3& p, double reach)
       : isosurface_(isosurface), p_(p), squared_reach_(reach * reach), is_above_(isosurface.is_above(p)) {}
 
-  // Precondition: the box lies within a cell.
+  // Whether the whole cell lies on p's side; else it is the one to search.
+  [[nodiscard]] bool is_passed_over(std::int32_t i, std::int32_t j, std::int32_t k) {
+    corners_ = isosurface_.grid().cell(i, j, k);
+    for (double& value : corners_) value -= isosurface_.isovalue();
+    first_ = {double(i), double(j), double(k)};
+    return std::all_of(corners_.begin(), corners_.end(), [&](double value) { return (value >= 0) == is_above_; });
+  }
+
   [[nodiscard]] bool finds_in(const Box3& box, int halvings) const {
-    if (squared_distance(p_, box.clamp(p_)) > squared_reach_) return false;
+    const Box3 in_mesh{place(box.low), place(box.high)};
+    if (squared_distance(p_, in_mesh.clamp(p_)) > squared_reach_) return false;
     bool has_other_side = false;
     for (unsigned corner = 0; corner < 8; ++corner) {
-      const Vec3 x = corner_of(box, corner);
-      if (isosurface_.is_above(x) == is_above_) continue;
-      if (squared_distance(p_, x) <= squared_reach_) return true;
+      if ((relative_value(corners_, corner_of(box, corner)) >= 0) == is_above_) continue;
+      if (squared_distance(p_, corner_of(in_mesh, corner)) <= squared_reach_) return true;
       has_other_side = true;
     }
     if (!has_other_side || halvings == 0) return false;
@@ -45,17 +53,20 @@ class SideSearch {
     return {((i & 1u) != 0 ? box.high : box.low).x, ((i & 2u) != 0 ? box.high : box.low).y,
             ((i & 4u) != 0 ? box.high : box.low).z};
   }
+  [[nodiscard]] Vec3 place(const Vec3& in_cell) const { return scaled(isosurface_.step(), first_ + in_cell); }
 
   const Isosurface& isosurface_;
   const Vec3& p_;
   double squared_reach_;
   bool is_above_;
+  CellCorners corners_{};  // the field minus the isovalue
+  Vec3 first_;             // the cell's low corner
 };
 
 }  // namespace
 
 bool has_other_side_within(const Isosurface& isosurface, const Vec3& p, double reach) {
-  const SideSearch search(isosurface, p, reach);
+  SideSearch search(isosurface, p, reach);
   const Box3& box = isosurface.box();
   const Vec3& step = isosurface.step();
   const Vec3 low = box.clamp(p - Vec3{reach, reach, reach}), high = box.clamp(p + Vec3{reach, reach, reach});
@@ -68,10 +79,12 @@ bool has_other_side_within(const Isosurface& isosurface, const Vec3& p, double r
   for (std::int64_t k = first[2]; k <= last[2]; ++k) {
     for (std::int64_t j = first[1]; j <= last[1]; ++j) {
       for (std::int64_t i = first[0]; i <= last[0]; ++i) {
-        const Vec3 corner = scaled(step, {double(i), double(j), double(k)});
-        const Box3 cell{corner, scaled(step, {double(i + 1), double(j + 1), double(k + 1)})};
-        const Box3 part{cell.clamp(low), cell.clamp(high)};
-        if (search.finds_in(part, kHalvings)) return true;
+        if (search.is_passed_over(std::int32_t(i), std::int32_t(j), std::int32_t(k))) continue;
+        const auto in_cell = [&](const Vec3& q) {
+          const Vec3 x{q.x / step.x - double(i), q.y / step.y - double(j), q.z / step.z - double(k)};
+          return Box3{{0, 0, 0}, {1, 1, 1}}.clamp(x);
+        };
+        if (search.finds_in({in_cell(low), in_cell(high)}, kHalvings)) return true;
       }
     }
   }

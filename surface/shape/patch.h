@@ -41,8 +41,10 @@ struct VertexLink {
 class Patch {
  public:
   Patch() = default;
+  // Of triangles with edges about this long.
+  explicit Patch(double edge) : places_(edge) {}
   // `room`: all of the mesh's triangles that meet one of these boxes are in the patch.
-  explicit Patch(const BoxSet& room) : room_(&room) {}
+  Patch(const BoxSet& room, double edge) : room_(&room), places_(edge) {}
 
   std::uint32_t add_vertex(const Vec3& point);
   std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& corners);

@@ -124,8 +124,19 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
   return plans;
 }
 
+// Of some triangles; 0 of none.
+double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {
+  double sum = 0;
+  for (const std::uint32_t t : triangles) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    sum += distance(mesh.points[a], mesh.points[b]) + distance(mesh.points[b], mesh.points[c]) +
+           distance(mesh.points[c], mesh.points[a]);
+  }
+  return sum / std::max(1.0, 3 * static_cast<double>(triangles.size()));
+}
+
 NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan) {
-  NumberedPatch taken{Patch(plan.room), {}, {}};
+  NumberedPatch taken{Patch(plan.room, mean_edge(mesh, plan.triangles)), {}, {}};
   // Of each vertex of the mesh: its number in the patch, or kNoVertex, which all have again in the end.
   thread_local std::vector<std::uint32_t> numbers;
   if (numbers.size() < mesh.points.size()) numbers.resize(mesh.points.size(), kNoVertex);

@@ -188,30 +188,11 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
   return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
 }
 
-// Whether more than so many triangles hang together with one. Goes from star to star, which is fast.
-bool StepGuard::is_large(std::uint32_t triangle, std::size_t most) {
-  ++search_;
-  seen_.resize(patch_.triangle_count(), 0);
-  near_.assign(1, triangle);
-  seen_[triangle] = search_;
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (const std::uint32_t v : patch_.corners(near_[i])) {
-      for (const std::uint32_t t : patch_.star(v)) {
-        if (seen_[t] == search_) continue;
-        seen_[t] = search_;
-        near_.push_back(t);
-      }
-      if (near_.size() > most) return true;
-    }
-  }
-  return false;
-}
-
 // The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a
 // step.
 std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
   const std::size_t most = 8 + 4 * old_triangles_.size();
-  if (is_large(triangle, most)) return std::nullopt;
+  if (component_.exceeds(patch_, triangle, most)) return std::nullopt;
   near_.assign(1, triangle);
   const Vec3 apex = patch_.corner_points(triangle)[0];
   double volume = 0;

@@ -10,6 +10,7 @@
 
 #include "raycast/isosurface.h"
 #include "surface/search/point_grid.h"
+#include "surface/shape/component_size.h"
 #include "surface/shape/patch.h"
 #include "surface/shape/triangle_heights.h"
 
@@ -73,7 +74,6 @@ class StepGuard {
   [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
-  [[nodiscard]] bool is_large(std::uint32_t triangle, std::size_t most);
 
   Patch& patch_;
   const Isosurface& isosurface_;
@@ -92,8 +92,7 @@ class StepGuard {
   Unfaced old_unfaced_;                             // of the removed triangles
   std::vector<double> limits_;                      // of each added triangle: how far it may be from the isosurface
   std::vector<std::uint32_t> near_, meeting_, far_;
-  std::vector<std::uint32_t> seen_;  // of each triangle: the latest search that came to it
-  std::uint32_t search_ = 0;
+  ComponentSize component_;
   VertexLink link_;
 };
 

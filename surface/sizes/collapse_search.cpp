@@ -264,6 +264,7 @@ bool CollapseSearch::meets_nothing() {
 bool CollapseSearch::keeps_volume() {
   constexpr std::size_t kSmall = 40;  // triangles
   constexpr double kLeastShare = 0.5;
+  if (component_.exceeds(mesh_, tried_.removed.front(), kSmall)) return true;
   const Vec3& apex = mesh_.point(vertex_);
   const auto volume_of = [&](const std::array<Vec3, 3>& p) {
     return dot(p[0] - apex, cross(p[1] - apex, p[2] - apex)) / 6;
@@ -271,7 +272,6 @@ bool CollapseSearch::keeps_volume() {
   double volume = 0;
   near_.assign(1, tried_.removed.front());
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    if (near_.size() > kSmall) return true;
     volume += volume_of(mesh_.corner_points(near_[i]));
     const auto& corners = mesh_.corners(near_[i]);
     for (std::size_t side = 0; side < 3; ++side) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raycast/isosurface.h"
+#include "surface/shape/component_size.h"
 #include "surface/shape/patch.h"
 #include "surface/sizes/decimation_options.h"
 #include "surface/sizes/witnesses.h"
@@ -65,6 +66,7 @@ class CollapseSearch {
   std::vector<Candidate> candidates_;
   PatchStep best_, tried_;
   std::vector<std::uint32_t> near_;
+  ComponentSize component_;
   std::vector<Vec3> samples_;
 };
 

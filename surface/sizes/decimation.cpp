@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "surface/base/parallel_blocks.h"
 #include "surface/shape/patch.h"
+#include "surface/shape/patches.h"
 #include "surface/sizes/collapse_search.h"
 #include "surface/sizes/witnesses.h"
 
@@ -19,7 +21,9 @@ namespace {
 constexpr std::size_t kVerticesAtOnce = 1024;
 
 Patch patch_of(const SurfaceMesh& mesh) {
-  Patch patch;
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  Patch patch(mean_edge(mesh, all));
   for (const Vec3& p : mesh.points) patch.add_vertex(p);
   for (const auto& corners : mesh.triangles) patch.add_triangle(corners);
   return patch;

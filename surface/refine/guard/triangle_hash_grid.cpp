@@ -12,7 +12,6 @@ namespace deliso {
 
 namespace {
 
-constexpr double kSmallest = 0.5;  // boxes smaller than this (mesh-space units) share a level
 // Cells are numbered up to this far from the origin, because the keys have no room for more; cells beyond share the
 // numbers of the outermost ones.
 constexpr double kFarthest = 0x1p18 - 1;
@@ -25,9 +24,6 @@ constexpr int kBlockShift = 3;
 // The exponent of a normal number above zero, or of infinity.
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023; }
 
-// 2^-level, for a level at which triangles are stored.
-double scale_of(int level) { return std::bit_cast<double>(std::uint64_t(1023 - level) << 52); }
-
 // std::floor for numbers in the range of an integer; std::floor itself may be a function call.
 std::int32_t floored(double x) {
   const auto towards_zero = static_cast<std::int32_t>(x);
@@ -36,9 +32,19 @@ std::int32_t floored(double x) {
 
 }  // namespace
 
-int TriangleHashGrid::level_of(const Box3& box) {
+TriangleHashGrid::TriangleHashGrid(double edge) {
+  constexpr int kFinest = 8;
+  for (; finer_ < kFinest && smallest_ > 2 * edge; smallest_ /= 2) ++finer_;
+}
+
+int TriangleHashGrid::level_of(const Box3& box) const {
   const Vec3 size = box.size();
-  return exponent_of(std::max({size.x, size.y, size.z, kSmallest})) + 2;
+  return exponent_of(std::max({size.x, size.y, size.z, smallest_})) + finer_ + 2;
+}
+
+// What turns lengths into cells of a level.
+double TriangleHashGrid::scale_of(int level) const {
+  return std::bit_cast<double>(std::uint64_t(1023 + finer_ - level) << 52);
 }
 
 TriangleHashGrid::FloatBox::FloatBox(const Box3& box)
@@ -108,14 +114,14 @@ void TriangleHashGrid::Range::for_each(Visit&& visit) const {
   }
 }
 
-TriangleHashGrid::Place TriangleHashGrid::place_of(const Vec3& point, int level) {
+TriangleHashGrid::Place TriangleHashGrid::place_of(const Vec3& point, int level) const {
   const double scale = scale_of(level);
   const auto place = [&](double x) { return floored(std::clamp(x * scale, -kFarthest, kFarthest)); };
   return {place(point.x), place(point.y), place(point.z)};
 }
 
 // The cells that may hold the low corners of the boxes that meet `box`: such a box is smaller than half a cell.
-TriangleHashGrid::Range TriangleHashGrid::cells_near(const Box3& box, int level) {
+TriangleHashGrid::Range TriangleHashGrid::cells_near(const Box3& box, int level) const {
   const double half = 0.5 / scale_of(level);
   return {place_of(box.low - Vec3{half, half, half}, level), place_of(box.high, level)};
 }

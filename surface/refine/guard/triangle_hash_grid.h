@@ -9,10 +9,15 @@
 
 namespace deliso {
 
-// Level l has cells of 2^l mesh-space units. A triangle is stored at the first level whose cells are more than twice as
-// large as its box, in the cell of the box's low corner.
+// Level l has cells of 2^l mesh-space units, or smaller by one factor for all. A triangle is stored at the first level
+// whose cells are more than twice as large as its box, in the cell of the box's low corner.
 class TriangleHashGrid {
  public:
+  TriangleHashGrid() = default;
+  // For a set whose triangles have edges about this long (mesh-space units): where these are short, levels begin with
+  // smaller cells, so that none holds hundreds of triangles.
+  explicit TriangleHashGrid(double edge);
+
   [[nodiscard]] bool holds(std::uint32_t triangle) const { return triangle < held_.size() && held_[triangle] != 0; }
   // Precondition of add(): not stored yet; of remove(): stored, with the same box. Triangles whose box is too large for
   // every level are left out.
@@ -60,9 +65,10 @@ class TriangleHashGrid {
     void for_each(Visit&& visit) const;
   };
 
-  static int level_of(const Box3& box);
-  static Place place_of(const Vec3& point, int level);
-  static Range cells_near(const Box3& box, int level);
+  [[nodiscard]] int level_of(const Box3& box) const;
+  [[nodiscard]] double scale_of(int level) const;
+  [[nodiscard]] Place place_of(const Vec3& point, int level) const;
+  [[nodiscard]] Range cells_near(const Box3& box, int level) const;
   static Range blocks_of(const Range& cells);
   static std::uint64_t cell_key(int level, const Place& place);
   static std::uint64_t block_key(int level, const Place& place);
@@ -73,6 +79,9 @@ class TriangleHashGrid {
   template <class Visit>
   void for_each_used_cell(const Range& cells, int level, Visit&& visit) const;
 
+  static constexpr double kSmallest = 0.5;  // mesh-space units, see smallest_
+  int finer_ = 0;                           // cells are smaller by 2 to this power
+  double smallest_ = kSmallest;             // boxes smaller than this share a level
   // A hash table with open addressing, of cells and of the blocks that hold some; both stay in it when they become
   // empty.
   std::vector<Cell> cells_ = std::vector<Cell>(64);

@@ -65,7 +65,7 @@ struct CutPlane {
   Isosurface isosurface{grid, 0, {}};
   SearchCounters counters;
   BoxSet room;
-  Patch patch{room};
+  Patch patch{room, 1};
   ShapeSteps steps{patch, isosurface, counters};
 
   CutPlane(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {

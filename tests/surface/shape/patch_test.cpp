@@ -18,7 +18,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 struct Example {
   BoxSet room;
-  Patch patch{room};
+  Patch patch{room, 1};
 
   explicit Example(const TriangleMesh& mesh) {
     Box3 box;
