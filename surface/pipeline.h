@@ -59,6 +59,8 @@ class Pipeline {
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
+  void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);
+  MeshFaults faults_of(const SurfaceMesh& mesh);
   void find_crossings();
   void drop_crossings();
   void certify(SurfaceMesh mesh);

@@ -23,6 +23,14 @@
 
 namespace deliso {
 
+namespace {
+
+// How freely steps leave the isosurface to bring triangles near it: with more, crossings of one component would be
+// reached from another that is near.
+constexpr double kFreeSteps = 2;
+
+}  // namespace
+
 void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (parameters_.size.max_edge) limit_edges(mesh, options);
   improve(mesh, parameters_.shape.rounds);
@@ -113,13 +121,12 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
 void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
   if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
   constexpr double kReach = 0.9;  // of the distance promised
-  constexpr double kFreedom = 2;  // with more, crossings of one component would be reached from another that is near
   Promise nearer = promise_;
   nearer.max_distance *= kReach;
   const auto check = [&] {
     last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
   };
-  take_steps_nearer(mesh, nearer, kFreedom);
+  take_steps_nearer(mesh, nearer, kFreeSteps);
   check();
   if (!last_.geometry.is_near()) return;
   const SurfaceMesh before = mesh;
@@ -139,16 +146,50 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     }
   });
   if (!repairs(parameters_) || last_.count() == 0) return;
-  timed(result_.repair, [&] {
-    find_crossings();
-    // With a smaller error promised, cubes that are no smaller will mostly do.
-    constexpr double kTimes = 4, kLargest = 0.9;
-    const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
-    const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
-    result_.repair.components_polygonized +=
-        replace_faulty_components(mesh, *surface_, promise_, last_, cube, controls_);
-  });
+  find_crossings();
+  // With a smaller error promised, cubes that are no smaller will mostly do.
+  constexpr int kMostRounds = 4;
+  constexpr double kTimes = 4, kLargest = 0.9;
+  const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
+  const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
+  std::vector<bool> is_marked;
+  std::int64_t most = 0;
+  for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
+    SurfaceMesh next = mesh;
+    const std::int64_t replaced = timed(result_.repair, [&] {
+      return replace_faulty_components(next, *surface_, last_, cube / (1 + round), is_marked);
+    });
+    if (replaced == 0) break;
+    MeshFaults faults = faults_of(next);
+    if (is_sized(parameters_)) bring_cubes_near(next, faults);
+    if (faults.count() >= last_.count()) continue;
+    mesh = std::move(next);
+    last_ = std::move(faults);
+    most = std::max(most, replaced);
+  }
+  result_.repair.components_polygonized += most;
   drop_crossings();
+}
+
+// Cubes a little too large leave a few triangles too far: steps bring these near. Smaller ones would have many times as
+// many vertices everywhere.
+void Pipeline::bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults) {
+  constexpr std::int64_t kFew = 1000;
+  const std::int64_t off = faults.geometry.mesh_off + std::ssize(faults.geometry.missed_crossings);
+  if (off == 0 || off > kFew || off != faults.count() || !improves_shape(parameters_)) return;
+  SurfaceMesh nearer = mesh;
+  take_steps_nearer(nearer, promise_, kFreeSteps);
+  MeshFaults left = faults_of(nearer);
+  if (left.count() >= faults.count()) return;
+  mesh = std::move(nearer);
+  faults = std::move(left);
+}
+
+MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
+  return timed(result_.certify_stage, [&] {
+    return MeshFaults{check_geometry(mesh, *surface_, promise_),
+                      crossing_in_world(mesh, *isosurface_, options_.threads)};
+  });
 }
 
 void Pipeline::find_crossings() {

@@ -14,7 +14,6 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kMostPairsAtLast = 4096;
-constexpr int kMostRoundsAtLast = 4;
 
 // The triangles at which something is wrong.
 std::vector<bool> faulty_triangles(const SurfaceMesh& mesh, const MeshFaults& faults) {
@@ -95,25 +94,13 @@ SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& i
   return self_intersections(to_world(std::move(points), isosurface).points, mesh.triangles, kMostPairsAtLast, threads);
 }
 
-std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                                       MeshFaults& faults, double cube, Controls& controls) {
-  std::vector<bool> is_marked(surface.topology.components.size(), false);
-  std::int64_t replaced = 0;
-  for (int round = 0; round < kMostRoundsAtLast && faults.count() > 0 && !controls.poll(); ++round) {
-    SurfaceMesh next = mesh;
-    next.pole_heights.assign(next.points.size(), 1);
-    set_side_adjacency(next);
-    mark_components(next, surface, faults, is_marked);
-    const std::int64_t count = replace_marked(surface, is_marked, cube / (1 + round), next);
-    if (count == 0) break;
-    MeshFaults left{check_geometry(next, surface, promise),
-                    crossing_in_world(next, surface.isosurface, surface.threads)};
-    if (left.count() >= faults.count()) break;
-    mesh = std::move(next);
-    faults = std::move(left);
-    replaced = std::max(replaced, count);
-  }
-  return replaced;
+std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                                       double cube, std::vector<bool>& is_marked) {
+  is_marked.resize(surface.topology.components.size(), false);
+  mesh.pole_heights.assign(mesh.points.size(), 1);
+  set_side_adjacency(mesh);
+  mark_components(mesh, surface, faults, is_marked);
+  return replace_marked(surface, is_marked, cube, mesh);
 }
 
 }  // namespace deliso

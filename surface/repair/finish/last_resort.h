@@ -25,10 +25,9 @@ struct MeshFaults {
 // The triangles that cross once the mesh is in the world's coordinates.
 SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface, int threads);
 
-// Replaces the components that have faults, and those that cross them then, as long as that leaves fewer; updates
-// `faults`. Returns the number of components replaced. In mesh space. `cube`: how long the diagonals of the first finer
-// cubes may be; they get smaller as long as what is promised is not kept.
-std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                                       MeshFaults& faults, double cube, Controls& controls);
+// Replaces the components that have faults, and those marked, by finer cubes, and marks them. Returns the number of
+// components replaced. In mesh space. `cube`: how long the diagonals of the cubes may be.
+std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                                       double cube, std::vector<bool>& is_marked);
 
 }  // namespace deliso

@@ -78,6 +78,20 @@ TEST(Sizes, StageOneRunsAgainWhereAnErrorIsNotReached) {
   }
 }
 
+// Cubes four times as large as the error leave more samples too far than they replace: no smaller ones were tried, and no
+// steps. What ends the run is told as proven, and cubes are no smaller than they have to be.
+TEST(Sizes, FinerCubesAreBroughtNearBySteps) {
+  const ScalarGrid grid =
+      read_volume(std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression" / "stated_error_4.nrrd");
+  MeshingOptions options;
+  options.parameters.size.max_error = 0.1;
+  const MeshingResult result = mesh_isosurface(grid, 127.5, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used, {.max_distance = 0.1}).proven);
+  EXPECT_EQ(result.repair.components_polygonized, 1);
+  EXPECT_LT(result.decimation.vertices_before, 30'000);
+}
+
 // Refinement to a number of vertices after that once read coverage targets of the first time, which were gone.
 TEST(Sizes, ANumberIsReachedAfterStageOneHasRunAgain) {
   const ScalarGrid grid =
