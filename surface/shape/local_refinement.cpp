@@ -6,6 +6,7 @@
 // for now; what is bad, far or meets others is improved by single steps or split further, until nothing is. Where that
 // does not end well, all of it is taken back.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "surface/shape/patch_improvement.h"
@@ -15,7 +16,8 @@ namespace deliso {
 namespace {
 
 constexpr int kMostTrialSteps = 300;
-constexpr double kLeastEdge = 1e-2;  // that is split, in mesh-space units
+constexpr std::size_t kMostTurned = 400;  // triangles of a component that a trial could turn inside out
+constexpr double kLeastEdge = 1e-2;       // that is split, in mesh-space units
 
 double squared_side(const Patch& patch, std::uint32_t t, std::size_t corner) {
   const auto& corners = patch.corners(t);
@@ -58,9 +60,10 @@ void PatchImprovement::try_refinement(std::uint32_t triangle, std::vector<std::u
   const std::size_t steps_before = patch_.steps(), first_added = patch_.triangle_count();
   const auto counted = stats_.steps;
   const std::vector<std::uint32_t> bad_before = patch_.triangles_below(goal_);
+  const std::optional<double> old_volume = guard_.volume_around(triangle, kMostTurned);
+  tried.push_back(triangle);
   const bool is_sound = refine_until_sound(triangle, first_added);
   Replaced old;
-  tried.push_back(triangle);
   const std::size_t first_tried = tried.size();
   for (const std::uint32_t t : bad_before) {
     if (patch_.has(t)) continue;
@@ -68,14 +71,20 @@ void PatchImprovement::try_refinement(std::uint32_t triangle, std::vector<std::u
     old.least = std::min(old.least, patch_.quality(t));
     tried.push_back(t);
   }
-  const std::uint32_t worst = worst_added(first_added);
-  if (is_sound && old.bad > 0 && bad_added(first_added) <= old.bad &&
-      (worst == kNoVertex || patch_.quality(worst) >= std::min(goal_, kLeastGain * old.least))) {
+  if (is_sound && is_improved(old, old_volume, first_added)) {
     tried.resize(first_tried);
     return;
   }
   while (patch_.steps() > steps_before) patch_.undo();
   stats_.steps = counted;
+}
+
+// Whether there are no more bad triangles than those replaced, and better ones.
+bool PatchImprovement::is_improved(const Replaced& old, std::optional<double> old_volume, std::size_t first_added) {
+  const std::uint32_t worst = worst_added(first_added);
+  if (worst == kNoVertex || old.bad == 0 || bad_added(first_added) > old.bad) return false;
+  if (patch_.quality(worst) < std::min(goal_, kLeastGain * old.least)) return false;
+  return guard_.keeps_volume(old_volume, worst, kMostTurned + 4 * kMostTrialSteps);
 }
 
 // Whether in the end no triangle added meets another or lies far.

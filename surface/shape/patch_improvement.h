@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -64,6 +65,7 @@ class PatchImprovement {
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
   void try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried);
+  bool is_improved(const Replaced& old, std::optional<double> old_volume, std::size_t first_added);
   bool refine_until_sound(std::uint32_t triangle, std::size_t first_added);
   std::vector<std::uint32_t> wrong_added(std::size_t first_added);
   bool split_longest(std::uint32_t triangle);

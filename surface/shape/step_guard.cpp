@@ -67,7 +67,8 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
 bool StepGuard::apply(const PatchStep& step) {
   if (!learn_old(step.removed)) return false;
   const std::size_t first_added = patch_.triangle_count();
-  const std::optional<double> old_volume = volume_around(step.removed.front());
+  const std::size_t most_turned = 8 + 4 * old_triangles_.size();
+  const std::optional<double> old_volume = volume_around(step.removed.front(), most_turned);
   patch_.apply(step);
   limits_.clear();
   double longest_added = 0;
@@ -78,7 +79,8 @@ bool StepGuard::apply(const PatchStep& step) {
         std::max(old_height_, std::min(max_height_, freedom_ * std::max(kFreeDistance, kFreeHeight * longest))));
   }
   if (longest_added <= std::max(max_edge_, old_longest_) && keeps_disks(step) && lies_near(first_added) &&
-      keeps_volume(old_volume, first_added) && keeps_sides(first_added) && crosses_nothing(first_added) &&
+      (step.added.empty() || keeps_volume(old_volume, static_cast<std::uint32_t>(first_added), most_turned)) &&
+      keeps_sides(first_added) && crosses_nothing(first_added) &&
       (!keeps_witnesses_ || covers_witnesses(first_added)) && samples_stay_near(first_added)) {
     return true;
   }
@@ -188,10 +190,7 @@ bool StepGuard::keeps_sides(std::size_t first_added) {
   return !sweeps_lone_sample(old_triangles_, new_triangles_, isosurface_);
 }
 
-// The volume that a small closed component encloses; none of an open one, or of one that is too large to be turned by a
-// step.
-std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
-  const std::size_t most = 8 + 4 * old_triangles_.size();
+std::optional<double> StepGuard::volume_around(std::uint32_t triangle, std::size_t most) {
   if (component_.exceeds(patch_, triangle, most)) return std::nullopt;
   near_.assign(1, triangle);
   const Vec3 apex = patch_.corner_points(triangle)[0];
@@ -210,12 +209,14 @@ std::optional<double> StepGuard::volume_around(std::uint32_t triangle) {
   return volume;
 }
 
-// A small component must not be turned inside out or flattened, which no rim and no crossing tells.
-bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::size_t first_added) {
-  constexpr double kLeastShare = 0.5;
-  if (!old_volume || first_added == patch_.triangle_count()) return true;
-  const std::optional<double> volume = volume_around(static_cast<std::uint32_t>(first_added));
-  return volume && *volume / *old_volume >= kLeastShare;
+bool StepGuard::keeps_volume(const std::optional<double>& old_volume, std::uint32_t triangle, std::size_t most) {
+  constexpr double kLeastShare = 0.5, kFlat = 1e-9;  // mesh-space units
+  if (!old_volume) return true;
+  const std::optional<double> volume = volume_around(triangle, most);
+  if (!volume) return false;
+  // Of one as thin as rounding no sign tells which way it faces: it stays so thin.
+  if (std::abs(*old_volume) < kFlat) return std::abs(*volume) < kFlat;
+  return *volume / *old_volume >= kLeastShare;
 }
 
 void StepGuard::append_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found) {

@@ -43,6 +43,13 @@ class StepGuard {
   // Appends the triangles that meet a triangle beyond what they share.
   void append_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found);
 
+  // The volume that the component of a triangle encloses; none of an open one, or of one of more than so many
+  // triangles.
+  [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle, std::size_t most);
+  // Whether a component has at least half of that volume, and its sign; true if it had none. A small component must not
+  // be turned inside out or flattened, which no rim and no crossing tells.
+  [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::uint32_t triangle, std::size_t most);
+
   // Applies the step, or leaves the patch as it is and returns false. Precondition: the vertices of the removed
   // triangles are whole.
   bool apply(const PatchStep& step);
@@ -70,8 +77,6 @@ class StepGuard {
   [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
   [[nodiscard]] bool samples_stay_near(std::size_t first_added) const;
-  [[nodiscard]] std::optional<double> volume_around(std::uint32_t triangle);
-  [[nodiscard]] bool keeps_volume(const std::optional<double>& old_volume, std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
 

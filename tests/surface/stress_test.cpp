@@ -36,17 +36,19 @@ struct StressInput {
   const char* name;
   double isovalue;
   bool is_closed = false;
+  RMinOf r_min_of = RMinOf::kVoxels;
   friend std::ostream& operator<<(std::ostream& out, const StressInput& input) { return out << input.name; }
 };
 
 class FoundByStress : public ::testing::TestWithParam<StressInput> {};
 
 TEST_P(FoundByStress, IsProvenByBoth) {
-  const auto& [name, isovalue, is_closed] = GetParam();
+  const auto& [name, isovalue, is_closed, r_min_of] = GetParam();
   const ScalarGrid grid =
       read_volume(std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression" / (std::string(name) + ".nrrd"));
   MeshingOptions options;
   if (is_closed) options.parameters.boundary = Boundary::kClosed;
+  options.parameters.r_min_of = r_min_of;
   const MeshingResult result = mesh_isosurface(grid, isovalue, options);
   EXPECT_TRUE(is_proven(result.certificate));
   for (const std::string& broken : result.certificate.broken) ADD_FAILURE() << broken;
@@ -82,7 +84,9 @@ INSTANTIATE_TEST_SUITE_P(
         StressInput{"thin_tube", 6.125, true},
         // Four triangles crossed where small integers meet a flat spacing; samples over twelve decades left a vertex
         // and parts of the mesh off the isosurface.
-        StressInput{"flat_crossing", 1}, StressInput{"contradiction", 1}),
+        StressInput{"flat_crossing", 1}, StressInput{"contradiction", 1},
+        // A component as thin as rounding, whose volume has either sign: the shape stage turned it inside out.
+        StressInput{"flat_component", 0, false, RMinOf::kBox}),
     [](const auto& input) { return std::string(input.param.name); });
 
 }  // namespace
