@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kMostTrialSteps = 300;
 constexpr std::size_t kMostTurned = 400;  // triangles of a component that a trial could turn inside out
-constexpr double kLeastEdge = 1e-2;       // that is split, in mesh-space units
+constexpr std::size_t kMostThen = kMostTurned + 4 * std::size_t{kMostTrialSteps};  // that it may come to have
+constexpr double kLeastEdge = 1e-2;                                                // that is split, in mesh-space units
 
 double squared_side(const Patch& patch, std::uint32_t t, std::size_t corner) {
   const auto& corners = patch.corners(t);
@@ -84,7 +85,7 @@ bool PatchImprovement::is_improved(const Replaced& old, std::optional<double> ol
   const std::uint32_t worst = worst_added(first_added);
   if (worst == kNoVertex || old.bad == 0 || bad_added(first_added) > old.bad) return false;
   if (patch_.quality(worst) < std::min(goal_, kLeastGain * old.least)) return false;
-  return guard_.keeps_volume(old_volume, worst, kMostTurned + 4 * kMostTrialSteps);
+  return guard_.keeps_volume(old_volume, worst, kMostThen);
 }
 
 // Whether in the end no triangle added meets another or lies far.
