@@ -196,7 +196,9 @@ void CellSweep::add_saddles(int count, int start, int end) {
   if (count == 1 && outside(roots[1]) < outside(roots[0])) std::swap(roots[0], roots[1]);
   if (count == 2 && roots[1] < roots[0]) std::swap(roots[0], roots[1]);
   for (int i = 0; i < count && as_index(saddle_count_) < saddles_.size(); ++i) {
-    saddles_[as_index(saddle_count_++)] = {slice_saddle(std::clamp(roots[as_index(i)], low, high)), piece};
+    // No std::clamp: rounding may put the end before the start.
+    const double w = std::min(std::max(roots[as_index(i)], low), high);
+    saddles_[as_index(saddle_count_++)] = {slice_saddle(w), piece};
   }
 }
 
