@@ -124,7 +124,6 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
   return plans;
 }
 
-// Of some triangles; 0 of none.
 double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {
   double sum = 0;
   for (const std::uint32_t t : triangles) {

@@ -34,7 +34,10 @@ struct NumberedPatch {
   std::vector<std::uint32_t> vertices;  // of the patch's first vertices, ascending
   std::vector<std::uint32_t> bad;       // triangles of the patch
 };
+
+// The mean length of the edges of some triangles (mesh-space units); 0 of none.
 double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles);
+
 NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan);
 
 // Brings what was changed in patches into the mesh, which then has no neighbours; removes vertices without triangles.
