@@ -2,10 +2,8 @@
 // finer grid.
 #pragma once
 
-#include "surface/base/controls.h"
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/geometry_check.h"
-#include "surface/certificate/promise.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/surface_mesh.h"
 
