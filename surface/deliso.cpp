@@ -94,7 +94,7 @@ SurfaceMesh Pipeline::stage1(std::span<const Vec3> samples) {
   del_s0->set_observer(controls_.observer());
   if (controls_.observer() != nullptr) controls_.observer()->triangulated(*del_s0);
   controls_.enter("recover");
-  return mended_mesh(recover_topology(std::move(del_s0), samples));
+  return mended_mesh(recover_topology(std::move(del_s0), samples), samples);
 }
 
 // Recover(Del S0), Figure 5; then with samples of parts that the mesh misses, or to the thresholds of stage 2.
@@ -123,9 +123,9 @@ Pipeline::DelS Pipeline::recover_topology(DelS del_s, std::span<const Vec3> samp
 }
 
 // The tetrahedra go before RefineGeom.
-SurfaceMesh Pipeline::mended_mesh(DelS del_s1) {
+SurfaceMesh Pipeline::mended_mesh(DelS del_s1, std::span<const Vec3> samples) {
   controls_.enter("repair");
-  auto recovered = timed(result_.repair, [&] { return mended(std::move(del_s1)); });
+  auto recovered = timed(result_.repair, [&] { return mended(std::move(del_s1), samples); });
   timed(result_.poles, [&] { recovered->compute_poles(); });
   SurfaceMesh mesh = timed(result_.build, [&] { return recovered->build_triangle_mesh(); });
   timed(result_.repair, [&] { recovered->mend(mesh); });
@@ -166,14 +166,14 @@ void Pipeline::take_inner_seconds(const RecoveredSurface& recovered) {
 }
 
 // With new samples and signs where the mesh to be would differ from the exact topology.
-std::unique_ptr<RecoveredSurface> Pipeline::mended(DelS del_s1) {
+std::unique_ptr<RecoveredSurface> Pipeline::mended(DelS del_s1, std::span<const Vec3> samples) {
   if (!repairs(parameters_)) return std::make_unique<UnrepairedSurface>(std::move(del_s1), parameters_);
   // Dual edges and hits are of no use any more.
   auto signs_alone = std::make_unique<SignedDelaunay>(std::move(*del_s1));
   del_s1.reset();
   release_free_memory();
-  auto repair = std::make_unique<Repair>(*cache_, std::move(signs_alone), parameters_.repair.max_rounds, controls_,
-                                         result_.repair);
+  auto repair = std::make_unique<Repair>(*cache_, std::move(signs_alone), samples, parameters_.repair.max_rounds,
+                                         controls_, result_.repair);
   repair->mend_topology();
   return repair;
 }

@@ -37,9 +37,9 @@ class Pipeline {
   // been too far from the isosurface.
   SurfaceMesh stage1(std::span<const Vec3> samples);
   DelS recover_topology(DelS del_s0, std::span<const Vec3> samples);
-  SurfaceMesh mended_mesh(DelS del_s1);
+  SurfaceMesh mended_mesh(DelS del_s1, std::span<const Vec3> samples);
   SurfaceMesh refine(SurfaceMesh mesh);
-  std::unique_ptr<RecoveredSurface> mended(DelS del_s1);
+  std::unique_ptr<RecoveredSurface> mended(DelS del_s1, std::span<const Vec3> samples);
   void take_inner_seconds(const RecoveredSurface& recovered);
   void find_faults(const SurfaceMesh& mesh);
 

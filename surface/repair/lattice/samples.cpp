@@ -1,6 +1,8 @@
 #include "surface/repair/lattice/samples.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace deliso {
 
@@ -20,11 +22,14 @@ std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
 
 std::vector<Vec3> Resampling::coming_points() const { return points_of(coming); }
 
-RepairSamples::RepairSamples(const SignedDelaunay& restricted) {
+RepairSamples::RepairSamples(const SignedDelaunay& restricted, std::span<const Vec3> fixed) {
+  const auto key_of = [](const Vec3& p) { return std::array<double, 3>{p.x, p.y, p.z}; };
+  std::set<std::array<double, 3>> stays;
+  for (const Vec3& p : fixed) stays.insert(key_of(p));
   const auto& points = restricted.delaunay().points();
   samples_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!restricted.is_virtual(VertexId(i))) samples_.push_back({points[i], 0});
+    if (!restricted.is_virtual(VertexId(i))) samples_.push_back({points[i], stays.contains(key_of(points[i])) ? kStays : 0});
   }
 }
 

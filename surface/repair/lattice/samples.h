@@ -13,8 +13,9 @@ namespace deliso {
 
 struct RepairSample {
   Vec3 point;             // in mesh space
-  std::uint64_t key = 0;  // the key of a lattice sample; 0 for a free sample
+  std::uint64_t key = 0;  // the key of a lattice sample; 0 for a free sample; kStays for one that no cell replaces
 };
+inline constexpr std::uint64_t kStays = ~std::uint64_t{0};
 
 // Samples to exchange.
 struct Resampling {
@@ -28,8 +29,8 @@ struct Resampling {
 // triangulation one of the functions below must be called.
 class RepairSamples {
  public:
-  // All vertices become free samples.
-  explicit RepairSamples(const SignedDelaunay& restricted);
+  // All vertices become free samples, but those at the `fixed` points stay where cells are refined, too.
+  RepairSamples(const SignedDelaunay& restricted, std::span<const Vec3> fixed);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] std::vector<Vec3> points() const;

@@ -33,13 +33,13 @@ constexpr std::int32_t kRoundOfAllDefects = 3;
 }  // namespace
 
 RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted,
-                           RepairStats& stats)
+                           RepairStats& stats, std::span<const Vec3> fixed)
     : surface_(cache.surface()),
       stats_(stats),
       lattice_(surface_),
       cell_levels_(surface_.isosurface),
       round_(std::in_place, surface_, cell_levels_, std::move(restricted)),
-      samples_(round_->restricted()),
+      samples_(round_->restricted(), fixed),
       kept_(surface_.topology.components.size()),
       differences_(cache) {
   round_->take_plain_signs();

@@ -25,9 +25,10 @@ namespace deliso {
 
 class RepairRounds {
  public:
-  // `restricted` is the result of stage 1; its mesh is the first mesh kept. Keeps references to the cache and the
-  // counters.
-  RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats);
+  // `restricted` is the result of stage 1; its mesh is the first mesh kept. Samples at the `fixed` points stay in
+  // refined cells. Keeps references to the cache and the counters.
+  RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats,
+               std::span<const Vec3> fixed = {});
 
   // Makes rounds until every component is done or there have been `max_rounds`. Before each round it asks ends(), and
   // stops if that is true. Returns whether ends() stopped it.

@@ -179,6 +179,15 @@ TEST(HeavySizes, FoldsAreReachedWithMoreSamples) {
   EXPECT_LT(result.mesh.points.size(), 8000u);
 }
 
+// A wall a tenth of a voxel thin: repair used to take out the samples that stage 1 had been given around it.
+TEST(HeavySizes, SamplesGivenToStage1OutlastRepair) {
+  const auto directory = data_directory();
+  if (!directory) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
+  const ScalarGrid grid = read_volume(*directory / "baby.nrrd");
+  const MeshingResult result = sized(grid, 35.8, with(&SizeParameters::max_error, 0.1), 2);
+  EXPECT_TRUE(is_proven(result.certificate));
+}
+
 TEST(Sizes, NoErrorIsKeptWithoutRepair) {
   MeshingOptions options;
   options.parameters.size.max_error = 0.1;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "delaunay/base/rng.h"
 #include "tests/support/surface_fields.h"
@@ -22,7 +24,7 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
     const auto scene = noise_scene({9, 8, 9}, seed);
     std::vector<Vec3> points = testing::crossing_points(*scene);  // lattice samples of level 1 equal these
     auto restricted = std::make_unique<SignedDelaunay>(*scene->isosurface, points);
-    RepairSamples samples(*restricted);
+    RepairSamples samples(*restricted, {});
     const SampleLattice lattice(scene->surface());
     CellLevels cell_levels(*scene->isosurface);
     Rng rng(seed);
@@ -55,6 +57,34 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
   }
   EXPECT_GT(exchanges, 10);
   EXPECT_GT(rebuilds, 10);
+}
+
+// Samples that stage 1 was given because the mesh would be too far from the isosurface without them: where repair took
+// them out again, as free samples of refined cells, no number of them brought the mesh nearer.
+TEST(RepairSamples, FixedOnesStayInRefinedCells) {
+  const auto scene = noise_scene({9, 8, 9}, 3);
+  std::vector<Vec3> points = testing::crossing_points(*scene);
+  const SignedDelaunay restricted(*scene->isosurface, points);
+  const auto& vertices = restricted.delaunay().points();
+  std::vector<VertexId> inside;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const bool is_on_box = SignedDelaunay::on_box(scene->isosurface->box(), vertices[i]);
+    if (!restricted.is_virtual(VertexId(i)) && !is_on_box) inside.push_back(VertexId(i));
+  }
+  std::vector<Vec3> fixed;
+  for (std::size_t i = 0; i < inside.size(); i += 2) fixed.push_back(vertices[inside[i].index()]);
+  CellLevels cell_levels(*scene->isosurface);
+  std::vector<CellName> cells;
+  for (const Vec3& p : vertices) cell_levels.append_cells_of(p, cells);
+  cell_levels.refine(cells);
+  const SampleLattice lattice(scene->surface());
+  const auto leaving = [&](std::span<const Vec3> kept) {
+    return RepairSamples(restricted, kept).resampling(cell_levels, lattice, *scene->isosurface).leaving;
+  };
+  EXPECT_EQ(leaving({}), inside);
+  std::vector<VertexId> free;
+  for (std::size_t i = 1; i < inside.size(); i += 2) free.push_back(inside[i]);
+  EXPECT_EQ(leaving(fixed), free);
 }
 
 }  // namespace
