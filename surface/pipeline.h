@@ -61,6 +61,7 @@ class Pipeline {
   void find_last_faults(SurfaceMesh& mesh);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);
   MeshFaults faults_of(const SurfaceMesh& mesh);
+  void find_faults_again(SurfaceMesh& mesh);
   void find_crossings();
   void drop_crossings();
   void certify(SurfaceMesh mesh);
@@ -77,7 +78,7 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
-  AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from
+  AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from, or of the last one
   Promise promise_;
   MeshFaults last_;  // of the mesh that RefineGeom has made
 };

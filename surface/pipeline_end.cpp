@@ -45,6 +45,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
   drop_crossings();
   if (!controls_.stopped()) find_last_faults(mesh);
+  find_faults_again(mesh);
 }
 
 // Components left out on purpose count no more: neither the mesh nor the certificate has them.
@@ -201,6 +202,21 @@ void Pipeline::find_crossings() {
 void Pipeline::find_faults(const SurfaceMesh& mesh) {
   if (!parameters_.certify || !result_.build.bounds_a_solid) return;
   faults_ = timed(result_.certify_stage, [&] { return assignment_faults(mesh, *surface_); });
+}
+
+// Vertices that lie on another component than most of their piece are let be as long as that component has a piece with
+// more of them. Where there are such, or where steps and decimation have changed which vertices there are, this is
+// decided anew for the mesh that is written. Components left out on purpose may be without a piece.
+void Pipeline::find_faults_again(SurfaceMesh& mesh) {
+  const bool may_differ = is_sized(parameters_) || result_.repair.components_mixed > 0 || !faults_.is_empty();
+  if (!may_differ || controls_.stopped()) return;
+  timed(result_.certify_stage, [&] { find_crossings(); });
+  set_side_adjacency(mesh);
+  find_faults(mesh);
+  std::erase_if(faults_.without, [&](std::uint32_t c) {
+    return !surface_->is_dropped.empty() && surface_->is_dropped[c] != 0;
+  });
+  drop_crossings();
 }
 
 void Pipeline::drop_crossings() {

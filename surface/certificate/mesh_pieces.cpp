@@ -96,4 +96,18 @@ std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> compon
   return largest.component;
 }
 
+PieceComponents piece_components(const SurfaceMesh& mesh, const ExactSurface& surface) {
+  PieceComponents pieces;
+  pieces.piece_of.assign(mesh.triangles.size(), 0);
+  std::vector<bool> is_seen(mesh.triangles.size(), false);
+  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (is_seen[seed]) continue;
+    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
+    for (const std::uint32_t t : piece) pieces.piece_of[t] = static_cast<std::uint32_t>(pieces.component.size());
+    const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
+    pieces.component.push_back(component.value_or(kNoComponent));
+  }
+  return pieces;
+}
+
 }  // namespace deliso

@@ -53,4 +53,14 @@ inline std::vector<ComponentShare> largest_shares_of_pieces(std::span<const Comp
 // The component of most vertices, the first of equals; nothing when no vertex has one.
 std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> component_of);
 
+// The piece of each triangle, and the component of each piece: that of most of its vertices, kNoComponent where these
+// lie on none.
+struct PieceComponents {
+  std::vector<std::uint32_t> piece_of, component;
+
+  [[nodiscard]] std::uint32_t component_of(std::uint32_t triangle) const { return component[piece_of[triangle]]; }
+};
+// Precondition: the mesh has neighbours.
+PieceComponents piece_components(const SurfaceMesh& mesh, const ExactSurface& surface);
+
 }  // namespace deliso

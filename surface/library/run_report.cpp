@@ -77,6 +77,7 @@ JsonTree repair_json(const RepairStats& repair) {
                   {"components_before", repair.components_before},
                   {"components_mixed", repair.components_mixed},
                   {"components_stray", repair.components_stray},
+                  {"components_given_up", repair.components_given_up},
                   {"components_polygonized", repair.components_polygonized},
                   {"foreign_vertices_removed", repair.foreign_vertices_removed},
                   {"inverted_umbrellas_removed", repair.inverted_umbrellas_removed},

@@ -180,14 +180,20 @@ bool Repair::ends_without_foreign_vertices() {
   return false;
 }
 
-// Assembles the components, each from the latest mesh that agrees with it. Returns whether every component has such a
-// mesh.
+// Assembles the components, each from the latest mesh that agrees with it, those given up from marching cubes. Returns
+// whether these are all that have no such mesh; otherwise the others are missing, too.
 bool Repair::assemble() {
   result_ = rounds_.selection().assemble(is_polygonized_, surface_.isosurface, surface_.threads, stats_);
-  return std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end();
+  for (std::size_t c = 0; c < is_polygonized_.size(); ++c) {
+    if (is_polygonized_[c] && !rounds_.selection().given_up()[c]) return false;
+  }
+  polygonize_rest();
+  return true;
 }
 
+// Takes the components that have no mesh from marching cubes.
 void Repair::polygonize_rest() {
+  if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
   const auto& [polygonized, component] = cache_.polygonized();
   append_pieces(polygonized, component, is_polygonized_, result_.mesh);
   std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),

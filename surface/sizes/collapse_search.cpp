@@ -168,7 +168,9 @@ void CollapseSearch::make_step(std::size_t apex) {
   }
 }
 
-// The largest distance of a witness from its nearest new triangle.
+// The largest distance of a witness from its nearest new triangle, if that is at most the limit. Where more than that is
+// found the others are not measured: then their distances are not known. (The square root of what exceeds the limit's
+// square may be the limit.)
 double CollapseSearch::distance_of_isosurface(double limit) const {
   double largest = 0;
   const auto measure = [&](const Vec3& p) {
@@ -181,10 +183,10 @@ double CollapseSearch::distance_of_isosurface(double limit) const {
   };
   measure(mesh_.point(vertex_));
   for (const std::uint32_t t : tried_.removed) {
-    if (largest > limit * limit) break;
     witnesses_.for_each(t, [&](std::uint32_t w) {
       if (largest <= limit * limit) measure(witnesses_.point(w));
     });
+    if (largest > limit * limit) return kNoError;
   }
   return std::sqrt(largest);
 }

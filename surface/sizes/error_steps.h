@@ -23,9 +23,10 @@ void bring_near(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const 
                 const Nearness& wanted, const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
 
 // The same for points of the isosurface that are too far from the mesh, as at tips of thin parts: each becomes a
-// vertex, in its nearest triangle or in that and neighbours of it, where the guard allows it with
-// this freedom.
-void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed, double freedom,
+// vertex, in the nearest triangle of a piece on its own component or in that and neighbours of it, where the guard
+// allows it with this freedom. (A triangle of another component may be nearer: with the tip of a finger it would be a
+// sphere around nothing.)
+void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> points, double freedom,
                    const ShapeOptions& options, const Controls& controls, ShapeStats& stats);
 
 }  // namespace deliso

@@ -7,12 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "surface/certificate/mesh_pieces.h"
+#include "surface/mesh/side_adjacency.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
 #include "surface/shape/triangle_shape.h"
 #include "surface/sizes/error_steps.h"
+#include "volume/topology/exact_topology.h"
 
 namespace deliso {
 
@@ -20,12 +23,19 @@ namespace {
 
 constexpr double kMissedReach = 3;  // of the surroundings of a triangle, in its longest edges
 
-// The nearest of a patch's triangles; kNoVertex if there is none.
-std::uint32_t nearest_in(const Patch& patch, const Vec3& p) {
+// A point that the mesh misses, and the component of the isosurface on which it lies.
+struct Missed {
+  Vec3 point;
+  std::uint32_t component = kNoComponent;
+};
+
+// The nearest of a patch's triangles on a component, kNoVertex if there is none. `component_of`: of each vertex.
+std::uint32_t nearest_in(const Patch& patch, std::span<const std::uint32_t> component_of, const Missed& missed) {
+  const Vec3& p = missed.point;
   std::uint32_t nearest = kNoVertex;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
-    if (!patch.has(t)) continue;
+    if (!patch.has(t) || component_of[patch.corners(t)[0]] != missed.component) continue;
     const auto [a, b, c] = patch.corner_points(t);
     const double squared = squared_distance_to_triangle(p, a, b, c);
     if (squared < least) {
@@ -112,17 +122,18 @@ std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3
   return steps;
 }
 
-void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Vec3> missed,
-               const ExactSurface& surface, double freedom, const ShapeOptions& options, ShapeStats& stats) {
+// `component_of`: of each vertex of the mesh, that of its piece.
+void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Missed> missed,
+               std::span<const std::uint32_t> component_of, StepGuard& guard, ShapeStats& stats) {
   Patch& patch = numbered.patch;
-  StepGuard guard(patch, plan.crossings, surface.isosurface, options, stats.search);
-  guard.set_freedom(freedom);
-  std::vector<std::uint32_t> near;
-  for (const Vec3& p : missed) {
+  std::vector<std::uint32_t> of_vertex, near;
+  for (const std::uint32_t v : numbered.vertices) of_vertex.push_back(component_of[v]);
+  for (const Missed& one : missed) {
+    const Vec3& p = one.point;
     Box3 at;
     at.extend(p);
     if (!plan.room.holds(at, near)) continue;
-    const std::uint32_t t = nearest_in(patch, p);
+    const std::uint32_t t = nearest_in(patch, of_vertex, one);
     if (t == kNoVertex) continue;
     const auto& corners = patch.corners(t);
     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return patch.point(v) == p; })) continue;
@@ -131,35 +142,66 @@ void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const V
     for (PatchStep& step : tip_steps(patch, t, p)) steps.push_back(std::move(step));
     const bool is_done =
         std::any_of(steps.begin(), steps.end(), [&](const PatchStep& step) { return guard.apply(step); });
-    if (is_done) ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
+    if (!is_done) continue;
+    of_vertex.resize(patch.vertex_count(), one.component);
+    ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
   }
 }
 
-}  // namespace
+// The component of each vertex's piece.
+std::vector<std::uint32_t> components_of_vertices(const SurfaceMesh& mesh, const PieceComponents& pieces) {
+  std::vector<std::uint32_t> component_of(mesh.points.size(), kNoComponent);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) component_of[v] = pieces.component_of(t);
+  }
+  return component_of;
+}
 
-void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> missed, double freedom,
-                   const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
-  Controls own = controls;
-  if (missed.empty() || own.poll()) return;
+// The nearest triangles on their own components, ascending, each once.
+std::vector<std::uint32_t> nearest_triangles(const SurfaceMesh& mesh, const PieceComponents& pieces,
+                                             std::span<const Missed> missed, const ExactSurface& surface) {
   const BoxTree tree(
       mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); },
       surface.threads);
   std::vector<std::uint32_t> nearest;
   const double farthest = surface.isosurface.box().diagonal();
-  for (const Vec3& p : missed) {
+  for (const Missed& one : missed) {
     const auto measure = [&](std::uint32_t t) {
+      if (pieces.component_of(t) != one.component) return std::numeric_limits<double>::infinity();
       const auto& [a, b, c] = mesh.triangles[t];
-      return squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
+      return squared_distance_to_triangle(one.point, mesh.points[a], mesh.points[b], mesh.points[c]);
     };
-    const std::uint32_t t = tree.nearest(p, farthest * farthest, measure).first;
+    const std::uint32_t t = tree.nearest(one.point, farthest * farthest, measure).first;
     if (t != BoxTree::kNone) nearest.push_back(t);
   }
   std::sort(nearest.begin(), nearest.end());
   nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
+  return nearest;
+}
+
+}  // namespace
+
+void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<const Vec3> points, double freedom,
+                   const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
+  Controls own = controls;
+  if (points.empty() || own.poll()) return;
+  set_side_adjacency(mesh);
+  const PieceComponents pieces = piece_components(mesh, surface);
+  std::vector<Missed> missed;
+  const Vec3& step = surface.isosurface.step();
+  for (const Vec3& p : points) {
+    const auto component = component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
+                                        {p.x / step.x, p.y / step.y, p.z / step.z});
+    if (component) missed.push_back({p, *component});
+  }
+  const std::vector<std::uint32_t> nearest = nearest_triangles(mesh, pieces, missed, surface);
+  const std::vector<std::uint32_t> component_of_vertex = components_of_vertices(mesh, pieces);
   const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kMissedReach, surface);
   work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
-                    insert_in(patch, plan, missed, surface, freedom, options, counted);
+                    StepGuard guard(patch.patch, plan.crossings, surface.isosurface, options, counted.search);
+                    guard.set_freedom(freedom);
+                    insert_in(patch, plan, missed, component_of_vertex, guard, counted);
                   });
 }
 

@@ -30,28 +30,10 @@ std::vector<bool> faulty_triangles(const SurfaceMesh& mesh, const MeshFaults& fa
   return is_faulty;
 }
 
-// The component of each piece; kNoComponent where most of its vertices lie on none. `piece_of`: of each triangle.
-struct Pieces {
-  std::vector<std::uint32_t> piece_of, component;
-};
-Pieces pieces_of(const SurfaceMesh& mesh, const ExactSurface& surface) {
-  Pieces pieces;
-  pieces.piece_of.assign(mesh.triangles.size(), 0);
-  std::vector<bool> is_seen(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-    for (const std::uint32_t t : piece) pieces.piece_of[t] = static_cast<std::uint32_t>(pieces.component.size());
-    const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
-    pieces.component.push_back(component.value_or(kNoComponent));
-  }
-  return pieces;
-}
-
 // Adds the components that have faults.
 void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
                      std::vector<bool>& is_marked) {
-  const Pieces pieces = pieces_of(mesh, surface);
+  const PieceComponents pieces = piece_components(mesh, surface);
   const std::vector<bool> is_faulty = faulty_triangles(mesh, faults);
   for (std::size_t t = 0; t < is_faulty.size(); ++t) {
     const std::uint32_t component = pieces.component[pieces.piece_of[t]];
@@ -75,7 +57,7 @@ std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>
   }
   const std::int64_t count = std::count(is_replaced.begin(), is_replaced.end(), true);
   if (count == 0) return 0;
-  const Pieces pieces = pieces_of(mesh, surface);
+  const PieceComponents pieces = piece_components(mesh, surface);
   std::vector<bool> is_gone(mesh.triangles.size(), false);
   for (std::size_t t = 0; t < is_gone.size(); ++t) {
     const std::uint32_t component = pieces.component[pieces.piece_of[t]];

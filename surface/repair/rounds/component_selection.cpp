@@ -130,6 +130,7 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 }  // namespace
 
 void ComponentSelection::reopen(std::uint32_t component) {
+  if (given_up_[component]) return;
   done_[component] = false;
   best_[component] = Agreement::kPartial;
   drop_superseded();

@@ -22,19 +22,26 @@ struct AssembledMesh {
 
 class ComponentSelection {
  public:
-  explicit ComponentSelection(std::size_t components) : done_(components, false), best_(components, Agreement::kNone) {}
+  explicit ComponentSelection(std::size_t components)
+      : done_(components, false), given_up_(components, false), best_(components, Agreement::kNone) {}
 
-  // Of each exact component: whether it is done.
+  // Of each exact component: whether it is done, or given up.
   [[nodiscard]] const std::vector<bool>& done() const { return done_; }
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
-  // Whether every component is done, or has the right topology but foreign vertices.
+  // Whether every component is done or given up, or has the right topology but foreign vertices.
   [[nodiscard]] bool is_done_but_for_mixing() const {
-    return std::all_of(best_.begin(), best_.end(), [](Agreement best) { return best >= Agreement::kMixed; });
+    for (std::size_t c = 0; c < best_.size(); ++c) {
+      if (best_[c] < Agreement::kMixed && !given_up_[c]) return false;
+    }
+    return true;
   }
-  // Marks a component as not done and no longer taken from the meshes kept so far. Precondition: the meshes have pole
-  // heights.
+  // Nothing more is done for a component. It is taken from the meshes kept so far, if one of them may give it.
+  void give_up(std::uint32_t component) { done_[component] = given_up_[component] = true; }
+  [[nodiscard]] const std::vector<bool>& given_up() const { return given_up_; }
+  // Marks a component as not done and no longer taken from the meshes kept so far, unless it is given up. Precondition:
+  // the meshes have pole heights.
   void reopen(std::uint32_t component);
   // Keeps a mesh, made with these signs, if it improves some component. Meshes, and parts of meshes, from which no
   // component can be taken any more are dropped.
@@ -58,6 +65,7 @@ class ComponentSelection {
   }
 
   std::vector<bool> done_;       // of each exact component
+  std::vector<bool> given_up_;   // likewise; these are done, too
   std::vector<Agreement> best_;  // of each exact component: the best agreement of any mesh so far, at most kWithStrays
   std::vector<KeptMesh> kept_;   // in the order of keep()
 };

@@ -1,6 +1,7 @@
 #include "surface/repair/rounds/rounds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/finish/missed_crossings.h"
+#include "surface/repair/rounds/sample_budget.h"
 #include "surface/repair/rounds/sign_search.h"
 #include "surface/restricted/poles.h"
 
@@ -57,11 +59,20 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     const std::int64_t round = stats_.rounds - rounds_around_ + 1;
     const std::vector<IndexRanges>& boxes =
         differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
-    mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
-                            kept_.done(), boxes, round != kRoundOfAllDefects, round_->located()}),
-              controls);
+    std::vector<CellName> cells =
+        defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(), kept_.done(),
+                      boxes, round != kRoundOfAllDefects, round_->located()});
+    if (!gives_up(cells)) mend_once(std::move(cells), controls);
   }
   return false;
+}
+
+// Gives up the components that would get too many samples if these cells were refined. Whether there are any.
+bool RepairRounds::gives_up(const std::vector<CellName>& cells) {
+  const std::vector<std::uint32_t> over = components_over_budget(surface_, cell_levels_, cells, kept_.done());
+  for (const std::uint32_t c : over) kept_.give_up(c);
+  stats_.components_given_up += std::ssize(over);
+  return !over.empty();
 }
 
 // Makes a round in which these cells are refined.
@@ -98,7 +109,7 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
   for (const TrianglePair& pair : pairs) triangles.insert(triangles.end(), {pair.first, pair.second});
   std::vector<bool> is_met(surface_.topology.components.size(), false);
   for (const std::uint32_t c : components_at(mesh, vertices_of(mesh, triangles), surface_)) {
-    if (c < is_met.size()) is_met[c] = true;
+    if (c < is_met.size()) is_met[c] = !kept_.given_up()[c];
   }
   std::vector<std::uint32_t> found;
   for (const TrianglePair& pair : pairs) {

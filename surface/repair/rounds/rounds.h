@@ -30,7 +30,7 @@ class RepairRounds {
   RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats,
                std::span<const Vec3> fixed = {});
 
-  // Makes rounds until every component is done or there have been `max_rounds`. Before each round it asks ends(), and
+  // Makes rounds until every component is done or given up (sample_budget.h), or there have been `max_rounds`. Before each round it asks ends(), and
   // stops if that is true. Returns whether ends() stopped it.
   bool mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls);
   // Marks the components of some missed crossings as not done, and makes a round that samples the surface around these
@@ -38,6 +38,7 @@ class RepairRounds {
   void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
   // The grid-edge crossings of the cells in which triangles of a mesh meet (indices into topology.crossings,
   // ascending). Only crossings of the components on which corners of these triangles lie are returned.
+  // None of components given up.
   [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
                                                         const SurfaceMesh& mesh) const;
 
@@ -65,6 +66,7 @@ class RepairRounds {
 
  private:
   void mend_once(std::vector<CellName> cells, Controls& controls);
+  bool gives_up(const std::vector<CellName>& cells);
   void reopen(std::span<const std::uint32_t> crossings);
   void resample();
   void take_signs(Controls& controls);

@@ -54,7 +54,8 @@ TEST(BoundarySteps, FlatBoxesGetGoodAnglesWithoutFinerCubes) {
     const MeshingResult result = mesh_isosurface(grid, 0, {});
     EXPECT_TRUE(is_proven(result.certificate)) << seed;
     EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used).proven) << seed;
-    EXPECT_EQ(result.repair.components_polygonized, 0) << seed;
+    // From marching cubes of the volume at most, where repair has given up.
+    EXPECT_EQ(result.repair.components_polygonized, result.repair.components_given_up) << seed;
     EXPECT_GT(measure_quality(result.mesh).min_angle_degrees, 8) << seed;
   }
 }

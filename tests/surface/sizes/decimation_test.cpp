@@ -188,6 +188,24 @@ TEST(HeavySizes, SamplesGivenToStage1OutlastRepair) {
   EXPECT_TRUE(is_proven(result.certificate));
 }
 
+// Two collapses of a vertex that are equally far from one witness: of the second one the others were not measured.
+TEST(HeavySizes, EqualDistancesHideNoOthers) {
+  const auto directory = data_directory();
+  if (!directory) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
+  const ScalarGrid grid = read_volume(*directory / "baby.nrrd");
+  const MeshingResult result = sized(grid, 131.6, with(&SizeParameters::max_error, 0.25), 2);
+  EXPECT_TRUE(is_proven(result.certificate));
+}
+
+// A finger of one component nearest to the mesh of another: its tip became a part of that one.
+TEST(HeavySizes, TipsGrowOnTheirOwnComponents) {
+  const auto directory = data_directory();
+  if (!directory) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
+  const ScalarGrid grid = read_volume(*directory / "aneurism.nrrd");
+  const MeshingResult result = sized(grid, 80.3, with(&SizeParameters::max_error, 0.25), 2);
+  expect_proven(result, grid, "fingers");
+}
+
 TEST(Sizes, NoErrorIsKeptWithoutRepair) {
   MeshingOptions options;
   options.parameters.size.max_error = 0.1;
