@@ -146,9 +146,19 @@ std::optional<Repair::State> Repair::mend_around(std::span<const std::uint32_t> 
     timed(inner_build_, [this] { build(); });
     mend_vertices();
   }
-  if (is_done && !controls_.poll() && is_polygonized_ == before.is_polygonized) return before;
+  if (is_done && !controls_.poll() && polygonizes_no_more_than(before.is_polygonized)) return before;
   restore(std::move(before));
   return std::nullopt;
+}
+
+// Whether all components from marching cubes have been so before, or are given up: these cross nothing and miss nothing
+// of their own.
+bool Repair::polygonizes_no_more_than(const std::vector<bool>& before) const {
+  const std::vector<bool>& given_up = rounds_.selection().given_up();
+  for (std::size_t c = 0; c < is_polygonized_.size(); ++c) {
+    if (is_polygonized_[c] && !before[c] && !given_up[c]) return false;
+  }
+  return true;
 }
 
 Repair::State Repair::take_state() {

@@ -73,6 +73,7 @@ class Repair : public RecoveredSurface {
   std::optional<State> mend_around(std::span<const std::uint32_t> crossings);
   [[nodiscard]] SelfIntersections crossing_triangles() const;
   [[nodiscard]] std::vector<std::uint32_t> missed(std::span<const Box3> boxes) const;
+  [[nodiscard]] bool polygonizes_no_more_than(const std::vector<bool>& before) const;
   State take_state();
   void restore(State state);
   bool ends_without_foreign_vertices();

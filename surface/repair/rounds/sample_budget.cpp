@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMostPerCrossing = 2;
 // So many are worth a try for any component.
-constexpr double kAlways = 256;
+constexpr double kAlways = 1024;
 // New samples that a cell brings at each level, on average, in random masks and noise.
 constexpr std::array<double, kMaxLatticeLevel + 1> kSamplesOfLevel = {0, 1.6, 5, 8, 28, 100};
 
