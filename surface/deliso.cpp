@@ -172,7 +172,9 @@ std::unique_ptr<RecoveredSurface> Pipeline::mended(DelS del_s1, std::span<const 
   auto signs_alone = std::make_unique<SignedDelaunay>(std::move(*del_s1));
   del_s1.reset();
   release_free_memory();
-  auto repair = std::make_unique<Repair>(*cache_, std::move(signs_alone), samples, parameters_.repair.max_rounds,
+  // Where an error is stated, the samples of a lattice come in useful; marching cubes would have to be brought nearer.
+  const RoundsOptions options{.fixed = samples, .may_give_up = !is_sized(parameters_)};
+  auto repair = std::make_unique<Repair>(*cache_, std::move(signs_alone), parameters_.repair.max_rounds, options,
                                          controls_, result_.repair);
   repair->mend_topology();
   return repair;

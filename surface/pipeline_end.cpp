@@ -213,9 +213,8 @@ void Pipeline::find_faults_again(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] { find_crossings(); });
   set_side_adjacency(mesh);
   find_faults(mesh);
-  std::erase_if(faults_.without, [&](std::uint32_t c) {
-    return !surface_->is_dropped.empty() && surface_->is_dropped[c] != 0;
-  });
+  std::erase_if(faults_.without,
+                [&](std::uint32_t c) { return !surface_->is_dropped.empty() && surface_->is_dropped[c] != 0; });
   drop_crossings();
 }
 

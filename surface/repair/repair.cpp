@@ -28,14 +28,14 @@ constexpr std::size_t kMostPairs = 256;
 
 }  // namespace
 
-Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted,
-               std::span<const Vec3> fixed, std::int32_t max_rounds, Controls& controls, RepairStats& stats)
+Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+               const RoundsOptions& options, Controls& controls, RepairStats& stats)
     : cache_(cache),
       surface_(cache.surface()),
       max_rounds_(max_rounds),
       controls_(controls),
       stats_(stats),
-      rounds_(cache, std::move(restricted), stats, fixed) {}
+      rounds_(cache, std::move(restricted), stats, options) {}
 
 void Repair::mend_topology() {
   is_unrepaired_ = controls_.stopped();

@@ -39,10 +39,9 @@ namespace deliso {
 // result is the same for any number of threads.
 class Repair : public RecoveredSurface {
  public:
-  // `restricted` is the result of stage 1, with samples at the `fixed` points because the mesh would be too far from the
-  // isosurface without: these stay. Keeps references to `cache`, `controls` and `stats`.
-  Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, std::span<const Vec3> fixed,
-         std::int32_t max_rounds, Controls& controls, RepairStats& stats);
+  // `restricted` is the result of stage 1. Keeps references to `cache`, `controls` and `stats`.
+  Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, std::int32_t max_rounds,
+         const RoundsOptions& options, Controls& controls, RepairStats& stats);
 
   // Rounds with new samples and signs, until the mesh has the exact topology or the limit of rounds is reached.
   void mend_topology();

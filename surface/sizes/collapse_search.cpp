@@ -168,9 +168,9 @@ void CollapseSearch::make_step(std::size_t apex) {
   }
 }
 
-// The largest distance of a witness from its nearest new triangle, if that is at most the limit. Where more than that is
-// found the others are not measured: then their distances are not known. (The square root of what exceeds the limit's
-// square may be the limit.)
+// The largest distance of a witness from its nearest new triangle, if that is at most the limit. Where more than that
+// is found the others are not measured: then their distances are not known. (The square root of what exceeds the
+// limit's square may be the limit.)
 double CollapseSearch::distance_of_isosurface(double limit) const {
   double largest = 0;
   const auto measure = [&](const Vec3& p) {

@@ -29,7 +29,8 @@ RepairSamples::RepairSamples(const SignedDelaunay& restricted, std::span<const V
   const auto& points = restricted.delaunay().points();
   samples_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!restricted.is_virtual(VertexId(i))) samples_.push_back({points[i], stays.contains(key_of(points[i])) ? kStays : 0});
+    if (!restricted.is_virtual(VertexId(i)))
+      samples_.push_back({points[i], stays.contains(key_of(points[i])) ? kStays : 0});
   }
 }
 

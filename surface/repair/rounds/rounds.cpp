@@ -35,13 +35,14 @@ constexpr std::int32_t kRoundOfAllDefects = 3;
 }  // namespace
 
 RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted,
-                           RepairStats& stats, std::span<const Vec3> fixed)
+                           RepairStats& stats, const RoundsOptions& options)
     : surface_(cache.surface()),
       stats_(stats),
+      may_give_up_(options.may_give_up),
       lattice_(surface_),
       cell_levels_(surface_.isosurface),
       round_(std::in_place, surface_, cell_levels_, std::move(restricted)),
-      samples_(round_->restricted(), fixed),
+      samples_(round_->restricted(), options.fixed),
       kept_(surface_.topology.components.size()),
       differences_(cache) {
   round_->take_plain_signs();
@@ -69,6 +70,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
 
 // Gives up the components that would get too many samples if these cells were refined. Whether there are any.
 bool RepairRounds::gives_up(const std::vector<CellName>& cells) {
+  if (!may_give_up_) return false;
   const std::vector<std::uint32_t> over = components_over_budget(surface_, cell_levels_, cells, kept_.done());
   for (const std::uint32_t c : over) kept_.give_up(c);
   stats_.components_given_up += std::ssize(over);

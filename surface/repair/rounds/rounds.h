@@ -23,15 +23,22 @@
 
 namespace deliso {
 
+struct RoundsOptions {
+  // Samples at these points stay in refined cells.
+  std::span<const Vec3> fixed = {};
+  // Whether components are given up (sample_budget.h).
+  bool may_give_up = true;
+};
+
 class RepairRounds {
  public:
-  // `restricted` is the result of stage 1; its mesh is the first mesh kept. Samples at the `fixed` points stay in
-  // refined cells. Keeps references to the cache and the counters.
+  // `restricted` is the result of stage 1; its mesh is the first mesh kept. Keeps references to the cache and the
+  // counters.
   RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted, RepairStats& stats,
-               std::span<const Vec3> fixed = {});
+               const RoundsOptions& options = {});
 
-  // Makes rounds until every component is done or given up (sample_budget.h), or there have been `max_rounds`. Before each round it asks ends(), and
-  // stops if that is true. Returns whether ends() stopped it.
+  // Makes rounds until every component is done or given up (sample_budget.h), or there have been `max_rounds`. Before
+  // each round it asks ends(), and stops if that is true. Returns whether ends() stopped it.
   bool mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls);
   // Marks the components of some missed crossings as not done, and makes a round that samples the surface around these
   // crossings. Afterwards mend() may continue.
@@ -75,6 +82,7 @@ class RepairRounds {
 
   const ExactSurface& surface_;
   RepairStats& stats_;
+  bool may_give_up_;
   std::int64_t rounds_around_ = 0;  // rounds made by mend_around()
   SampleLattice lattice_;
   CellLevels cell_levels_;
