@@ -20,6 +20,8 @@
 
 namespace deliso {
 
+class CellsNearFaults;
+
 // One run. What the paper does not have stands between its lines: the exact topology, which a certificate needs, first;
 // coverage after Recover; repair around ComputePoles and BuildTriMesh; the certificate at the end.
 class Pipeline {
@@ -54,7 +56,7 @@ class Pipeline {
   void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
-  void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh);
+  void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);

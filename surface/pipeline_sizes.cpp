@@ -138,28 +138,30 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, doubl
 
 // Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
 // of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs again with more and
-// more samples there; decimation takes out what is not needed.
+// more samples there; decimation takes out what is not needed. With other samples other places may be too far: those of
+// all times get samples, and their spacing is halved each second time only.
 void Pipeline::begin_again(SurfaceMesh& mesh) {
-  constexpr int kMostTimes = 4;
-  constexpr double kSpacing = 2, kLargest = 0.25;  // of samples, in distances promised, and in voxels; halved each time
+  constexpr int kMostTimes = 6;
+  constexpr double kSpacing = 2, kLargest = 0.25;  // of samples at first, in distances promised, and in voxels
   constexpr std::size_t kMostSamples = 1'000'000;
   if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
   Observer* const observer = controls_.observer();
   controls_.set_observer(nullptr);  // it learns of the mesh alone
   double spacing = std::min(kSpacing * promise_.max_distance, kLargest);
   CellsNearFaults cells(*isosurface_);
-  for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time, spacing /= 2) {
-    cells.add(mesh, last_.geometry);
+  cells.add(mesh, last_.geometry);
+  for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time) {
+    if (time > 0 && time % 2 == 0) spacing /= 2;
     const std::vector<Vec3> samples = cells.samples(spacing);
     if (samples.size() > kMostSamples) break;
-    take_nearer_mesh(samples, mesh);
+    take_nearer_mesh(samples, mesh, cells);
   }
   controls_.set_observer(observer);
   if (observer != nullptr) observer->reshaped(mesh);
 }
 
-// The mesh that these samples give to stage 1, if it is nearer to the isosurface.
-void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh) {
+// The mesh that these samples give to stage 1, if it is nearer to the isosurface. Adds the cells where it is not near.
+void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
   const MeshFaults last_before = last_;
   const AssignmentFaults faults_before = faults_;
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
@@ -170,6 +172,7 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
   if (parameters_.size.max_edge) limit_edges(again, options);
   improve(again, parameters_.shape.rounds);
   refine_to_error(again, options);
+  cells.add(again, last_.geometry);
   const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_crossings); };
   const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);
   if (is_nearer) {
