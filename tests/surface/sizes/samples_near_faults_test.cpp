@@ -78,9 +78,10 @@ TEST(Sizes, StageOneRunsAgainWhereAnErrorIsNotReached) {
   }
 }
 
-// Cubes four times as large as the error leave more samples too far than they replace: no smaller ones were tried, and no
-// steps. What ends the run is told as proven, and cubes are no smaller than they have to be.
-TEST(Sizes, FinerCubesAreBroughtNearBySteps) {
+// Cubes four times as large as the error left more samples too far than they replaced: no smaller ones were tried, and
+// no steps. Since stage 1 keeps its samples the field needs no cubes any more; if it does, they are no smaller than
+// needed.
+TEST(Sizes, NoiseIsProvenWithFewCubes) {
   const ScalarGrid grid =
       read_volume(std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression" / "stated_error_4.nrrd");
   MeshingOptions options;
@@ -88,7 +89,7 @@ TEST(Sizes, FinerCubesAreBroughtNearBySteps) {
   const MeshingResult result = mesh_isosurface(grid, 127.5, options);
   EXPECT_TRUE(is_proven(result.certificate));
   EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used, {.max_distance = 0.1}).proven);
-  EXPECT_EQ(result.repair.components_polygonized, 1);
+  EXPECT_LE(result.repair.components_polygonized, 1);
   EXPECT_LT(result.decimation.vertices_before, 30'000);
 }
 
