@@ -151,8 +151,8 @@ std::optional<Repair::State> Repair::mend_around(std::span<const std::uint32_t> 
   return std::nullopt;
 }
 
-// Whether all components from marching cubes have been so before, or are given up: these cross nothing and miss nothing
-// of their own.
+// Whether all components from marching cubes have been so before, or are given up: these have the right topology and
+// miss nothing of their own.
 bool Repair::polygonizes_no_more_than(const std::vector<bool>& before) const {
   const std::vector<bool>& given_up = rounds_.selection().given_up();
   for (std::size_t c = 0; c < is_polygonized_.size(); ++c) {
