@@ -133,7 +133,6 @@ SurfaceMesh Pipeline::mended_mesh(DelS del_s1, std::span<const Vec3> samples) {
   result_.build.bounds_a_solid = recovered->bounds_a_solid();
   recovered.reset();
   cache_.reset();
-  find_faults(mesh);
   if (options_.keep_stage1_mesh && !result_.stage1_mesh) result_.stage1_mesh = to_world(mesh, *isosurface_);
   return mesh;
 }
@@ -154,7 +153,6 @@ SurfaceMesh Pipeline::refine(SurfaceMesh mesh) {
   }
   options.announce = {};
   if (result_.build.bounds_a_solid) finish(mesh, options);
-  drop_crossings();
   return mesh;
 }
 

@@ -43,7 +43,6 @@ class Pipeline {
   SurfaceMesh refine(SurfaceMesh mesh);
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1, std::span<const Vec3> samples);
   void take_inner_seconds(const RecoveredSurface& recovered);
-  void find_faults(const SurfaceMesh& mesh);
 
   // After RefineGeom (pipeline_end.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
@@ -63,8 +62,7 @@ class Pipeline {
   void find_last_faults(SurfaceMesh& mesh);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);
   MeshFaults faults_of(const SurfaceMesh& mesh);
-  void find_faults_again(SurfaceMesh& mesh);
-  void find_crossings();
+  AssignmentFaults faults_of_places(const MeshTopology& pieces);
   void drop_crossings();
   void certify(SurfaceMesh mesh);
 
@@ -80,7 +78,6 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
-  AssignmentFaults faults_;                   // of the mesh that RefineGeom starts from, or of the last one
   Promise promise_;
   MeshFaults last_;  // of the mesh that RefineGeom has made
 };

@@ -43,9 +43,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
-  drop_crossings();
   if (!controls_.stopped()) find_last_faults(mesh);
-  find_faults_again(mesh);
 }
 
 // Components left out on purpose count no more: neither the mesh nor the certificate has them.
@@ -139,7 +137,7 @@ void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
 }
 
 // What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
-// Components with faults come from finer cubes; for these the crossings are found once more.
+// Components with faults come from finer cubes.
 void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
     if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
@@ -147,7 +145,6 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     }
   });
   if (!repairs(parameters_) || last_.count() == 0) return;
-  find_crossings();
   // With a smaller error promised, cubes that are no smaller will mostly do.
   constexpr int kMostRounds = 4;
   constexpr double kTimes = 4, kLargest = 0.9;
@@ -169,7 +166,6 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     most = std::max(most, replaced);
   }
   result_.repair.components_polygonized += most;
-  drop_crossings();
 }
 
 // Cubes a little too large leave a few triangles too far: steps bring these near. Smaller ones would have many times as
@@ -193,29 +189,14 @@ MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
   });
 }
 
-void Pipeline::find_crossings() {
-  if (topology_.crossings.empty()) topology_ = exact_topology(grid_, result_.isovalue_used, options_.threads);
-}
-
-// Where the pieces lie that RefineGeom starts from. It takes none elsewhere, and the crossings that tell of it are too
-// many to be kept until it has ended.
-void Pipeline::find_faults(const SurfaceMesh& mesh) {
-  if (!parameters_.certify || !result_.build.bounds_a_solid) return;
-  faults_ = timed(result_.certify_stage, [&] { return assignment_faults(mesh, *surface_); });
-}
-
-// Vertices that lie on another component than most of their piece are let be as long as that component has a piece with
-// more of them. Where there are such, or where steps and decimation have changed which vertices there are, this is
-// decided anew for the mesh that is written. Components left out on purpose may be without a piece.
-void Pipeline::find_faults_again(SurfaceMesh& mesh) {
-  const bool may_differ = is_sized(parameters_) || result_.repair.components_mixed > 0 || !faults_.is_empty();
-  if (!may_differ || controls_.stopped()) return;
-  timed(result_.certify_stage, [&] { find_crossings(); });
-  set_side_adjacency(mesh);
-  find_faults(mesh);
-  std::erase_if(faults_.without,
+// Where the pieces of the mesh that is written lie. Components left out on purpose may be without a piece.
+AssignmentFaults Pipeline::faults_of_places(const MeshTopology& pieces) {
+  if (!result_.build.bounds_a_solid) return {};
+  AssignmentFaults faults =
+      assignment_faults(result_.mesh, pieces, grid_, result_.isovalue_used, topology_, options_.threads);
+  std::erase_if(faults.without,
                 [&](std::uint32_t c) { return !surface_->is_dropped.empty() && surface_->is_dropped[c] != 0; });
-  drop_crossings();
+  return faults;
 }
 
 void Pipeline::drop_crossings() {
@@ -240,9 +221,11 @@ void Pipeline::certify(SurfaceMesh mesh) {
   const std::vector<Vec3> in_world = to_world(std::move(centroids), *isosurface_).points;
   for (std::size_t i = 0; i < in_world.size(); ++i) result_.shape.worst[i].centroid = in_world[i];
   if (!parameters_.certify) return;
+  const MeshTopology pieces = mesh_topology(result_.mesh, options_.threads);
+  const AssignmentFaults faults = faults_of_places(pieces);
+  drop_crossings();
   if (!result_.dropped.empty()) keep_components(topology_, surface_->is_dropped);
-  result_.certificate =
-      final_certificate(result_.mesh, topology_, faults_, result_.build.bounds_a_solid, options_.threads);
+  result_.certificate = final_certificate(pieces, topology_, faults, result_.build.bounds_a_solid);
   if (controls_.stopped() || !result_.build.bounds_a_solid) return;
   PromiseFigures figures;
   figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());

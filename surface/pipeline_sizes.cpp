@@ -63,10 +63,7 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
     refine_to_count(mesh, options, static_cast<std::size_t>(*count));
     last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
   }
-  if (!last_.geometry.is_near()) {
-    find_last_faults(mesh);
-    timed(result_.certify_stage, [&] { find_crossings(); });
-  }
+  if (!last_.geometry.is_near()) find_last_faults(mesh);
   decimate_mesh(mesh);
   improve_decimated(mesh);
   timed(result_.certify_stage, [&] {
@@ -163,7 +160,6 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
 // The mesh that these samples give to stage 1, if it is nearer to the isosurface. Adds the cells where it is not near.
 void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
   const MeshFaults last_before = last_;
-  const AssignmentFaults faults_before = faults_;
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
   SurfaceMesh again = stage1(samples);
   controls_.enter("refine");
@@ -179,7 +175,6 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
     mesh = std::move(again);
   } else {
     last_ = last_before;
-    faults_ = faults_before;
     std::swap(result_.repair, repair_before);
   }
   result_.repair.seconds += repair_before.seconds;

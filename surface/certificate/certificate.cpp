@@ -71,6 +71,35 @@ void add_count_differences(const std::vector<TopologyCount>& mesh, const std::ve
   }
 }
 
+std::vector<TopologyCount> counts_of_any_order(std::vector<ComponentTopology> components) {
+  std::sort(components.begin(), components.end());
+  return counts_of(components);
+}
+
+Certificate compared(const MeshTopology& mesh, const std::vector<ComponentTopology>& isosurface) {
+  Certificate certificate;
+  certificate.verdict = Verdict::kDifferent;
+  certificate.isosurface = counts_of_any_order(isosurface);
+  certificate.manifold = mesh.is_manifold();
+  certificate.oriented = mesh.is_oriented();
+  certificate.mesh = counts_of(sorted_components(mesh));
+  add_defects(mesh, certificate.differences);
+  add_count_differences(certificate.mesh, certificate.isosurface, certificate.differences);
+  if (certificate.differences.empty()) certificate.verdict = Verdict::kHomeomorphic;
+  return certificate;
+}
+
+void add_singular_cells(const IsosurfaceTopology& isosurface, Certificate& certificate) {
+  if (isosurface.singular_cells.empty()) return;
+  const CellIndex& cell = isosurface.singular_cells.front();
+  certificate.verdict = Verdict::kSingularIsovalue;
+  certificate.differences.insert(
+      certificate.differences.begin(),
+      "The isovalue is that of a saddle: the isosurface is no manifold in " +
+          counted(static_cast<std::int64_t>(isosurface.singular_cells.size()), "cell", "cells") + ", the first one (" +
+          std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ").");
+}
+
 }  // namespace
 
 std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh) {
@@ -78,41 +107,25 @@ std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh) {
 }
 
 Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads) {
+  const std::size_t bad = first_bad_triangle(mesh);
+  if (bad == mesh.triangles.size()) return compared(mesh_topology(mesh, threads), isosurface);
   Certificate certificate;
   certificate.verdict = Verdict::kDifferent;
-  std::vector<ComponentTopology> sorted = isosurface;
-  std::sort(sorted.begin(), sorted.end());
-  certificate.isosurface = counts_of(sorted);
+  certificate.isosurface = counts_of_any_order(isosurface);
+  certificate.differences.push_back("Triangle " + std::to_string(bad) + " names a vertex beyond the mesh's " +
+                                    counted(static_cast<std::int64_t>(mesh.points.size()), "point.", "points."));
+  return certificate;
+}
 
-  const std::size_t bad = first_bad_triangle(mesh);
-  if (bad < mesh.triangles.size()) {
-    certificate.differences.push_back("Triangle " + std::to_string(bad) + " names a vertex beyond the mesh's " +
-                                      counted(static_cast<std::int64_t>(mesh.points.size()), "point.", "points."));
-    return certificate;
-  }
-
-  const MeshTopology topology = mesh_topology(mesh, threads);
-  certificate.manifold = topology.is_manifold();
-  certificate.oriented = topology.is_oriented();
-  certificate.mesh = counts_of(sorted_components(topology));
-  add_defects(topology, certificate.differences);
-  add_count_differences(certificate.mesh, certificate.isosurface, certificate.differences);
-  if (certificate.differences.empty()) certificate.verdict = Verdict::kHomeomorphic;
+Certificate certify(const MeshTopology& mesh, const IsosurfaceTopology& isosurface) {
+  Certificate certificate = compared(mesh, isosurface.components);
+  add_singular_cells(isosurface, certificate);
   return certificate;
 }
 
 Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface, int threads) {
   Certificate certificate = certify(mesh, isosurface.components, threads);
-  if (!isosurface.singular_cells.empty()) {
-    const CellIndex& cell = isosurface.singular_cells.front();
-    certificate.verdict = Verdict::kSingularIsovalue;
-    certificate.differences.insert(
-        certificate.differences.begin(),
-        "The isovalue is that of a saddle: the isosurface is no manifold in " +
-            counted(static_cast<std::int64_t>(isosurface.singular_cells.size()), "cell", "cells") +
-            ", the first one (" + std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " +
-            std::to_string(cell[2]) + ").");
-  }
+  add_singular_cells(isosurface, certificate);
   return certificate;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/triangle_mesh.h"
 #include "volume/topology/exact_topology.h"
 
@@ -40,6 +41,9 @@ std::vector<ComponentTopology> component_topologies(const TriangleMesh& mesh);
 // and `differences` says why. If the mesh is no manifold, its counts are V - E + F all the same. If an index is out of
 // range, the counts are left empty. The same for any number of threads.
 Certificate certify(const TriangleMesh& mesh, const std::vector<ComponentTopology>& isosurface, int threads = 1);
+
+// The same for a mesh whose indices are in range, of which this is the topology.
+Certificate certify(const MeshTopology& mesh, const IsosurfaceTopology& isosurface);
 
 // The same; kSingularIsovalue when the isosurface has singular points (IsosurfaceTopology::singular_cells).
 Certificate certify(const TriangleMesh& mesh, const IsosurfaceTopology& isosurface, int threads = 1);

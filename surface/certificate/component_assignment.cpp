@@ -2,32 +2,74 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "delaunay/base/counted.h"
-#include "delaunay/base/parallel.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/component_match.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/certificate/promise.h"
+#include "volume/topology/component_blocks.h"
 
 namespace deliso {
 
 namespace {
+
+constexpr std::size_t kCrossingsPerPoint = 8;
 
 void sort_and_drop_repeated(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// Whether a piece is no larger than vertices may be off the isosurface.
-bool is_tiny(const AssignedPieces& pieces, std::uint32_t piece) {
-  Box3 box;
-  for (std::size_t v = 0; v < pieces.points.size(); ++v) {
-    if (pieces.piece_of[v] == piece) box.extend(pieces.points[v]);
+// The vertices of a share that tell what they lie on; counted no further than to `enough`.
+std::int64_t certain_vertices(const AssignedPieces& pieces, const ComponentShare& share, std::int64_t enough) {
+  std::int64_t count = 0;
+  for (std::uint32_t v = 0; v < pieces.piece_of.size() && count < enough; ++v) {
+    const bool is_counted = pieces.piece_of[v] == share.piece && pieces.component_of[v] == share.component;
+    count += is_counted && !pieces.is_doubtful(v) ? 1 : 0;
   }
-  return !pieces.points.empty() && box.diagonal() < Promise().max_residual;
+  return count;
 }
+
+// The pieces of a mesh, and where they lie: points are in index space, and may be off the isosurface.
+class PlacedPieces {
+ public:
+  PlacedPieces(std::vector<Vec3> points, const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
+               int threads)
+      : points_(std::move(points)),
+        grid_(grid),
+        isovalue_(isovalue),
+        topology_(topology),
+        component_of_(components_of(points_, grid, isovalue, topology, threads)) {}
+
+  [[nodiscard]] AssignmentFaults faults(std::span<const std::uint32_t> piece_of,
+                                        std::span<const ComponentTopology> pieces) const {
+    return assignment_faults(
+        {piece_of, component_of_, pieces, topology_.components, [this](std::uint32_t v) { return is_doubtful(v); }});
+  }
+
+ private:
+  // As far from the isosurface as a vertex may be there may be another component.
+  [[nodiscard]] bool is_doubtful(std::uint32_t v) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const double off : {-Promise().max_residual, Promise().max_residual}) {
+        Vec3 p = points_[v];
+        p[axis] += off;
+        const auto other = component_of(grid_, isovalue_, topology_, p);
+        if (other && *other != component_of_[v]) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<Vec3> points_;
+  const ScalarGrid& grid_;
+  double isovalue_;
+  const IsosurfaceTopology& topology_;
+  std::vector<std::uint32_t> component_of_;
+};
 
 }  // namespace
 
@@ -53,7 +95,8 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
   for (const ComponentShare& share : shares) {
     const std::uint32_t counts_for = main_of_piece[share.piece].component;
     if (share.component == counts_for || share.vertices < own[share.component].vertices) continue;
-    if (own[share.component].vertices > 0 && is_tiny(pieces, own[share.component].piece)) continue;
+    const std::int64_t least = std::max<std::int64_t>(1, own[share.component].vertices);
+    if (pieces.is_doubtful && certain_vertices(pieces, share, least) < least) continue;
     faults.overrunning.push_back(counts_for);
   }
   sort_and_drop_repeated(faults.repeated);
@@ -80,34 +123,48 @@ void add_assignment_faults(const AssignmentFaults& faults, Certificate& certific
 
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads) {
+  // Going through all crossings pays for as many points.
+  std::optional<ComponentBlocks> blocks;
+  if (points.size() >= topology.crossings.size() / kCrossingsPerPoint) blocks.emplace(grid.dims(), topology);
   std::vector<std::uint32_t> components(points.size());
   for_each_block(points.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      components[i] = component_of(grid, isovalue, topology, points[i]).value_or(kNoComponent);
+      auto component = blocks ? blocks->only_component(points[i]) : std::nullopt;
+      if (!component) component = component_of(grid, isovalue, topology, points[i]);
+      components[i] = component.value_or(kNoComponent);
     }
   });
   return components;
 }
 
 AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface) {
-  std::vector<std::uint32_t> component_of;
+  const Vec3& step = surface.isosurface.step();
   std::vector<Vec3> points;
-  ComponentMatch match;
-  run_tasks(2, surface.threads, [&](std::size_t task) {
-    if (task == 0) {
-      match = find_pieces(mesh);
-    } else {
-      const Vec3& step = surface.isosurface.step();
-      points.reserve(mesh.points.size());
-      for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
-      component_of =
-          components_of(points, surface.grid(), surface.isosurface.isovalue(), surface.topology, surface.threads);
-    }
-  });
+  points.reserve(mesh.points.size());
+  for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
+  const PlacedPieces placed(std::move(points), surface.grid(), surface.isosurface.isovalue(), surface.topology,
+                            surface.threads);
+  const ComponentMatch match = find_pieces(mesh);
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return assignment_faults({match.piece_of, component_of, topologies, surface.topology.components, points});
+  return placed.faults(match.piece_of, topologies);
+}
+
+AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
+                                   double isovalue, const IsosurfaceTopology& topology, int threads) {
+  if (!pieces.is_manifold()) return {};
+  const Vec3& s = grid.spacing();
+  const Vec3 per_unit{1 / s.x, 1 / s.y, 1 / s.z};
+  std::vector<Vec3> points;
+  points.reserve(mesh.points.size());
+  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), per_unit));
+  std::vector<ComponentTopology> topologies;
+  for (const MeshComponent& piece : pieces.components) {
+    topologies.push_back({piece.euler_characteristic(), piece.boundary_loops});
+  }
+  return PlacedPieces(std::move(points), grid, isovalue, topology, threads)
+      .faults(pieces.component_of_vertex, topologies);
 }
 
 }  // namespace deliso

@@ -5,13 +5,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/certificate.h"
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
+#include "surface/mesh/triangle_mesh.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -23,7 +26,9 @@ struct AssignedPieces {
   std::span<const std::uint32_t> component_of;  // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
   std::span<const ComponentTopology> topology;  // of each piece
   std::span<const ComponentTopology> components;  // the exact ones
-  std::span<const Vec3> points = {};              // of each vertex, in index space; may be left out
+  // Whether a vertex is within rounding of some other component than its own: it does not tell what it lies on then.
+  // May be left out.
+  std::function<bool(std::uint32_t)> is_doubtful = {};
 };
 
 // A piece is assigned to the component that most of its vertices lie on.
@@ -31,9 +36,8 @@ struct AssignmentFaults {
   std::vector<std::uint32_t> without;   // components without an assigned piece
   std::vector<std::uint32_t> repeated;  // components with several pieces
   std::vector<std::uint32_t> unlike;    // components whose piece has another topology
-  // Components whose piece has at least as many vertices on some other component as that component's own piece has. One
-  // whose own piece is smaller than vertices may be off the isosurface does not count as such another: beside it
-  // vertices do not tell what they lie on.
+  // Components whose piece has at least as many vertices on some other component as that component's own piece has.
+  // Doubtful ones do not count.
   std::vector<std::uint32_t> overrunning;
 
   [[nodiscard]] bool is_empty() const {
@@ -46,12 +50,16 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 // kind of fault.
 void add_assignment_faults(const AssignmentFaults& faults, Certificate& certificate);
 
-// The exact component of each point, given in index space; a number beyond all components for a point that lies on
-// none.
+// The exact component of each point, given in index space; kNoComponent (mesh_pieces.h) for one that lies on none,
+// unless only one component passes through the blocks around it.
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 
-// For a mesh in mesh space (raycast/isosurface.h).
+// For a mesh in mesh space (raycast/isosurface.h), with neighbours.
 AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface);
+
+// For a mesh in the coordinates of the volume, with its topology; no faults for one that is no manifold.
+AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
+                                   double isovalue, const IsosurfaceTopology& topology, int threads = 1);
 
 }  // namespace deliso

@@ -9,9 +9,9 @@
 
 namespace deliso {
 
-Certificate final_certificate(const TriangleMesh& mesh, const IsosurfaceTopology& topology,
-                              const AssignmentFaults& faults, bool bounds_a_solid, int threads) {
-  Certificate certificate = certify(mesh, topology, threads);
+Certificate final_certificate(const MeshTopology& mesh, const IsosurfaceTopology& topology,
+                              const AssignmentFaults& faults, bool bounds_a_solid) {
+  Certificate certificate = certify(mesh, topology);
   add_assignment_faults(faults, certificate);
   if (bounds_a_solid) return certificate;
   if (certificate.verdict == Verdict::kHomeomorphic) certificate.verdict = Verdict::kDifferent;

@@ -7,24 +7,10 @@
 
 namespace deliso {
 
-AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
-                                  const RegularTopology& truth) {
-  if (!topology.is_manifold()) return {};
-  const Vec3& s = grid.spacing();
-  std::vector<Vec3> points;
-  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z}));
-  std::vector<ComponentTopology> pieces;
-  for (const MeshComponent& piece : topology.components) {
-    pieces.push_back({piece.euler_characteristic(), piece.boundary_loops});
-  }
-  const std::vector<std::uint32_t> component_of = components_of(points, grid, truth.isovalue, truth.topology);
-  return assignment_faults({topology.component_of_vertex, component_of, pieces, truth.topology.components, points});
-}
-
 std::vector<std::uint8_t> components_left_out(const TriangleMesh& mesh, const ScalarGrid& grid,
                                               const RegularTopology& truth, const Promise& promise) {
   if (promise.dropped_components == 0) return {};
-  const AssignmentFaults faults = faults_of_places(mesh, mesh_topology(mesh), grid, truth);
+  const AssignmentFaults faults = assignment_faults(mesh, mesh_topology(mesh), grid, truth.isovalue, truth.topology);
   if (static_cast<std::int64_t>(faults.without.size()) != promise.dropped_components) return {};
   std::vector<std::uint8_t> is_dropped(truth.topology.components.size(), 0);
   for (const std::uint32_t c : faults.without) is_dropped[c] = 1;

@@ -17,10 +17,6 @@
 
 namespace deliso {
 
-// Whether each component has a piece of its own in its place; no faults for a mesh that is no manifold.
-AssignmentFaults faults_of_places(const TriangleMesh& mesh, const MeshTopology& topology, const ScalarGrid& grid,
-                                  const RegularTopology& truth);
-
 // Of each component: whether it is left out; empty unless as many have no piece of the mesh as were left out. They are
 // those without a piece: all others must have one.
 std::vector<std::uint8_t> components_left_out(const TriangleMesh& mesh, const ScalarGrid& grid,

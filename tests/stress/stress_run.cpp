@@ -92,7 +92,8 @@ StressCase make_stress_case(const StressKind& kind, std::uint64_t seed) {
 
 std::string commands_of(const StressCase& stress_case, const std::filesystem::path& volume) {
   const std::string given = volume.string() + " --isovalue " + shortest_text(stress_case.isovalue);
-  std::string sets = stress_case.is_closed ? " --set boundary=closed" : "";
+  std::string sets = " --set r_min_of=box";
+  if (stress_case.is_closed) sets += " --set boundary=closed";
   for (const auto& [key, value] : stress_case.sets) sets += " --set " + std::string(key) + "=" + shortest_text(value);
   return "deliso mesh " + given + sets + " -o m.ply; deliso verify m.ply " + given +
          (stress_case.is_closed ? " --closed" : "");

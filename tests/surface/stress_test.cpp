@@ -86,7 +86,12 @@ INSTANTIATE_TEST_SUITE_P(
         // and parts of the mesh off the isosurface.
         StressInput{"flat_crossing", 1}, StressInput{"contradiction", 1},
         // A component as thin as rounding, whose volume has either sign: the shape stage turned it inside out.
-        StressInput{"flat_component", 0, false, RMinOf::kBox}),
+        StressInput{"flat_component", 0, false, RMinOf::kBox},
+        // Two parts of the surface along a wall, diagonally opposite in a cell: vertices of the one counted for the
+        // other; sheets 1e-14 apart, between which no vertex tells what it lies on. The verification alone saw it.
+        StressInput{"wall_faces_0", 137.5, true, RMinOf::kBox},
+        StressInput{"wall_faces_1", 3.7965351592920955, true, RMinOf::kBox},
+        StressInput{"two_planes", 0, false, RMinOf::kBox}),
     [](const auto& input) { return std::string(input.param.name); });
 
 }  // namespace

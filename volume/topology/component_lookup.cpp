@@ -50,7 +50,9 @@ class PointLookup {
     for (std::size_t a = 0; a < 3; ++a) {
       const double limit = grid.dims()[a] - 1;
       point_[a] = std::clamp(point[a], 0.0, limit);
-      if (grid.walls()) point_[a] = beyond_wall(point_[a], limit);
+    }
+    if (grid.walls()) move_beyond_wall();
+    for (std::size_t a = 0; a < 3; ++a) {
       const double nearest = std::nearbyint(point_[a]);
       on_plane_[a] = std::abs(point_[a] - nearest) <= kNear;
       plane_[a] = static_cast<std::int32_t>(nearest);
@@ -67,12 +69,43 @@ class PointLookup {
   }
 
  private:
-  // A point on a wall (filters/closing.h) stands for one of the surface that closes the volume just outside it. On the
-  // wall itself it would be looked up in the cells within, where another component may pass.
-  static double beyond_wall(double x, double limit) {
+  // A point on a wall (filters/closing.h) stands for one of the surface that closes the volume just outside it, which
+  // is moved to where it came from: on the wall itself it would be looked up in the cells within, where another
+  // component may pass. On an edge or at a corner of the walls the cell just outside holds one piece.
+  void move_beyond_wall() {
     constexpr double kOnWall = 0x1p-19, kBeyond = 0x1p-31;
-    if (std::abs(x - 1) <= kOnWall) return 1 - kBeyond;
-    return std::abs(x - (limit - 1)) <= kOnWall ? limit - 1 + kBeyond : x;
+    std::array<double, 3> outward{};  // 1 at the upper wall, -1 at the lower one
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double upper = grid_.dims()[a] - 2;
+      if (std::abs(point_[a] - 1) <= kOnWall) outward[a] = -1;
+      if (std::abs(point_[a] - upper) <= kOnWall) outward[a] = 1;
+      if (outward[a] != 0) point_[a] = outward[a] < 0 ? 1 : upper;
+    }
+    const auto walls = std::count_if(outward.begin(), outward.end(), [](double o) { return o != 0; });
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (outward[a] != 0) point_[a] += outward[a] * (walls == 1 ? height_beyond_wall(a, outward[a]) : kBeyond);
+    }
+  }
+  // How far above a point of the wall across an axis the isosurface passes, by the interpolant there and in the layer.
+  [[nodiscard]] double height_beyond_wall(std::size_t axis, double outward) const {
+    const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+    CellIndex at{};
+    at[axis] = static_cast<std::int32_t>(point_[axis]);
+    at[b] = std::min(static_cast<std::int32_t>(point_[b]), grid_.dims()[b] - 2);
+    at[c] = std::min(static_cast<std::int32_t>(point_[c]), grid_.dims()[c] - 2);
+    const double u = point_[b] - at[b], v = point_[c] - at[c];
+    double value = 0;
+    for (unsigned n = 0; n < 4; ++n) {
+      CellIndex sample = at;
+      sample[b] += static_cast<std::int32_t>(n & 1u);
+      sample[c] += static_cast<std::int32_t>(n >> 1);
+      const double weight = ((n & 1u) != 0 ? u : 1 - u) * (n >> 1 != 0 ? v : 1 - v);
+      value += weight * (grid_.at(sample[0], sample[1], sample[2]) - isovalue_);
+    }
+    at[axis] += static_cast<std::int32_t>(outward);
+    const double beyond = grid_.at(at[0], at[1], at[2]) - isovalue_;
+    const double height = value / (value - beyond);
+    return height > 0 ? height : 0;  // at a crease within rounding: where the wall meets the surface within
   }
   [[nodiscard]] double distance_to(std::uint32_t crossing) const {
     return squared_distance(crossing_position(grid_, topology_.crossings[crossing]), point_);

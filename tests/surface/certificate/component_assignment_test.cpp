@@ -34,6 +34,17 @@ TEST(ComponentAssignment, APieceMayNotLieOnAnotherComponentAsMuchAsItsOwnPiece) 
   EXPECT_TRUE(found.without.empty() && found.repeated.empty() && found.unlike.empty());
 }
 
+// Vertices that may as well lie on their own component do not make a piece overrun another one.
+TEST(ComponentAssignment, DoubtfulVerticesDoNotCount) {
+  const Numbers piece_of{0, 0, 0, 0, 0, 1, 1}, component_of{0, 0, 0, 1, 1, 1, 1};
+  const std::vector<ComponentTopology> disks{kDisk, kDisk};
+  for (const std::uint32_t doubtful : {3u, 5u}) {
+    const auto is_doubtful = [&](std::uint32_t v) { return v == doubtful; };
+    const AssignmentFaults found = assignment_faults({piece_of, component_of, disks, disks, is_doubtful});
+    EXPECT_EQ(found.overrunning, doubtful == 3 ? Numbers{} : Numbers{0});
+  }
+}
+
 TEST(ComponentAssignment, ComponentsWithoutAPieceAndWithTwoAreTold) {
   const AssignmentFaults found = faults({0, 0, 1}, {0, 0, 0}, {kDisk, kDisk}, {kDisk, kDisk});
   EXPECT_EQ(found.without, Numbers{1});

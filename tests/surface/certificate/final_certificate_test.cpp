@@ -18,7 +18,7 @@ IsosurfaceTopology one_sphere() {
 }
 
 TEST(FinalCertificate, HoldsWhereCountsAndPlacesAreRight) {
-  const Certificate found = final_certificate(testing::sphere_mesh(3), one_sphere(), {}, true);
+  const Certificate found = final_certificate(mesh_topology(testing::sphere_mesh(3)), one_sphere(), {}, true);
   EXPECT_EQ(found.verdict, Verdict::kHomeomorphic);
   EXPECT_TRUE(found.differences.empty());
 }
@@ -28,18 +28,18 @@ TEST(FinalCertificate, FaultsOfPlaceTakeBackRightCounts) {
                           &AssignmentFaults::overrunning}) {
     AssignmentFaults faults;
     (faults.*kind).push_back(0);
-    const Certificate found = final_certificate(testing::sphere_mesh(3), one_sphere(), faults, true);
+    const Certificate found = final_certificate(mesh_topology(testing::sphere_mesh(3)), one_sphere(), faults, true);
     EXPECT_EQ(found.verdict, Verdict::kDifferent);
     EXPECT_EQ(found.differences.size(), 1u);
   }
 }
 
 TEST(FinalCertificate, FacetsThatBoundNothingProveNothing) {
-  const Certificate right = final_certificate(testing::sphere_mesh(3), one_sphere(), {}, false);
+  const Certificate right = final_certificate(mesh_topology(testing::sphere_mesh(3)), one_sphere(), {}, false);
   EXPECT_EQ(right.verdict, Verdict::kDifferent);
   EXPECT_EQ(right.differences.size(), 1u);
   // What is wrong besides is said, too.
-  const Certificate wrong = final_certificate(testing::torus_mesh(8, 6), one_sphere(), {}, false);
+  const Certificate wrong = final_certificate(mesh_topology(testing::torus_mesh(8, 6)), one_sphere(), {}, false);
   EXPECT_EQ(wrong.verdict, Verdict::kDifferent);
   EXPECT_GT(wrong.differences.size(), 1u);
 }
