@@ -69,6 +69,8 @@ double Isosurface::value(const Vec3& p) const {
   return relative_value(corners, uvw);
 }
 
+Box3 Isosurface::surface_box() const { return grid_.walls() ? Box3{box_.low + step_, box_.high - step_} : box_; }
+
 Vec3 Isosurface::settled(const Vec3& p) const {
   if (!grid_.walls()) return p;
   constexpr double kNear = 0x1p-20;  // of a spacing

@@ -70,6 +70,8 @@ class Isosurface {
   [[nodiscard]] bool is_clear_box(const Place& a, const Place& b) const;
   [[nodiscard]] bool is_clear(const Vec3& a, const Place& place_a, const Vec3& b, const Place& place_b) const;
 
+  // Where the surface lies: the box or, where the volume has walls, what these hold.
+  [[nodiscard]] Box3 surface_box() const;
   // Where the volume has walls: a point next to one of them, on it. Points of the surface there are all but on it, and
   // would be all but in one plane, or in one place at its edges; put onto it they are so exactly.
   [[nodiscard]] Vec3 settled(const Vec3& p) const;

@@ -60,6 +60,8 @@ class Pipeline {
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
+  MeshFaults shaped_cubes(SurfaceMesh& mesh);
+  void take_back_shape(const ShapeStats& before);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);
   MeshFaults faults_of(const SurfaceMesh& mesh);
   AssignmentFaults faults_of_places(const MeshTopology& pieces);

@@ -15,6 +15,7 @@
 #include "surface/certificate/geometry_check.h"
 #include "surface/certificate/kept_components.h"
 #include "surface/certificate/mesh_pieces.h"
+#include "surface/mesh/equal_vertices.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
@@ -140,7 +141,11 @@ void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
 // Components with faults come from finer cubes.
 void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
-    if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact_in_world(*isosurface_)) {
+    const bool is_exact = is_exact_in_world(*isosurface_);
+    if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
+      last_.geometry = check_geometry(mesh, *surface_, promise_);
+    }
+    if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact) {
       last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
     }
   });
@@ -153,19 +158,48 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   std::vector<bool> is_marked;
   std::int64_t most = 0;
   for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
+    const ShapeStats shape_before = result_.shape;
     SurfaceMesh next = mesh;
     const std::int64_t replaced = timed(result_.repair, [&] {
       return replace_faulty_components(next, *surface_, last_, cube / (1 + round), is_marked);
     });
     if (replaced == 0) break;
-    MeshFaults faults = faults_of(next);
+    MeshFaults faults = shaped_cubes(next);
     if (is_sized(parameters_)) bring_cubes_near(next, faults);
-    if (faults.count() >= last_.count()) continue;
+    if (faults.count() >= last_.count()) {
+      take_back_shape(shape_before);
+      continue;
+    }
     mesh = std::move(next);
     last_ = std::move(faults);
     most = std::max(most, replaced);
   }
   result_.repair.components_polygonized += most;
+}
+
+// What the stage says is of the mesh that is kept, but for its time.
+void Pipeline::take_back_shape(const ShapeStats& before) {
+  const double seconds = result_.shape.seconds;
+  result_.shape = before;
+  result_.shape.seconds = seconds;
+}
+
+// Finer cubes have slivers where the isosurface passes near a sample, and strips along closed walls that are nothing
+// when written. Their faults, and those of the mesh after the steps that better its angles, if it has no more then.
+MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
+  merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh);
+  MeshFaults faults = faults_of(mesh);
+  const ShapeStats shape_before = result_.shape;
+  SurfaceMesh shaped = mesh;
+  improve(shaped, parameters_.shape.rounds);
+  merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
+  MeshFaults then = faults_of(shaped);
+  if (then.count() > faults.count()) {
+    take_back_shape(shape_before);
+    return faults;
+  }
+  mesh = std::move(shaped);
+  return then;
 }
 
 // Cubes a little too large leave a few triangles too far: steps bring these near. Smaller ones would have many times as

@@ -118,20 +118,31 @@ void check_vertices(const MeshPoints& points, const ExactSurface& surface, const
   check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
 }
 
+// A triangle flatter than its vertices may be off the isosurface may face either way.
+bool may_face_either_way(const Corners& corners) {
+  const double area = norm(corners.normal), least = 2 * Promise().max_residual * std::sqrt(corners.squared_longest());
+  return !(area > least) || !std::isfinite(area);
+}
+
 // Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
 // should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
 // thin part; nearer ones than vertices may be off the isosurface tell nothing.
 int facing(const Isosurface& isosurface, const Corners& corners) {
-  // A triangle flatter than its vertices may be off the isosurface may face either way.
-  const double area = norm(corners.normal), least = 2 * Promise().max_residual * std::sqrt(corners.squared_longest());
-  if (!(area > least) || !std::isfinite(area)) return 0;
+  if (may_face_either_way(corners)) return 0;
   const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
   for (const double beside : {1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
-    const Vec3 offset = (beside / area) * corners.normal;
+    const Vec3 offset = (beside / norm(corners.normal)) * corners.normal;
     const bool before = isosurface.is_above(centroid + offset), behind = isosurface.is_above(centroid - offset);
     if (before != behind) return before ? -1 : 1;
   }
   return 0;
+}
+
+// The same by the gradient at the centroid.
+int facing_by_gradient(const Isosurface& isosurface, const Corners& corners) {
+  if (may_face_either_way(corners)) return 0;
+  const double slope = dot(isosurface.gradient((corners.p[0] + corners.p[1] + corners.p[2]) / 3), corners.normal);
+  return slope < 0 ? 1 : (slope > 0 ? -1 : 0);
 }
 
 // Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces.
@@ -152,12 +163,24 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
     int count = 0, sum = 0;
   };
   std::vector<Votes> votes(mesh.points.size());  // of each component, at its root
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Votes& its = votes[root(mesh.triangles[t][0])];
-    if (its.count >= kEnough) continue;
-    const int vote = facing(surface.isosurface, Corners(mesh, t));
+  const auto add = [](Votes& its, int vote) {
     its.count += std::abs(vote);
     its.sum += vote;
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Votes& its = votes[root(mesh.triangles[t][0])];
+    if (its.count < kEnough) add(its, facing(surface.isosurface, Corners(mesh, t)));
+  }
+  // The few large triangles of a component may all lie too far from the isosurface for points to tell.
+  std::vector<bool> is_silent(votes.size());
+  bool is_any_silent = false;
+  for (std::uint32_t v = 0; v < votes.size(); ++v) {
+    is_silent[v] = parent[v] == v && votes[v].count == 0;
+    is_any_silent = is_any_silent || is_silent[v];
+  }
+  for (std::size_t t = 0; is_any_silent && t < mesh.triangles.size(); ++t) {
+    const std::uint32_t component = root(mesh.triangles[t][0]);
+    if (is_silent[component]) add(votes[component], facing_by_gradient(surface.isosurface, Corners(mesh, t)));
   }
   for (std::uint32_t v = 0; v < votes.size(); ++v) {
     if (votes[v].sum < 0) check.reversed_vertices.push_back(v);

@@ -28,11 +28,12 @@ constexpr int kStubbornSweeps = 2;
 class Separation {
  public:
   Separation(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
-             const Box3& box)
+             const Box3& box, const Box3& surface_box)
       : mesh_(mesh),
         groups_(groups),
         around_(mesh, groups, origin_of),
         box_(box),
+        surface_box_(surface_box),
         triangles_(groups.size()),
         settled_at_(groups.size(), 0),
         moved_at_(groups.empty() ? 0 : mesh.points.size(), 0) {
@@ -83,7 +84,7 @@ class Separation {
   SurfaceMesh& mesh_;
   std::span<const PinchGroup> groups_;
   PinchNeighbourhoods around_;
-  const Box3& box_;
+  const Box3 &box_, &surface_box_;
   std::vector<Surrounding> surroundings_;                 // triangles around the group at hand
   std::unordered_map<std::uint32_t, Vec3> own_position_;  // the own position of each copy
   std::vector<std::size_t> chosen_;                       // groups to separate, ascending
@@ -181,7 +182,7 @@ void Separation::move(const Copy& copy, int fewest, bool is_stubborn) {
     for (const Vec3& towards : pinch_directions(mesh_, around_, box_, v, is_stubborn)) {
       for (const double length : std::span(kDistances).first(kDistances.size() - (is_stubborn ? 0 : 1))) {
         if (fewest <= least) break;
-        mesh_.points[v] = position + std::min(length, farthest) * towards;
+        mesh_.points[v] = surface_box_.clamp(position + std::min(length, farthest) * towards);
         const int left = conflicts(v, fewest);
         if (left >= fewest) continue;
         fewest = left;
@@ -244,8 +245,8 @@ int Separation::unavoidable_conflicts(std::uint32_t copy) const {
 }  // namespace
 
 void separate_pinches(SurfaceMesh& mesh, std::span<const PinchGroup> groups, std::span<const VertexId> origin_of,
-                      const Box3& box, const std::function<bool(std::uint32_t)>& is_wanted) {
-  Separation separation(mesh, groups, origin_of, box);
+                      const Box3& box, const Box3& surface_box, const std::function<bool(std::uint32_t)>& is_wanted) {
+  Separation separation(mesh, groups, origin_of, box, surface_box);
   if (is_wanted) separation.choose(is_wanted);
   separation.run();
 }

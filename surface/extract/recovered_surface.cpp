@@ -29,7 +29,8 @@ SurfaceMesh UnrepairedSurface::build_triangle_mesh() {
   if (!bounds_a_solid_) return facets_alone(*restricted_);
   BuiltMesh built = deliso::build_triangle_mesh(*restricted_);
   find_other_positions(built.groups, restricted_->isosurface());
-  separate_pinches(built.mesh, built.groups, built.vertex_of, restricted_->isosurface().box());
+  separate_pinches(built.mesh, built.groups, built.vertex_of, restricted_->isosurface().box(),
+                   restricted_->isosurface().surface_box());
   for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(pole_heights_[v.index()]);
   return std::move(built.mesh);
 }

@@ -64,6 +64,7 @@ void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& pi
 }
 
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone) {
+  DELISO_CHECK(mesh.pole_heights.empty() || mesh.pole_heights.size() == mesh.points.size(), "one for each vertex");
   // The new index of each triangle; and the vertices that are used.
   std::vector<std::uint32_t> place(mesh.triangles.size(), 0);
   std::vector<bool> is_used(mesh.points.size(), false);
@@ -101,6 +102,12 @@ Vec3 from_world(Vec3 p, const Isosurface& isosurface) {
   p = p - grid.origin();
   for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= isosurface.step()[axis] / grid.spacing()[axis];
   return p;
+}
+
+std::vector<Vec3> places_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface) {
+  SurfaceMesh points;
+  points.points = mesh.points;
+  return to_world(std::move(points), isosurface).points;
 }
 
 TriangleMesh to_world(SurfaceMesh mesh, const Isosurface& isosurface) {

@@ -70,13 +70,15 @@ void for_each_corner_of_fan(std::uint32_t corner, const Across& across, const Vi
 void append_pieces(const SurfaceMesh& from, const std::vector<std::uint32_t>& piece_of, const std::vector<bool>& wanted,
                    SurfaceMesh& to);
 
-// Removes triangles from a mesh, and the vertices that are then unused; neighbours may be missing. No remaining triangle may be a neighbour of a
-// removed one.
+// Removes triangles from a mesh, and the vertices that are then unused; neighbours may be missing. No remaining
+// triangle may be a neighbour of a removed one.
 void drop_triangles(SurfaceMesh& mesh, const std::vector<bool>& is_gone);
 
 // A point of the grid's world coordinates in mesh space.
 Vec3 from_world(Vec3 p, const Isosurface& isosurface);
 // In the grid's world coordinates; vertices keep their order.
 TriangleMesh to_world(SurfaceMesh mesh, const Isosurface& isosurface);
+// Where its vertices come to lie then.
+std::vector<Vec3> places_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface);
 
 }  // namespace deliso

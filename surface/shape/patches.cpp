@@ -198,6 +198,7 @@ void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> p
   }
   is_gone.resize(mesh.triangles.size(), false);
   mesh.neighbours.clear();
+  mesh.pole_heights.clear();  // new vertices have none
   if (is_any_gone) drop_triangles(mesh, is_gone);
 }
 

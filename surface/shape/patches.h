@@ -40,7 +40,8 @@ double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangl
 
 NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan);
 
-// Brings what was changed in patches into the mesh, which then has no neighbours; removes vertices without triangles.
+// Brings what was changed in patches into the mesh, which then has neither neighbours nor pole heights; removes
+// vertices without triangles.
 void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> patches, SurfaceMesh& mesh);
 
 // Takes the patches, has each worked on apart from the others, on any thread, and puts them back: work(patch, plan,

@@ -12,6 +12,7 @@
 
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
+#include "surface/mesh/mesh_quality.h"
 #include "surface/verification/verification.h"
 #include "tests/support/mesh_fields.h"
 #include "tests/support/topology_mesh_check.h"
@@ -70,6 +71,23 @@ MeshingOptions closed() {
   MeshingOptions options;
   options.parameters.boundary = Boundary::kClosed;
   return options;
+}
+
+// Copies of a vertex were moved apart to either side of a wall, where triangles came to cross when written; marching
+// cubes took their place, with triangles of no area.
+TEST(ClosedSolids, OfRandomSamplesNeedNoMarchingCubesAndHaveGoodAngles) {
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    Rng rng(seed);
+    const Dims dims{9, 8, 10};
+    const std::uint64_t values = seed % 3 == 0 ? 2 : (seed % 3 == 1 ? 4 : 256);
+    std::vector<std::uint8_t> samples(9 * 8 * 10);
+    for (auto& s : samples) s = static_cast<std::uint8_t>(rng.below(values));
+    const ScalarGrid grid(dims, std::move(samples));
+    const MeshingResult result = mesh_isosurface(grid, static_cast<double>(values - 1) / 2, closed());
+    EXPECT_TRUE(is_proven(result.certificate)) << seed;
+    EXPECT_EQ(result.repair.components_polygonized, 0) << seed;
+    EXPECT_GT(measure_quality(result.mesh).min_angle_degrees, 1) << seed;
+  }
 }
 
 TEST(ClosedSolids, OfOnesAreTheBox) {

@@ -91,7 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
         // other; sheets 1e-14 apart, between which no vertex tells what it lies on. The verification alone saw it.
         StressInput{"wall_faces_0", 137.5, true, RMinOf::kBox},
         StressInput{"wall_faces_1", 3.7965351592920955, true, RMinOf::kBox},
-        StressInput{"two_planes", 0, false, RMinOf::kBox}),
+        StressInput{"two_planes", 0, false, RMinOf::kBox},
+        // Two large triangles inside out, both so far from the isosurface that no points beside them told.
+        StressInput{"reversed_tent", 0.15983497258946383, false, RMinOf::kBox}),
     [](const auto& input) { return std::string(input.param.name); });
 
 }  // namespace

@@ -71,9 +71,7 @@ std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>
 }  // namespace
 
 SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
-  SurfaceMesh points;
-  points.points = mesh.points;
-  return self_intersections(to_world(std::move(points), isosurface).points, mesh.triangles, kMostPairsAtLast, threads);
+  return self_intersections(places_in_world(mesh, isosurface), mesh.triangles, kMostPairsAtLast, threads);
 }
 
 std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,

@@ -237,7 +237,7 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosur
     given[i] = {built.mesh, component, match.piece_of};
     std::vector<PinchGroup> groups = built.groups;
     find_other_positions(groups, isosurface);
-    separate_pinches(given[i].mesh, groups, built.vertex_of, isosurface.box(), is_wanted);
+    separate_pinches(given[i].mesh, groups, built.vertex_of, isosurface.box(), isosurface.surface_box(), is_wanted);
     std::vector<std::uint32_t> off_surface =
         PositionsOnSurface(built.mesh, groups).copies_away_from_all(given[i].mesh.points);
     std::erase_if(off_surface, [&](std::uint32_t v) { return !is_wanted(v); });

@@ -128,7 +128,8 @@ std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePa
 SurfaceMesh RepairRounds::unrepaired_mesh() {
   BuiltMesh built = mesh_->built;
   find_other_positions(built.groups, surface_.isosurface);
-  separate_pinches(built.mesh, built.groups, built.vertex_of, surface_.isosurface.box());
+  separate_pinches(built.mesh, built.groups, built.vertex_of, surface_.isosurface.box(),
+                   surface_.isosurface.surface_box());
   const std::vector<double> heights = compute_poles(round_->restricted(), PoleHeight::kNearer);
   for (const VertexId v : built.vertex_of) built.mesh.pole_heights.push_back(heights[v.index()]);
   stats_.vertices_after = static_cast<std::int64_t>(built.mesh.points.size());

@@ -29,12 +29,26 @@ TEST(PinchSeparation, TetrahedraThatShareACornerNoLongerTouch) {
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
   const std::vector<PinchGroup> groups = {{{0, {}}, {4, {}}}};
-  separate_pinches(mesh, groups, origin, kBox);
+  separate_pinches(mesh, groups, origin, kBox, kBox);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
   EXPECT_EQ(found.crossing_pairs, 0);
   EXPECT_EQ(found.touching_pairs, 0);
   EXPECT_LT(norm(mesh.points[0]), 3e-4);
   EXPECT_LT(norm(mesh.points[4]), 3e-4);
+}
+
+TEST(PinchSeparation, NoCopyLeavesTheBoxOfTheSurface) {
+  SurfaceMesh mesh;
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}});
+  append_tetrahedron(mesh, {Vec3{0, 0, 0}, {-1, 0, 1}, {0, -1, 1}, {-1, -1, 2}});
+  std::vector<VertexId> origin;
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
+  const std::vector<PinchGroup> groups = {{{0, {}}, {4, {}}}};
+  separate_pinches(mesh, groups, origin, kBox, Box3{{-10, -10, 0}, {10, 10, 10}});
+  EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).touching_pairs, 0);
+  EXPECT_NE(mesh.points[0], mesh.points[4]);
+  EXPECT_GE(mesh.points[0].z, 0);
+  EXPECT_GE(mesh.points[4].z, 0);
 }
 
 // Two tetrahedra on either side of a common edge, both of whose ends are copies.
@@ -45,7 +59,7 @@ TEST(PinchSeparation, TetrahedraThatShareAnEdgeNoLongerTouch) {
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 1u, 6u, 7u}) origin.emplace_back(v);
   const std::vector<PinchGroup> groups = {{{0, {}}, {4, {}}}, {{1, {}}, {5, {}}}};
-  separate_pinches(mesh, groups, origin, kBox);
+  separate_pinches(mesh, groups, origin, kBox, kBox);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
   EXPECT_EQ(found.crossing_pairs + found.touching_pairs, 0);
 }
@@ -58,7 +72,7 @@ TEST(PinchSeparation, AnotherPositionIsTakenWhereTheOwnIsBeyondAnUnrelatedTriang
   ASSERT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 4);
   std::vector<VertexId> origin;
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) origin.emplace_back(v);
-  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox);
+  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {{0, 0, 0.8}, {0, 0, 0.2}}}}}, origin, kBox, kBox);
   EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
   EXPECT_NEAR(mesh.points[0].z, 0.2, 1e-3);
 }
@@ -69,7 +83,7 @@ TEST(PinchSeparation, OnABoxFaceCopiesStayOnIt) {
   append_tetrahedron(mesh, {Vec3{-10, 0, 0}, {-9, -1, 0}, {-9, -2, -1}, {-9, -1, -1}});
   std::vector<VertexId> origin;
   for (const std::uint32_t v : {0u, 1u, 2u, 3u, 0u, 5u, 6u, 7u}) origin.emplace_back(v);
-  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {}}, {4, {}}}}, origin, kBox);
+  separate_pinches(mesh, std::vector<PinchGroup>{{{0, {}}, {4, {}}}}, origin, kBox, kBox);
   EXPECT_EQ(mesh.points[0].x, -10);
   EXPECT_EQ(mesh.points[4].x, -10);
   const SelfIntersections found = self_intersections(mesh.points, mesh.triangles);
@@ -85,9 +99,10 @@ TEST(PinchSeparation, WhatIsWantedMovesAsIfAllWere) {
     find_other_positions(built.groups, *scene->isosurface);
     const auto is_wanted = [&](std::uint32_t v) { return built.mesh.points[v].x < 2; };
     SurfaceMesh all = built.mesh;
-    separate_pinches(all, built.groups, built.vertex_of, scene->isosurface->box());
+    separate_pinches(all, built.groups, built.vertex_of, scene->isosurface->box(), scene->isosurface->box());
     SurfaceMesh some = built.mesh;
-    separate_pinches(some, built.groups, built.vertex_of, scene->isosurface->box(), is_wanted);
+    separate_pinches(some, built.groups, built.vertex_of, scene->isosurface->box(), scene->isosurface->box(),
+                     is_wanted);
     for (std::uint32_t v = 0; v < all.points.size(); ++v) {
       if (is_wanted(v)) {
         ASSERT_EQ(all.points[v], some.points[v]) << "seed " << seed << " vertex " << v;

@@ -136,7 +136,7 @@ TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
       const auto is_wanted = [&](std::uint32_t v) { return mesh.match.piece_of[v] == mesh.match.main_piece[c]; };
       const std::vector<Vec3> before = mesh.built.mesh.points;
       find_other_positions(mesh.built.groups, *scene->isosurface);
-      separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, is_wanted);
+      separate_pinches(mesh.built.mesh, mesh.built.groups, mesh.built.vertex_of, box, box, is_wanted);
       std::vector<std::uint32_t> piece_of = mesh.match.piece_of;
       if (const auto off = copies_off_surface(mesh.built, before, is_wanted); !off.empty()) {
         VertexDecimation fans(mesh.built.mesh);
