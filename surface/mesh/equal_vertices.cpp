@@ -41,7 +41,7 @@ class Contraction {
     }
   }
 
-  std::int64_t run() {
+  std::int64_t run(std::vector<std::uint32_t>* of_vertex) {
     std::int64_t count = 0;
     for (bool is_any = !edges_.empty(); is_any;) {
       is_any = false;
@@ -54,6 +54,7 @@ class Contraction {
       }
     }
     if (count > 0) {
+      if (of_vertex != nullptr) take_out_merged(*of_vertex);
       mesh_.neighbours.clear();
       drop_triangles(mesh_, is_gone_);
     }
@@ -61,6 +62,19 @@ class Contraction {
   }
 
  private:
+  // As drop_triangles() does with the vertices.
+  void take_out_merged(std::vector<std::uint32_t>& of_vertex) const {
+    std::vector<bool> is_used(of_vertex.size(), false);
+    for (std::size_t t = 0; t < is_gone_.size(); ++t) {
+      if (is_gone_[t]) continue;
+      for (const std::uint32_t v : mesh_.triangles[t]) is_used[v] = true;
+    }
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < is_used.size(); ++v) {
+      if (is_used[v]) of_vertex[count++] = of_vertex[v];
+    }
+    of_vertex.resize(count);
+  }
   [[nodiscard]] std::uint32_t now(std::uint32_t v) const {
     for (auto at = merged_into_.find(v); at != merged_into_.end(); at = merged_into_.find(v)) v = at->second;
     return v;
@@ -133,8 +147,9 @@ class Contraction {
 
 }  // namespace
 
-std::int64_t merge_equal_vertices(std::span<const Vec3> places, SurfaceMesh& mesh) {
-  return Contraction(places, mesh).run();
+std::int64_t merge_equal_vertices(std::span<const Vec3> places, SurfaceMesh& mesh,
+                                  std::vector<std::uint32_t>* of_vertex) {
+  return Contraction(places, mesh).run(of_vertex);
 }
 
 }  // namespace deliso

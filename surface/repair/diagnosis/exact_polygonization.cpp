@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "surface/intersection/exact_tests.h"
+#include "surface/mesh/equal_vertices.h"
 #include "surface/mesh/side_adjacency.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
@@ -48,6 +49,14 @@ ExactPolygonization exact_polygonization(const ExactSurface& exact) {
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
   surface.mesh.triangles = std::move(cubes.triangles);
+  // Where the volume is closed there are strips of triangles in the layer outside its walls, which are folds when that
+  // is taken off.
+  if (exact.grid().walls()) {
+    const Box3 box = exact.isosurface.surface_box();
+    for (Vec3& p : surface.mesh.points) p = exact.isosurface.settled(box.clamp(p));
+    const std::vector<Vec3> places = surface.mesh.points;
+    merge_equal_vertices(places, surface.mesh, &surface.component);
+  }
   set_side_adjacency(surface.mesh);
   return surface;
 }

@@ -20,7 +20,6 @@ constexpr std::array<double, kMaxLatticeLevel + 1> kSamplesOfLevel = {0, 1.6, 5,
 
 std::vector<std::uint32_t> components_over_budget(const ExactSurface& surface, const CellLevels& cell_levels,
                                                   std::vector<CellName> cells, const std::vector<bool>& done) {
-  if (surface.grid().walls()) return {};
   const auto& crossings = surface.topology.crossings;
   std::vector<double> samples(done.size(), 0);
   std::vector<std::uint32_t> of_cell;
