@@ -124,13 +124,15 @@ bool may_face_either_way(const Corners& corners) {
   return !(area > least) || !std::isfinite(area);
 }
 
+constexpr double kFarthestBeside = 1.0 / 8;  // voxels
+
 // Which way a triangle faces, as far as points on either side of its centroid tell: +1 towards lower values, as it
 // should be. The nearest points that lie on different sides of the isosurface decide: farther ones may lie beyond a
 // thin part; nearer ones than vertices may be off the isosurface tell nothing.
 int facing(const Isosurface& isosurface, const Corners& corners) {
   if (may_face_either_way(corners)) return 0;
   const Vec3 centroid = (corners.p[0] + corners.p[1] + corners.p[2]) / 3;
-  for (const double beside : {1.0 / 512, 1.0 / 64, 1.0 / 8}) {  // voxels
+  for (const double beside : {1.0 / 512, 1.0 / 64, kFarthestBeside}) {
     const Vec3 offset = (beside / norm(corners.normal)) * corners.normal;
     const bool before = isosurface.is_above(centroid + offset), behind = isosurface.is_above(centroid - offset);
     if (before != behind) return before ? -1 : 1;
@@ -138,9 +140,11 @@ int facing(const Isosurface& isosurface, const Corners& corners) {
   return 0;
 }
 
-// The same by the gradient at the centroid.
+// The same by the gradient at the centroid, of a triangle so large that all such points may lie on one side: corners
+// lie on the isosurface, and every point is within the longest edge over the square root of 3 of one.
 int facing_by_gradient(const Isosurface& isosurface, const Corners& corners) {
-  if (may_face_either_way(corners)) return 0;
+  const bool is_large = corners.squared_longest() > 3 * kFarthestBeside * kFarthestBeside;
+  if (!is_large || may_face_either_way(corners)) return 0;
   const double slope = dot(isosurface.gradient((corners.p[0] + corners.p[1] + corners.p[2]) / 3), corners.normal);
   return slope < 0 ? 1 : (slope > 0 ? -1 : 0);
 }
