@@ -226,11 +226,8 @@ MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
 // Where the pieces of the mesh that is written lie. Components left out on purpose may be without a piece.
 AssignmentFaults Pipeline::faults_of_places(const MeshTopology& pieces) {
   if (!result_.build.bounds_a_solid) return {};
-  AssignmentFaults faults =
-      assignment_faults(result_.mesh, pieces, grid_, result_.isovalue_used, topology_, options_.threads);
-  std::erase_if(faults.without,
-                [&](std::uint32_t c) { return !surface_->is_dropped.empty() && surface_->is_dropped[c] != 0; });
-  return faults;
+  return assignment_faults(result_.mesh, pieces, grid_, result_.isovalue_used, topology_, surface_->is_dropped,
+                           options_.threads);
 }
 
 void Pipeline::drop_crossings() {

@@ -45,9 +45,10 @@ class PlacedPieces {
         component_of_(components_of(points_, grid, isovalue, topology, threads)) {}
 
   [[nodiscard]] AssignmentFaults faults(std::span<const std::uint32_t> piece_of,
-                                        std::span<const ComponentTopology> pieces) const {
-    return assignment_faults(
-        {piece_of, component_of_, pieces, topology_.components, [this](std::uint32_t v) { return is_doubtful(v); }});
+                                        std::span<const ComponentTopology> pieces,
+                                        std::span<const std::uint8_t> is_dropped) const {
+    return assignment_faults({piece_of, component_of_, pieces, topology_.components,
+                              [this](std::uint32_t v) { return is_doubtful(v); }, is_dropped});
   }
 
  private:
@@ -83,7 +84,7 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
   AssignmentFaults faults;
   for (std::uint32_t c = 0; c < own.size(); ++c) {
     if (own[c].vertices == 0) {
-      faults.without.push_back(c);
+      if (pieces.is_wanted(c)) faults.without.push_back(c);
     } else if (pieces.topology[own[c].piece] != pieces.components[c]) {
       faults.unlike.push_back(c);
     }
@@ -94,7 +95,8 @@ AssignmentFaults assignment_faults(const AssignedPieces& pieces) {
   }
   for (const ComponentShare& share : shares) {
     const std::uint32_t counts_for = main_of_piece[share.piece].component;
-    if (share.component == counts_for || share.vertices < own[share.component].vertices) continue;
+    if (share.component == counts_for || !pieces.is_wanted(share.component)) continue;
+    if (share.vertices < own[share.component].vertices) continue;
     const std::int64_t least = std::max<std::int64_t>(1, own[share.component].vertices);
     if (pieces.is_doubtful && certain_vertices(pieces, share, least) < least) continue;
     faults.overrunning.push_back(counts_for);
@@ -148,11 +150,12 @@ AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& 
   std::vector<ComponentTopology> topologies;
   topologies.reserve(match.pieces.size());
   for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return placed.faults(match.piece_of, topologies);
+  return placed.faults(match.piece_of, topologies, {});
 }
 
 AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
-                                   double isovalue, const IsosurfaceTopology& topology, int threads) {
+                                   double isovalue, const IsosurfaceTopology& topology,
+                                   std::span<const std::uint8_t> is_dropped, int threads) {
   if (!pieces.is_manifold()) return {};
   const Vec3& s = grid.spacing();
   const Vec3 per_unit{1 / s.x, 1 / s.y, 1 / s.z};
@@ -164,7 +167,7 @@ AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology&
     topologies.push_back({piece.euler_characteristic(), piece.boundary_loops});
   }
   return PlacedPieces(std::move(points), grid, isovalue, topology, threads)
-      .faults(pieces.component_of_vertex, topologies);
+      .faults(pieces.component_of_vertex, topologies, is_dropped);
 }
 
 }  // namespace deliso

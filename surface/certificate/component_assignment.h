@@ -29,6 +29,12 @@ struct AssignedPieces {
   // Whether a vertex is within rounding of some other component than its own: it does not tell what it lies on then.
   // May be left out.
   std::function<bool(std::uint32_t)> is_doubtful = {};
+  // Of each component: whether it is left out on purpose and has no piece. Empty: none is.
+  std::span<const std::uint8_t> is_dropped = {};
+
+  [[nodiscard]] bool is_wanted(std::uint32_t component) const {
+    return is_dropped.empty() || is_dropped[component] == 0;
+  }
 };
 
 // A piece is assigned to the component that most of its vertices lie on.
@@ -60,6 +66,7 @@ AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& 
 
 // For a mesh in the coordinates of the volume, with its topology; no faults for one that is no manifold.
 AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
-                                   double isovalue, const IsosurfaceTopology& topology, int threads = 1);
+                                   double isovalue, const IsosurfaceTopology& topology,
+                                   std::span<const std::uint8_t> is_dropped, int threads = 1);
 
 }  // namespace deliso

@@ -10,7 +10,8 @@ namespace deliso {
 std::vector<std::uint8_t> components_left_out(const TriangleMesh& mesh, const ScalarGrid& grid,
                                               const RegularTopology& truth, const Promise& promise) {
   if (promise.dropped_components == 0) return {};
-  const AssignmentFaults faults = assignment_faults(mesh, mesh_topology(mesh), grid, truth.isovalue, truth.topology);
+  const AssignmentFaults faults =
+      assignment_faults(mesh, mesh_topology(mesh), grid, truth.isovalue, truth.topology, {});
   if (static_cast<std::int64_t>(faults.without.size()) != promise.dropped_components) return {};
   std::vector<std::uint8_t> is_dropped(truth.topology.components.size(), 0);
   for (const std::uint32_t c : faults.without) is_dropped[c] = 1;

@@ -239,8 +239,7 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
   begin(0.4, "components");
   {
     const MeshTopology topology = mesh_topology(mesh);
-    faults = assignment_faults(mesh, topology, grid, regular.isovalue, truth);
-    if (!is_dropped.empty()) faults.without.clear();
+    faults = assignment_faults(mesh, topology, grid, regular.isovalue, truth, is_dropped);
     v.manifold = check_manifold(mesh, topology, v.self_intersection.found.zero_area_triangles);
     v.orientation = check_orientation(mesh, voxels, topology, probe);
     v.boundary = check_boundary(voxels, topology, probe.box());

@@ -45,6 +45,17 @@ TEST(ComponentAssignment, DoubtfulVerticesDoNotCount) {
   }
 }
 
+// A component left out on purpose needs no piece, and what lies on it counts for no fault.
+TEST(ComponentAssignment, ComponentsLeftOutAreNotAskedFor) {
+  const Numbers piece_of{0, 0, 0, 0}, component_of{0, 0, 0, 1};
+  const std::vector<ComponentTopology> disk{kDisk}, disks{kDisk, kDisk};
+  for (const bool is_dropped : {false, true}) {
+    const std::vector<std::uint8_t> dropped{0, is_dropped ? std::uint8_t{1} : std::uint8_t{0}};
+    const AssignmentFaults found = assignment_faults({piece_of, component_of, disk, disks, {}, dropped});
+    EXPECT_EQ(found.is_empty(), is_dropped);
+  }
+}
+
 TEST(ComponentAssignment, ComponentsWithoutAPieceAndWithTwoAreTold) {
   const AssignmentFaults found = faults({0, 0, 1}, {0, 0, 0}, {kDisk, kDisk}, {kDisk, kDisk});
   EXPECT_EQ(found.without, Numbers{1});
