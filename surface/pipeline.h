@@ -64,7 +64,7 @@ class Pipeline {
   void take_back_shape(const ShapeStats& before);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);
   MeshFaults faults_of(const SurfaceMesh& mesh);
-  AssignmentFaults faults_of_places(const MeshTopology& pieces);
+  void find_places(const SurfaceMesh& mesh, MeshFaults& faults);
   void drop_crossings();
   void certify(SurfaceMesh mesh);
 

@@ -148,6 +148,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact) {
       last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
     }
+    find_places(mesh, last_);
   });
   if (!repairs(parameters_) || last_.count() == 0) return;
   // With a smaller error promised, cubes that are no smaller will mostly do.
@@ -218,16 +219,18 @@ void Pipeline::bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults) {
 
 MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
   return timed(result_.certify_stage, [&] {
-    return MeshFaults{check_geometry(mesh, *surface_, promise_),
-                      crossing_in_world(mesh, *isosurface_, options_.threads)};
+    MeshFaults faults{
+        check_geometry(mesh, *surface_, promise_), crossing_in_world(mesh, *isosurface_, options_.threads), {}, {}};
+    find_places(mesh, faults);
+    return faults;
   });
 }
 
-// Where the pieces of the mesh that is written lie. Components left out on purpose may be without a piece.
-AssignmentFaults Pipeline::faults_of_places(const MeshTopology& pieces) {
-  if (!result_.build.bounds_a_solid) return {};
-  return assignment_faults(result_.mesh, pieces, grid_, result_.isovalue_used, topology_, surface_->is_dropped,
-                           options_.threads);
+// Where the pieces of a mesh lie. Components left out on purpose may be without a piece.
+void Pipeline::find_places(const SurfaceMesh& mesh, MeshFaults& faults) {
+  faults.pieces = mesh_topology(mesh.points.size(), mesh.triangles, options_.threads);
+  faults.places = {};
+  if (result_.build.bounds_a_solid) faults.places = assignment_faults(mesh, faults.pieces, *surface_);
 }
 
 void Pipeline::drop_crossings() {
@@ -237,6 +240,8 @@ void Pipeline::drop_crossings() {
 }
 
 void Pipeline::certify(SurfaceMesh mesh) {
+  const bool has_places = last_.pieces.component_of_vertex.size() == mesh.points.size();
+  if (parameters_.certify && (!has_places || controls_.stopped())) find_places(mesh, last_);
   double squared_longest = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
@@ -252,11 +257,9 @@ void Pipeline::certify(SurfaceMesh mesh) {
   const std::vector<Vec3> in_world = to_world(std::move(centroids), *isosurface_).points;
   for (std::size_t i = 0; i < in_world.size(); ++i) result_.shape.worst[i].centroid = in_world[i];
   if (!parameters_.certify) return;
-  const MeshTopology pieces = mesh_topology(result_.mesh, options_.threads);
-  const AssignmentFaults faults = faults_of_places(pieces);
   drop_crossings();
   if (!result_.dropped.empty()) keep_components(topology_, surface_->is_dropped);
-  result_.certificate = final_certificate(pieces, topology_, faults, result_.build.bounds_a_solid);
+  result_.certificate = final_certificate(last_.pieces, topology_, last_.places, result_.build.bounds_a_solid);
   if (controls_.stopped() || !result_.build.bounds_a_solid) return;
   PromiseFigures figures;
   figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());

@@ -7,7 +7,6 @@
 
 #include "delaunay/base/counted.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/certificate/component_match.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/certificate/promise.h"
 #include "volume/topology/component_blocks.h"
@@ -44,10 +43,14 @@ class PlacedPieces {
         topology_(topology),
         component_of_(components_of(points_, grid, isovalue, topology, threads)) {}
 
-  [[nodiscard]] AssignmentFaults faults(std::span<const std::uint32_t> piece_of,
-                                        std::span<const ComponentTopology> pieces,
-                                        std::span<const std::uint8_t> is_dropped) const {
-    return assignment_faults({piece_of, component_of_, pieces, topology_.components,
+  [[nodiscard]] AssignmentFaults faults(const MeshTopology& pieces, std::span<const std::uint8_t> is_dropped) const {
+    if (!pieces.is_manifold()) return {};
+    std::vector<ComponentTopology> topologies;
+    topologies.reserve(pieces.components.size());
+    for (const MeshComponent& piece : pieces.components) {
+      topologies.push_back({piece.euler_characteristic(), piece.boundary_loops});
+    }
+    return assignment_faults({pieces.component_of_vertex, component_of_, topologies, topology_.components,
                               [this](std::uint32_t v) { return is_doubtful(v); }, is_dropped});
   }
 
@@ -139,35 +142,28 @@ std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const Sca
   return components;
 }
 
-AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface) {
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const MeshTopology& pieces, const ExactSurface& surface) {
   const Vec3& step = surface.isosurface.step();
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back({p.x / step.x, p.y / step.y, p.z / step.z});
-  const PlacedPieces placed(std::move(points), surface.grid(), surface.isosurface.isovalue(), surface.topology,
-                            surface.threads);
-  const ComponentMatch match = find_pieces(mesh);
-  std::vector<ComponentTopology> topologies;
-  topologies.reserve(match.pieces.size());
-  for (const MeshPiece& piece : match.pieces) topologies.push_back(piece.topology);
-  return placed.faults(match.piece_of, topologies, {});
+  return PlacedPieces(std::move(points), surface.grid(), surface.isosurface.isovalue(), surface.topology,
+                      surface.threads)
+      .faults(pieces, surface.is_dropped);
+}
+
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface) {
+  return assignment_faults(mesh, mesh_topology(mesh.points.size(), mesh.triangles, surface.threads), surface);
 }
 
 AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
                                    double isovalue, const IsosurfaceTopology& topology,
-                                   std::span<const std::uint8_t> is_dropped, int threads) {
-  if (!pieces.is_manifold()) return {};
+                                   std::span<const std::uint8_t> is_dropped) {
   const Vec3& s = grid.spacing();
-  const Vec3 per_unit{1 / s.x, 1 / s.y, 1 / s.z};
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), per_unit));
-  std::vector<ComponentTopology> topologies;
-  for (const MeshComponent& piece : pieces.components) {
-    topologies.push_back({piece.euler_characteristic(), piece.boundary_loops});
-  }
-  return PlacedPieces(std::move(points), grid, isovalue, topology, threads)
-      .faults(pieces.component_of_vertex, topologies, is_dropped);
+  for (const Vec3& p : mesh.points) points.push_back(scaled(p - grid.origin(), {1 / s.x, 1 / s.y, 1 / s.z}));
+  return PlacedPieces(std::move(points), grid, isovalue, topology, 1).faults(pieces, is_dropped);
 }
 
 }  // namespace deliso

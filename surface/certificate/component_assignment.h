@@ -46,9 +46,10 @@ struct AssignmentFaults {
   // Doubtful ones do not count.
   std::vector<std::uint32_t> overrunning;
 
-  [[nodiscard]] bool is_empty() const {
-    return without.empty() && repeated.empty() && unlike.empty() && overrunning.empty();
+  [[nodiscard]] std::size_t count() const {
+    return without.size() + repeated.size() + unlike.size() + overrunning.size();
   }
+  [[nodiscard]] bool is_empty() const { return count() == 0; }
 };
 AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 
@@ -61,12 +62,13 @@ void add_assignment_faults(const AssignmentFaults& faults, Certificate& certific
 std::vector<std::uint32_t> components_of(std::span<const Vec3> points, const ScalarGrid& grid, double isovalue,
                                          const IsosurfaceTopology& topology, int threads = 1);
 
-// For a mesh in mesh space (raycast/isosurface.h), with neighbours.
+// For a mesh in mesh space (raycast/isosurface.h), with its topology; no faults for one that is no manifold.
+AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const MeshTopology& pieces, const ExactSurface& surface);
 AssignmentFaults assignment_faults(const SurfaceMesh& mesh, const ExactSurface& surface);
 
-// For a mesh in the coordinates of the volume, with its topology; no faults for one that is no manifold.
+// The same for a mesh in the coordinates of the volume.
 AssignmentFaults assignment_faults(const TriangleMesh& mesh, const MeshTopology& pieces, const ScalarGrid& grid,
                                    double isovalue, const IsosurfaceTopology& topology,
-                                   std::span<const std::uint8_t> is_dropped, int threads = 1);
+                                   std::span<const std::uint8_t> is_dropped);
 
 }  // namespace deliso

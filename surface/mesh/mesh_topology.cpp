@@ -17,6 +17,8 @@ namespace deliso {
 
 namespace {
 
+using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+
 // A triangle at one of its vertices: the other two.
 struct Corner {
   std::uint32_t next = 0, previous = 0;
@@ -28,13 +30,13 @@ class VertexCorners {
   // This many elements from any corner on may be read.
   static constexpr std::size_t kReadable = 8;
 
-  explicit VertexCorners(const TriangleMesh& mesh)
-      : first_(mesh.points.size() + 1, 0), corners_(3 * mesh.triangles.size() + kReadable) {
-    for (const auto& triangle : mesh.triangles) {
+  VertexCorners(std::size_t vertices, Triangles triangles)
+      : first_(vertices + 1, 0), corners_(3 * triangles.size() + kReadable) {
+    for (const auto& triangle : triangles) {
       for (const std::uint32_t v : triangle) ++first_[v];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [a, b, c] : triangles) {
       corners_[--first_[a]] = {b, c};
       corners_[--first_[b]] = {c, a};
       corners_[--first_[c]] = {a, b};
@@ -163,16 +165,16 @@ void StarCensus::add_to(MeshTopology& sum) const {
 }
 
 // Numbers the pieces and counts their vertices and triangles.
-void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
-  DisjointSets sets(mesh.points.size());
-  std::vector<std::uint8_t> referenced(mesh.points.size(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
+void find_components(std::size_t vertices, Triangles triangles, MeshTopology& topology) {
+  DisjointSets sets(vertices);
+  std::vector<std::uint8_t> referenced(vertices, 0);
+  for (const auto& [a, b, c] : triangles) {
     if (!sets.share_parent(a, b)) sets.unite(a, b);
     if (!sets.share_parent(b, c)) sets.unite(b, c);
     referenced[a] = referenced[b] = referenced[c] = 1;
   }
-  topology.component_of_vertex.assign(mesh.points.size(), MeshTopology::kNoComponent);
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+  topology.component_of_vertex.assign(vertices, MeshTopology::kNoComponent);
+  for (std::uint32_t v = 0; v < vertices; ++v) {
     if (referenced[v] == 0) {
       ++topology.unreferenced_vertices;
       continue;
@@ -186,7 +188,7 @@ void find_components(const TriangleMesh& mesh, MeshTopology& topology) {
     topology.component_of_vertex[v] = topology.component_of_vertex[lowest];
     ++topology.components[topology.component_of_vertex[v]].vertices;
   }
-  for (const auto& triangle : mesh.triangles) {
+  for (const auto& triangle : triangles) {
     ++topology.components[topology.component_of_vertex[triangle[0]]].triangles;
   }
 }
@@ -207,24 +209,27 @@ void count_boundary_loops(std::size_t vertex_count, MeshTopology& topology) {
 }  // namespace
 
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads) {
-  DELISO_CHECK(mesh.triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
+  return mesh_topology(mesh.points.size(), mesh.triangles, threads);
+}
+
+MeshTopology mesh_topology(std::size_t vertices, Triangles triangles, int threads) {
+  DELISO_CHECK(triangles.size() < std::numeric_limits<std::uint32_t>::max() / 3, "corners have 32-bit ids");
   MeshTopology topology;
   std::optional<VertexCorners> corners;
   run_tasks(2, threads, [&](std::size_t task) {
-    if (task == 0) return find_components(mesh, topology);
-    corners.emplace(mesh);
+    if (task == 0) return find_components(vertices, triangles, topology);
+    corners.emplace(vertices, triangles);
   });
   constexpr int kSharesPerThread = 4;  // some shares take longer: the vertices inserted first are far from each other
-  const Shares vertices(mesh.points.size(), kSharesPerThread * threads);
-  std::vector<StarCensus> parts(vertices.count(), StarCensus(*corners, topology));
-  vertices.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+  const Shares shares(vertices, kSharesPerThread * threads);
+  std::vector<StarCensus> parts(shares.count(), StarCensus(*corners, topology));
+  shares.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) parts[share].look_at(static_cast<std::uint32_t>(v));
   });
   for (const StarCensus& part : parts) part.add_to(topology);
-  count_boundary_loops(mesh.points.size(), topology);
-  topology.repeated_vertices = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [](const auto& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  });
+  count_boundary_loops(vertices, topology);
+  topology.repeated_vertices = std::count_if(
+      triangles.begin(), triangles.end(), [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   return topology;
 }
 

@@ -5,7 +5,10 @@
 // may repeat a vertex (such an edge has low == high) or each other.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/mesh/triangle_mesh.h"
@@ -50,6 +53,7 @@ struct MeshTopology {
 // In linear time for meshes of bounded valence; takes about 60 bytes per vertex of a closed mesh. The same for any
 // number of threads. Precondition: every index is below mesh.points.size() (see first_bad_triangle).
 MeshTopology mesh_topology(const TriangleMesh& mesh, int threads = 1);
+MeshTopology mesh_topology(std::size_t vertices, std::span<const std::array<std::uint32_t, 3>> triangles, int threads);
 
 // The first triangle that names a vertex out of range; mesh.triangles.size() when there is none.
 std::size_t first_bad_triangle(const TriangleMesh& mesh);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/repair/finish/finer_cubes.h"
+#include "surface/repair/finish/foreign_vertices.h"
 
 namespace deliso {
 
@@ -39,12 +41,24 @@ void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const
     const std::uint32_t component = pieces.component[pieces.piece_of[t]];
     if (is_faulty[t] && component != kNoComponent) is_marked[component] = true;
   }
+  for (const auto kind : {&AssignmentFaults::without, &AssignmentFaults::repeated, &AssignmentFaults::unlike,
+                          &AssignmentFaults::overrunning}) {
+    for (const std::uint32_t component : faults.places.*kind) is_marked[component] = true;
+  }
   const Vec3& step = surface.isosurface.step();
   for (const Vec3& p : faults.geometry.missed_crossings) {
     const auto component = component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
                                         {p.x / step.x, p.y / step.y, p.z / step.z});
     if (component) is_marked[*component] = true;
   }
+}
+
+// What other pieces have of a component that they have swallowed would cross its cubes.
+void take_foreign_vertices_out(const ExactSurface& surface, SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> all(mesh.points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  set_side_adjacency(mesh);
+  remove_foreign_vertices(mesh, components_at(mesh, all, surface));
 }
 
 // Takes the marked components from the finer cubes, as far as they have a mesh there. Returns how many.
@@ -65,6 +79,7 @@ std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>
   }
   drop_triangles(mesh, is_gone);
   append_pieces(finer, std::vector<std::uint32_t>(finer.points.size(), 0), {true}, mesh);
+  take_foreign_vertices_out(surface, mesh);
   return count;
 }
 

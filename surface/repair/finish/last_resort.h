@@ -3,20 +3,24 @@
 #pragma once
 
 #include "surface/base/exact_surface.h"
+#include "surface/certificate/component_assignment.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/intersection/self_intersection.h"
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
 
-// What is wrong with a mesh that has the right topology.
+// What is wrong with a mesh.
 struct MeshFaults {
   GeometryCheck geometry;
   SelfIntersections crossing;  // of its triangles, in the world's coordinates; up to kMostPairsAtLast are listed
+  MeshTopology pieces;
+  AssignmentFaults places;  // of these pieces
 
   [[nodiscard]] std::int64_t count() const {
     return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.crossing_pairs +
-           static_cast<std::int64_t>(geometry.missed_crossings.size() + geometry.off_box_edges.size());
+           static_cast<std::int64_t>(geometry.missed_crossings.size() + geometry.off_box_edges.size() + places.count());
   }
 };
 
