@@ -1,0 +1,57 @@
+#include "surface/repair/finish/last_resort.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/deliso.h"
+#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/verification/verification.h"
+#include "tests/support/surface_fields.h"
+#include "tests/support/volume_files.h"
+#include "volume/io/volume_file.h"
+#include "volume/region.h"
+
+namespace deliso {
+namespace {
+
+// Shells, one of which has no mesh, or has one twice.
+TEST(LastResort, ReplacesComponentsWhosePiecesAreNotInPlace) {
+  const auto scene = testing::field_scene("shells", 32);
+  const ExactSurface surface = scene->surface();
+  const ExactPolygonization cubes = exact_polygonization(surface);
+  const std::size_t components = scene->topology.components.size();
+  ASSERT_GT(components, 1u);
+  for (const bool is_missing : {true, false}) {
+    SurfaceMesh mesh;
+    std::vector<bool> wanted(components, true);
+    wanted[0] = !is_missing;
+    append_pieces(cubes.mesh, cubes.component, wanted, mesh);
+    if (!is_missing) append_pieces(cubes.mesh, cubes.component, {true}, mesh);
+    MeshFaults faults;
+    faults.places = assignment_faults(mesh, surface);
+    EXPECT_EQ(is_missing ? faults.places.without : faults.places.repeated, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(faults.count(), 1);
+    std::vector<bool> is_marked;
+    EXPECT_EQ(replace_faulty_components(mesh, surface, faults, 1, is_marked), 1);
+    EXPECT_TRUE(assignment_faults(mesh, surface).is_empty());
+  }
+}
+
+// RefineGeom made a piece of one component grow onto another, and the piece of this one onto the first; a third had
+// taken three vertices of it. Of ANEURISM's noise.
+TEST(LastResort, MendsPiecesThatHaveGrownOntoOthers) {
+  const auto data = data_directory();
+  if (!data) GTEST_SKIP() << "DELISO_DATA does not name the directory of the public volumes";
+  const ScalarGrid all = read_volume(*data / "aneurism.nrrd");
+  for (const char* region : {"178:192,51:85,107:150", "179:199,52:91,107:144"}) {
+    const ScalarGrid grid = cropped(all, parse_region(region, "test"));
+    const MeshingResult result = mesh_isosurface(grid, 0.5, {});
+    EXPECT_TRUE(is_proven(result.certificate)) << region;
+    EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used).proven) << region;
+  }
+}
+
+}  // namespace
+}  // namespace deliso
