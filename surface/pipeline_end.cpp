@@ -192,7 +192,10 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
   MeshFaults faults = faults_of(mesh);
   const ShapeStats shape_before = result_.shape;
   SurfaceMesh shaped = mesh;
+  Observer* const observer = controls_.observer();
+  controls_.set_observer(nullptr);  // the mesh may be taken back
   improve(shaped, parameters_.shape.rounds);
+  controls_.set_observer(observer);
   merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
   MeshFaults then = faults_of(shaped);
   if (then.count() > faults.count()) {

@@ -26,8 +26,8 @@ struct AssignedPieces {
   std::span<const std::uint32_t> component_of;  // of each vertex; kNoComponent (mesh_pieces.h) for one off them all
   std::span<const ComponentTopology> topology;  // of each piece
   std::span<const ComponentTopology> components;  // the exact ones
-  // Whether a vertex is within rounding of some other component than its own: it does not tell what it lies on then.
-  // May be left out.
+  // Whether some other component passes as near to a vertex as it may be off the isosurface: it does not tell what it
+  // lies on then. May be left out.
   std::function<bool(std::uint32_t)> is_doubtful = {};
   // Of each component: whether it is left out on purpose and has no piece. Empty: none is.
   std::span<const std::uint8_t> is_dropped = {};

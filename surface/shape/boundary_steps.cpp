@@ -79,7 +79,11 @@ void ShapeSteps::open(const Side& side, double enough, std::vector<PatchStep>& s
 // The only triangle at a vertex of the boundary goes with it, unless it is all of its component.
 void ShapeSteps::remove_ear(std::uint32_t v, std::vector<PatchStep>& steps) {
   const std::uint32_t a = link_.vertices[0], b = link_.vertices[1];
-  if (!curve(a, b, {v}) || patch_.across(link_.triangles[0], a, b) == kNoVertex) return;
+  // The vertex may lie on an edge of the box: the boundary runs on in the face that all three share.
+  const Box3& box = search_.isosurface().box();
+  const unsigned ends = faces_at(box, patch_.point(a)) & faces_at(box, patch_.point(b));
+  if (std::popcount(ends) != 1 || (ends & faces_at(box, patch_.point(v))) == 0) return;
+  if (patch_.across(link_.triangles[0], a, b) == kNoVertex) return;
   PatchStep step{ShapeStep::kRemove, link_.triangles, {}, kNoVertex, {}, 1, {}};
   if (are_whole(step.removed)) steps.push_back(std::move(step));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/rng.h"
@@ -118,6 +119,18 @@ TEST(BoundarySteps, AnEdgeOfTheBoundaryIsPutBehindAVertexInTheFace) {
   };
   expect_opened({{0, 1, 2}, {2, 1, 3}, {1, 4, 3}, {4, 2, 3}}, {0, 3, 2});
   expect_opened({{0, 1, 2}, {0, 2, 3}, {2, 4, 3}, {4, 0, 3}}, {3, 1, 2});
+}
+
+// The only triangle at vertex 0 lies in the face z = 0, on an edge of the box or not: it goes. Off that face the
+// boundary would leave the box without it.
+TEST(BoundarySteps, AnEarInAFaceGoesAtAnEdgeOfTheBoxToo) {
+  for (const auto& [tip, count] : {std::pair(Vec3{4.3, 0, 0}, 1U), {Vec3{4.3, 1, 0}, 1U}, {Vec3{4.3, 0, 1}, 0U}}) {
+    CutPlane plane({tip, {4.3, 4, 0}, {4.31, 2, 0}, {4.3, 3, 2}}, {{0, 1, 2}, {2, 1, 3}});
+    std::vector<PatchStep> found;
+    plane.steps.propose(ShapeStep::kRemove, 0, 0, 1, found);
+    ASSERT_EQ(found.size(), count) << tip.y << ' ' << tip.z;
+    for (const PatchStep& step : found) EXPECT_EQ(step.removed, std::vector<std::uint32_t>{0});
+  }
 }
 
 }  // namespace
