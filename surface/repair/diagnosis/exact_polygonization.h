@@ -9,7 +9,8 @@
 
 namespace deliso {
 
-// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex.
+// The marching-cubes mesh in mesh space, with pole heights of one voxel, and the exact component of each vertex. Of a
+// closed volume it lies within the walls.
 struct ExactPolygonization {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> component;

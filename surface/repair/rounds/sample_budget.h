@@ -18,9 +18,7 @@
 namespace deliso {
 
 // The exact components, of those not done, for which one level more in these cells would take too many samples,
-// ascending. `cells` may repeat names. The samples of a cell are estimated by its level. None where the volume has
-// walls (volume/filters/closing.h): marching cubes lies in the thin layer outside them there, and may fold when that is
-// taken off.
+// ascending. `cells` may repeat names. The samples of a cell are estimated by its level.
 std::vector<std::uint32_t> components_over_budget(const ExactSurface& surface, const CellLevels& cell_levels,
                                                   std::vector<CellName> cells, const std::vector<bool>& done);
 
