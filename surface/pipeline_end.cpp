@@ -243,8 +243,8 @@ void Pipeline::drop_crossings() {
 }
 
 void Pipeline::certify(SurfaceMesh mesh) {
-  const bool has_places = last_.pieces.component_of_vertex.size() == mesh.points.size();
-  if (parameters_.certify && (!has_places || controls_.stopped())) find_places(mesh, last_);
+  // Elsewhere the last look for faults has found them.
+  if (parameters_.certify && (!result_.build.bounds_a_solid || controls_.stopped())) find_places(mesh, last_);
   double squared_longest = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
