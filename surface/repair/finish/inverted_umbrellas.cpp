@@ -32,7 +32,7 @@ class InvertedUmbrellas {
   InvertedUmbrellas(SurfaceMesh& mesh, const Isosurface& isosurface)
       : mesh_(mesh), isosurface_(isosurface), fans_(mesh) {}
 
-  InvertedUmbrellaRemoval remove_all(int threads);
+  std::int64_t remove_all(int threads);
 
  private:
   // A vertex whose triangles face against the surface, and all triangles that meet a box around it, except those
@@ -44,7 +44,6 @@ class InvertedUmbrellas {
   };
   void find_apexes(int threads);
   void find_surroundings();
-  std::vector<Box3> boxes_of_remaining();
   void update_surroundings(Apex& apex, const Box3& box);
   bool remove(Apex& apex);
   void append_apexes(const std::vector<std::uint32_t>& link);
@@ -81,33 +80,21 @@ class InvertedUmbrellas {
   SearchCounters search_;
 };
 
-InvertedUmbrellaRemoval InvertedUmbrellas::remove_all(int threads) {
+std::int64_t InvertedUmbrellas::remove_all(int threads) {
   find_apexes(threads);
-  if (apexes_.empty()) return {};
+  if (apexes_.empty()) return 0;
   find_surroundings();
   // Neighbouring inverted umbrellas are removed one by one; repeat, because what prevented one removal may be gone
   // after another.
-  InvertedUmbrellaRemoval result;
-  for (std::int64_t before = -1; before != result.removed;) {
-    before = result.removed;
+  std::int64_t removed = 0;
+  for (std::int64_t before = -1; before != removed;) {
+    before = removed;
     for (std::size_t a = 0; a < apexes_.size(); ++a) {
-      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++result.removed;
+      if (fans_.has(apexes_[a].vertex) && remove(apexes_[a])) ++removed;
     }
   }
-  result.left = boxes_of_remaining();
-  if (result.removed > 0) fans_.drop_free_slots();
-  return result;
-}
-
-// The boxes around the remaining apexes that have triangles far from the surface.
-std::vector<Box3> InvertedUmbrellas::boxes_of_remaining() {
-  std::vector<Box3> boxes;
-  for (const Apex& apex : apexes_) {
-    VertexFan fan;
-    if (!fans_.has(apex.vertex) || !fans_.find(apex.vertex, fan)) continue;
-    if (far_area(triangles_of(fan)) > 0) boxes.push_back(box_around(apex.vertex, fan));
-  }
-  return boxes;
+  if (removed > 0) fans_.drop_free_slots();
+  return removed;
 }
 
 Triangles InvertedUmbrellas::triangles_of(const VertexFan& fan) const {
@@ -260,7 +247,7 @@ bool InvertedUmbrellas::is_free(const Apex& apex, const Triangles& filling) cons
 
 }  // namespace
 
-InvertedUmbrellaRemoval remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
+std::int64_t remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads) {
   return InvertedUmbrellas(mesh, isosurface).remove_all(threads);
 }
 

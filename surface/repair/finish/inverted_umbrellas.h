@@ -8,24 +8,17 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "delaunay/base/box3.h"
 #include "raycast/isosurface.h"
 #include "surface/mesh/surface_mesh.h"
 
 namespace deliso {
 
-struct InvertedUmbrellaRemoval {
-  std::int64_t removed = 0;  // vertices
-  std::vector<Box3> left;    // around the links of the vertices that had to stay
-};
-
 // Removes inner vertices whose triangles face against the surface on the whole, if other triangles lie near the vertex.
 // The link is filled by its triangulation of least area. The vertex stays unless the filling has less area than before
 // far from a part of the surface that faces the same way, meets no other triangle, and has no edge that the mesh has
 // elsewhere. A disk replaces a disk, so the mesh stays homeomorphic to what it was. The mesh may have pole heights or
-// none. The same for any number of threads.
-InvertedUmbrellaRemoval remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads = 1);
+// none. Returns how many it removed. The same for any number of threads.
+std::int64_t remove_inverted_umbrellas(SurfaceMesh& mesh, const Isosurface& isosurface, int threads = 1);
 
 }  // namespace deliso

@@ -129,13 +129,6 @@ void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector
 
 }  // namespace
 
-void ComponentSelection::reopen(std::uint32_t component) {
-  if (given_up_[component]) return;
-  done_[component] = false;
-  best_[component] = Agreement::kPartial;
-  drop_superseded();
-}
-
 // Keeps a mesh if some component agrees with it better than with every earlier mesh.
 void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
   bool helps = false;

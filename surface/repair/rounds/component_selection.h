@@ -40,9 +40,6 @@ class ComponentSelection {
   // Nothing more is done for a component. It is taken from the meshes kept so far, if one of them may give it.
   void give_up(std::uint32_t component) { done_[component] = given_up_[component] = true; }
   [[nodiscard]] const std::vector<bool>& given_up() const { return given_up_; }
-  // Marks a component as not done and no longer taken from the meshes kept so far, unless it is given up. Precondition:
-  // the meshes have pole heights.
-  void reopen(std::uint32_t component);
   // Keeps a mesh, made with these signs, if it improves some component. Meshes, and parts of meshes, from which no
   // component can be taken any more are dropped.
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);

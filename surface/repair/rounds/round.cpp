@@ -56,7 +56,7 @@ void RepairRound::find_components(std::size_t first_vertex) {
   for_each_block(component_of_vertex_.size() - first_vertex, surface_.threads, find, kVerticesAtOnce);
 }
 
-bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
+bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming,
                            ExchangedPoints& exchanged) {
   if (!restricted_->exchange(leaving, coming, exchanged)) return false;
   at_circumcenters_.resize(restricted_->delaunay().tet_slots(), 0);
@@ -73,23 +73,13 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   if (rule_) {
     rule_->renew(exchanged);
     rule_->update();
-    before_.clear();
-    if (keeps_signs) keep_signs(exchanged);
   }
   flat_.renew(exchanged);
   pockets_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
   if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
-  has_assembled_ = false;
   return true;
-}
-
-void RepairRound::keep_signs(const ExchangedPoints& exchanged) {
-  before_ = restricted_->signs();
-  rule_->take_signs(at_circumcenters_);
-  const TetSigns by_rule = restricted_->signs();
-  for (const TetId t : exchanged.renewed) before_[t.index()] = by_rule[t.index()];
 }
 
 void RepairRound::settle_signs() {
@@ -108,37 +98,24 @@ void RepairRound::take_signs() {
   settle_signs();
 }
 
-void RepairRound::take_signs_before() {
-  rule_->take_signs_before(before_);
-  settle_signs();
-}
-
-void RepairRound::flip_signs(std::span<const TetId> tets) {
-  for (const TetId t : tets) restricted_->flip_sign(t);
-  settle_signs();
-}
-
-// Pairs the facets for the present signs. Nothing if the triangles would be the same as the last time in this round.
-std::optional<PairedTriangles> RepairRound::take_triangles() {
+// Pairs the facets for the present signs.
+PairedTriangles RepairRound::take_triangles() {
   const TetSigns signs = restricted_->signs();
   if (!pairing_) {
     pairing_.emplace(*restricted_, signs, surface_.threads);
-  } else if (!pairing_->update(signs) && has_assembled_) {
-    return std::nullopt;
+  } else {
+    pairing_->update(signs);
   }
-  has_assembled_ = true;
   return pairing_->triangles();
 }
 
-std::optional<MatchedMesh> RepairRound::assemble(const IsOfUse& is_of_use) {
-  std::optional<PairedTriangles> triangles = take_triangles();
-  if (!triangles) return std::nullopt;
-  const std::vector<FacetId> facets = std::move(triangles->facets);
-  MatchedMesh mesh{build_triangle_mesh(*restricted_, *std::move(triangles)), {}, {}};
+MatchedMesh RepairRound::assemble() {
+  PairedTriangles triangles = take_triangles();
+  const std::vector<FacetId> facets = std::move(triangles.facets);
+  MatchedMesh mesh{build_triangle_mesh(*restricted_, std::move(triangles)), {}, {}};
   mesh.component.reserve(mesh.built.vertex_of.size());
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
   mesh.match = match_components(mesh.built.mesh, mesh.component, surface_.topology.components);
-  if (is_of_use && !is_of_use(mesh)) return std::nullopt;
   find_missing_parts(mesh, facets);
   return mesh;
 }

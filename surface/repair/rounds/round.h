@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,7 +14,6 @@
 #include "surface/extract/facet_pairing.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/euler_change.h"
 #include "surface/repair/signs/located_critical_points.h"
 #include "surface/repair/signs/sign_rule.h"
 #include "surface/repair/signs/sliver_signs.h"
@@ -33,34 +31,19 @@ class RepairRound {
   RepairRound(const ExactSurface& surface, const CellLevels& cell_levels, std::unique_ptr<SignedDelaunay> restricted);
 
   // Exchanges points and updates all data for them and for the cells refined meanwhile: this begins a new round.
-  // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more. `keeps_signs` says
-  // that the present signs are worth a try in the next round (take_signs_before).
-  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, bool keeps_signs,
-                ExchangedPoints& exchanged);
+  // Returns false if SignedDelaunay::exchange() fails; then this object must not be used any more.
+  bool exchange(std::span<const VertexId> leaving, std::span<const Vec3> coming, ExchangedPoints& exchanged);
 
   // Sets the signs of the circumcenters, then corrects the signs of slivers (sliver_signs.h) and of spurious pockets
   // (spurious_pockets.h).
   void take_plain_signs();
   // Sets the signs by the rule for refined cells (sign_rule.h), then makes the same two corrections.
   void take_signs();
-  // Sets the signs that the round before ended with, so that what was mended there stays mended, then makes the same
-  // two corrections. Renewed tetrahedra take their sign by the rule. Precondition: has_signs_before().
-  void take_signs_before();
-  [[nodiscard]] bool has_signs_before() const { return !before_.empty(); }
   void set_signs(const TetSigns& signs) { restricted_->set_signs(signs); }
   // Frees data that can be computed again. Called before meshes are assembled, after which a further round is rare.
   void drop_pairing() { pairing_.reset(); }
-  // Flips signs, then makes the same two corrections.
-  void flip_signs(std::span<const TetId> tets);
-  void flip_sign(TetId t) { flip_signs({&t, 1}); }
-  // By how much a flip of the sign of t alone would change the Euler characteristic (euler_change.h).
-  [[nodiscard]] std::int64_t euler_change(TetId t) { return deliso::euler_change(*restricted_, t); }
-
-  // The mesh for the present signs, matched with the exact components. Nothing if it would be the same mesh as the last
-  // time in this round, or if is_of_use(mesh) is false. is_of_use is asked before missing parts are searched; that
-  // search can only increase the error and make agreements partial.
-  using IsOfUse = std::function<bool(const MatchedMesh&)>;
-  std::optional<MatchedMesh> assemble(const IsOfUse& is_of_use = {});
+  // The mesh for the present signs, matched with the exact components.
+  MatchedMesh assemble();
   // The saddles and critical samples of the volume with their tetrahedra, as far as they have been requested.
   LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_); }
   // The pole heights of the wanted vertices for the present signs.
@@ -80,21 +63,18 @@ class RepairRound {
  private:
   void find_components(std::size_t first);
   void settle_signs();
-  void keep_signs(const ExchangedPoints& exchanged);
-  std::optional<PairedTriangles> take_triangles();
+  PairedTriangles take_triangles();
   void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets);
 
   ExactSurface surface_;
   const CellLevels& cell_levels_;
   std::unique_ptr<SignedDelaunay> restricted_;
   TetSigns at_circumcenters_;
-  TetSigns before_;  // the last signs of the round before, those of renewed tetrahedra by the rule; may be empty
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRule> rule_;  // made when first needed
   SliverSigns flat_;
   SpuriousPockets pockets_;
   std::optional<FacetPairing> pairing_;
-  bool has_assembled_ = false;  // whether assemble() was called in this round
   // Of each vertex: the facet of the triangle that covered it when no main piece used it the last time; kNoFacet when
   // there was none.
   std::vector<std::uint32_t> covered_by_;

@@ -8,14 +8,11 @@
 #include "delaunay/base/memory.h"
 #include "delaunay/base/parallel.h"
 #include "surface/base/observer.h"
-#include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/finish/missed_crossings.h"
 #include "surface/repair/rounds/sample_budget.h"
-#include "surface/repair/rounds/sign_search.h"
 #include "surface/restricted/poles.h"
 
 namespace deliso {
@@ -46,7 +43,7 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
       kept_(surface_.topology.components.size()),
       differences_(cache) {
   round_->take_plain_signs();
-  mesh_ = std::make_shared<MatchedMesh>(round_->assemble().value());
+  mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
@@ -57,7 +54,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
   while (stats_.rounds < max_rounds && !kept_.is_done() && !controls.poll()) {
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
-    const std::int64_t round = stats_.rounds - rounds_around_ + 1;
+    const std::int64_t round = stats_.rounds + 1;
     const std::vector<IndexRanges>& boxes =
         differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
     std::vector<CellName> cells =
@@ -85,43 +82,11 @@ void RepairRounds::mend_once(std::vector<CellName> cells, Controls& controls) {
   stats_.cells_refined = static_cast<std::int64_t>(cell_levels_.levels().size());
   resample();
   release_free_memory();
-  take_signs(controls);
+  round_->take_signs();
+  take_mesh();
   release_free_memory();
-  try_signs(controls);
   ++stats_.rounds;
   if (observer != nullptr) observer->round_ends({*mesh_, surface_.topology, kept_.done(), cell_levels_});
-}
-
-void RepairRounds::mend_around(std::span<const std::uint32_t> crossings, Controls& controls) {
-  reopen(crossings);
-  mend_once(cells_around(crossings, surface_, cell_levels_), controls);
-  ++rounds_around_;
-}
-
-// Marks the components of some crossings as not done.
-void RepairRounds::reopen(std::span<const std::uint32_t> crossings) {
-  std::set<std::uint32_t> components;
-  for (const std::uint32_t crossing : crossings) components.insert(surface_.topology.crossings[crossing].component);
-  for (const std::uint32_t c : components) kept_.reopen(c);
-}
-
-std::vector<std::uint32_t> RepairRounds::crossings_at(std::span<const TrianglePair> pairs,
-                                                      const SurfaceMesh& mesh) const {
-  std::vector<std::uint32_t> triangles;
-  for (const TrianglePair& pair : pairs) triangles.insert(triangles.end(), {pair.first, pair.second});
-  std::vector<bool> is_met(surface_.topology.components.size(), false);
-  for (const std::uint32_t c : components_at(mesh, vertices_of(mesh, triangles), surface_)) {
-    if (c < is_met.size()) is_met[c] = !kept_.given_up()[c];
-  }
-  std::vector<std::uint32_t> found;
-  for (const TrianglePair& pair : pairs) {
-    surface_.topology.index.for_each_crossing_of_cell(cell_levels_.cell_of(pair.position), [&](std::uint32_t crossing) {
-      if (is_met[surface_.topology.crossings[crossing].component]) found.push_back(crossing);
-    });
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
 }
 
 // The latest mesh with its pinches separated, and the pole heights for the present samples.
@@ -143,8 +108,7 @@ void RepairRounds::resample() {
   const bool is_continued = samples_.changes_few(resampling);
   if (is_continued || surface_.threads == 1) kept_.give_poles(*round_);
   ExchangedPoints exchanged;
-  const bool keeps_signs = stats_.rounds > 0;  // no round has mended those of stage 1
-  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), keeps_signs, exchanged)) {
+  if (is_continued && round_->exchange(resampling.leaving, resampling.coming_points(), exchanged)) {
     samples_.exchange(resampling, exchanged.vertex_of);
     return;
   }
@@ -161,42 +125,10 @@ void RepairRounds::resample() {
   samples_.take_vertices(vertex_of);
 }
 
-// Sets the signs of the round before, where there are any, and then those by the rule, unless every component is done.
-// Continues with the mesh of the smaller error.
-void RepairRounds::take_signs(Controls& controls) {
-  std::shared_ptr<MatchedMesh> before;
-  TetSigns signs;
-  if (round_->has_signs_before()) {
-    round_->take_signs_before();
-    if (take_mesh() || controls.poll()) return;
-    before = mesh_;
-    signs = round_->restricted().signs();
-  }
-  round_->take_signs();
-  if (take_mesh() || !before || mesh_->match.error < before->match.error) return;
-  mesh_ = std::move(before);
-  round_->set_signs(signs);
-}
-
-// Assembles the mesh for the present signs, and keeps it if it improves some component. Returns whether all are done.
-bool RepairRounds::take_mesh() {
-  std::optional<MatchedMesh> mesh = round_->assemble();
-  if (!mesh) return false;
-  mesh_ = std::make_shared<MatchedMesh>(*std::move(mesh));
+// Assembles the mesh for the present signs, and keeps it if it improves some component.
+void RepairRounds::take_mesh() {
+  mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
   kept_.keep(mesh_, round_->restricted().signs());
-  return kept_.is_done();
-}
-
-// Tries to flip single signs near the boxes in which a component is wrong.
-void RepairRounds::try_signs(Controls& controls) {
-  if (kept_.is_done() || controls.poll()) return;
-  const std::vector<IndexRanges> boxes =
-      differences_.find(mesh_, kept_.done(), {kMostBoxes, stats_.rounds + 1 >= kRoundOfAllDefects});
-  const auto improved = [&](std::shared_ptr<MatchedMesh> mesh) {
-    mesh_ = std::move(mesh);
-    kept_.keep(mesh_, round_->restricted().signs());
-  };
-  SignSearch(*round_, surface_.topology, cell_levels_, boxes).mend(mesh_, kept_.done(), improved, controls);
 }
 
 }  // namespace deliso

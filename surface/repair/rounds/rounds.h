@@ -40,15 +40,6 @@ class RepairRounds {
   // Makes rounds until every component is done or given up (sample_budget.h), or there have been `max_rounds`. Before
   // each round it asks ends(), and stops if that is true. Returns whether ends() stopped it.
   bool mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls);
-  // Marks the components of some missed crossings as not done, and makes a round that samples the surface around these
-  // crossings. Afterwards mend() may continue.
-  void mend_around(std::span<const std::uint32_t> crossings, Controls& controls);
-  // The grid-edge crossings of the cells in which triangles of a mesh meet (indices into topology.crossings,
-  // ascending). Only crossings of the components on which corners of these triangles lie are returned.
-  // None of components given up.
-  [[nodiscard]] std::vector<std::uint32_t> crossings_at(std::span<const TrianglePair> pairs,
-                                                        const SurfaceMesh& mesh) const;
-
   // ComputePoles for the meshes kept so far.
   void give_poles() {
     if (!round_) return;
@@ -57,10 +48,6 @@ class RepairRounds {
   }
   // The meshes kept so far. Their components can be assembled once the meshes have pole heights.
   [[nodiscard]] const ComponentSelection& selection() const { return kept_; }
-  // Whether another round is still possible after a mesh that seemed to be right.
-  [[nodiscard]] bool may_go_on(std::int32_t max_rounds) const {
-    return round_ && stats_.rounds > 0 && stats_.rounds < max_rounds;
-  }
   [[nodiscard]] bool is_done() const { return kept_.is_done(); }
   [[nodiscard]] bool is_done_but_for_mixing() const { return kept_.is_done_but_for_mixing(); }
   // No further round will follow: frees the triangulation and the mesh.
@@ -74,16 +61,12 @@ class RepairRounds {
  private:
   void mend_once(std::vector<CellName> cells, Controls& controls);
   bool gives_up(const std::vector<CellName>& cells);
-  void reopen(std::span<const std::uint32_t> crossings);
   void resample();
-  void take_signs(Controls& controls);
-  bool take_mesh();
-  void try_signs(Controls& controls);
+  void take_mesh();
 
   const ExactSurface& surface_;
   RepairStats& stats_;
   bool may_give_up_;
-  std::int64_t rounds_around_ = 0;  // rounds made by mend_around()
   SampleLattice lattice_;
   CellLevels cell_levels_;
   std::optional<RepairRound> round_;

@@ -120,9 +120,4 @@ void SignRule::take_signs(const TetSigns& at_circumcenters) {
   for (const auto& [tet, is_above] : by_constraint_) restricted_.set_sign(tet, is_above);
 }
 
-void SignRule::take_signs_before(const TetSigns& before) {
-  restricted_.set_signs(before);
-  for (const auto& [tet, is_above] : by_constraint_) restricted_.set_sign(tet, is_above);
-}
-
 }  // namespace deliso

@@ -30,8 +30,6 @@ class SignRule {
   // refined cells, that at its centroid. Then a small tetrahedron whose sign constraint is one side takes this side,
   // whatever the rule says.
   void take_signs(const TetSigns& at_circumcenters);
-  // Sets these signs, then those of the sign constraints as above. No centroid is asked.
-  void take_signs_before(const TetSigns& before);
 
   // The sign constraint of each tetrahedron, by slot (sign_constraints.h).
   [[nodiscard]] const std::vector<std::uint8_t>& constraints() const { return constraints_.sides(); }

@@ -28,7 +28,7 @@ class EulerDifferencesOfNoise : public ::testing::TestWithParam<std::uint64_t> {
     CellLevels cells(*scene_->isosurface);
     RepairRound round(scene_->surface(), cells, std::make_unique<SignedDelaunay>(*scene_->isosurface, samples));
     round.take_plain_signs();
-    mesh_ = std::make_shared<MatchedMesh>(*round.assemble());
+    mesh_ = std::make_shared<MatchedMesh>(round.assemble());
   }
   [[nodiscard]] std::size_t components() const { return scene_->topology.components.size(); }
   // The boxes from one component's main piece and its part of the surface alone, both as whole meshes.

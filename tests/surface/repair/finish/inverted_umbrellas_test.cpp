@@ -67,7 +67,7 @@ TEST(InvertedUmbrellas, ATriangleDrawnThroughABodyComesBack) {
     mesh.triangles.push_back({b, c, apex});
     mesh.triangles.push_back({c, a, apex});
     set_side_adjacency(mesh);
-    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 1) << t;
+    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface), 1) << t;
     expect_good_sphere(mesh, scene, t);
     EXPECT_EQ(mesh.points, whole.points) << t;
     EXPECT_EQ(mesh.pole_heights, whole.pole_heights) << t;
@@ -109,7 +109,7 @@ TEST(InvertedUmbrellas, TwoThatInteractBothGo) {
       draw(mesh, t, inside_of(whole.points[opposite(whole, whole.triangles[t][0])]));
       draw(mesh, other, inside_of(whole.points[opposite(whole, corners[1])]));
       set_side_adjacency(mesh);
-      ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 2) << t << " and " << other;
+      ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface), 2) << t << " and " << other;
       expect_good_sphere(mesh, scene, t);
       EXPECT_EQ(mesh.points, whole.points) << t << " and " << other;
     }
@@ -122,7 +122,7 @@ TEST(InvertedUmbrellas, AVertexDrawnThroughABodyGoes) {
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
     SurfaceMesh mesh = whole;
     mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
-    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 1) << v;
+    ASSERT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface), 1) << v;
     EXPECT_EQ(mesh.points.size(), whole.points.size() - 1) << v;
     expect_good_sphere(mesh, scene, v);
   }
@@ -137,7 +137,7 @@ TEST(InvertedUmbrellas, ARidgeGoesVertexByVertex) {
       mesh.points[v] = inside_of(whole.points[opposite(whole, v)]);
     }
     // Vertices at the foot of the ridge may be removed, too.
-    const std::int64_t removed = remove_inverted_umbrellas(mesh, *scene.isosurface).removed;
+    const std::int64_t removed = remove_inverted_umbrellas(mesh, *scene.isosurface);
     EXPECT_TRUE(removed >= 2 && removed <= 4) << removed << " of " << t;
     expect_good_sphere(mesh, scene, t);
   }
@@ -147,7 +147,7 @@ TEST(InvertedUmbrellas, VerticesThatNothingElseCoversStay) {
   const Scene scene = ball();
   const SurfaceMesh whole = sphere(scene, 2);
   SurfaceMesh untouched = whole;
-  EXPECT_EQ(remove_inverted_umbrellas(untouched, *scene.isosurface).removed, 0);
+  EXPECT_EQ(remove_inverted_umbrellas(untouched, *scene.isosurface), 0);
   EXPECT_EQ(untouched.triangles, whole.triangles);
   EXPECT_EQ(untouched.points, whole.points);
   for (std::uint32_t v = 0; v < whole.points.size(); ++v) {
@@ -155,7 +155,7 @@ TEST(InvertedUmbrellas, VerticesThatNothingElseCoversStay) {
     // Half a voxel short of the other side.
     const Vec3 there = whole.points[opposite(whole, v)];
     mesh.points[v] = there + 0.5 / distance(there, kCenter) * (kCenter - there);
-    EXPECT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface).removed, 0) << v;
+    EXPECT_EQ(remove_inverted_umbrellas(mesh, *scene.isosurface), 0) << v;
     EXPECT_EQ(mesh.triangles, whole.triangles) << v;
   }
 }
@@ -189,16 +189,9 @@ TEST(InvertedUmbrellas, NothingGoesWhereAnotherPieceIsInTheWay) {
     mesh.pole_heights.resize(mesh.points.size(), 1);
     set_side_adjacency(mesh);
     const auto before = mesh.triangles;
-    const auto [removed, left] = remove_inverted_umbrellas(mesh, *scene.isosurface);
+    const std::int64_t removed = remove_inverted_umbrellas(mesh, *scene.isosurface);
     EXPECT_EQ(removed, 0) << v;
     EXPECT_EQ(mesh.triangles, before) << v;
-    // The result has a box around the inverted umbrella that stays.
-    EXPECT_TRUE(std::any_of(left.begin(), left.end(), [&](const Box3& box) {
-      return std::all_of(before.begin(), before.end(), [&](const auto& t) {
-        return std::find(t.begin(), t.end(), v) == t.end() ||
-               std::all_of(t.begin(), t.end(), [&](std::uint32_t w) { return box.contains(mesh.points[w]); });
-      });
-    })) << v;
   }
 }
 
@@ -215,7 +208,7 @@ TEST(InvertedUmbrellas, TopologyStaysAndNoCrossingsCome) {
       if (distance(other, p) < 4) p = other + 1e-4 * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
     }
     const TriangleMesh before{mesh.points, mesh.triangles};
-    removed += remove_inverted_umbrellas(mesh, *scene->isosurface).removed;
+    removed += remove_inverted_umbrellas(mesh, *scene->isosurface);
     const TriangleMesh after{mesh.points, mesh.triangles};
     EXPECT_EQ(testing::surface_mesh_defect(mesh), "") << "seed " << seed;
     EXPECT_EQ(component_topologies(after), component_topologies(before)) << "seed " << seed;

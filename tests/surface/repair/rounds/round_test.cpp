@@ -104,16 +104,13 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
     for (std::size_t v = 0; v < heights.size(); ++v) {
       ASSERT_NEAR(heights[v], fresh_heights[v], 1e-6 * fresh_heights[v]) << where << ", vertex " << v;
     }
-    const auto mesh = continued.assemble();
-    const auto expected = fresh.assemble();
-    ASSERT_EQ(mesh.has_value(), expected.has_value()) << where;
-    if (!mesh) continue;
-    ASSERT_EQ(triangles_by_name(mesh->built, continued), triangles_by_name(expected->built, fresh)) << where;
-    ASSERT_EQ(mesh->built.mesh.points.size(), expected->built.mesh.points.size()) << where;
-    ASSERT_EQ(mesh->built.copies.size(), expected->built.copies.size()) << where;
-    ASSERT_EQ(sorted_pieces(mesh->match), sorted_pieces(expected->match)) << where;
-    ASSERT_EQ(mesh->match.agreement, expected->match.agreement) << where;
-    ASSERT_EQ(mesh->match.error, expected->match.error) << where;
+    const MatchedMesh mesh = continued.assemble(), expected = fresh.assemble();
+    ASSERT_EQ(triangles_by_name(mesh.built, continued), triangles_by_name(expected.built, fresh)) << where;
+    ASSERT_EQ(mesh.built.mesh.points.size(), expected.built.mesh.points.size()) << where;
+    ASSERT_EQ(mesh.built.copies.size(), expected.built.copies.size()) << where;
+    ASSERT_EQ(sorted_pieces(mesh.match), sorted_pieces(expected.match)) << where;
+    ASSERT_EQ(mesh.match.agreement, expected.match.agreement) << where;
+    ASSERT_EQ(mesh.match.error, expected.match.error) << where;
   }
 }
 
@@ -135,7 +132,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
                         is_grown ? grown(scene, start) : triangulation(scene, start));
   std::vector<Vec3> points = points_of(continued);
   continued.take_plain_signs();
-  ASSERT_TRUE(continued.assemble());
+  continued.assemble();
   for (int round = 1; round <= 5; ++round) {
     const std::string where = scene.name + ", round " + std::to_string(round);
     refine_some(scene, cell_levels, rng);
@@ -151,7 +148,7 @@ void go_on_and_compare(const Scene& scene, std::uint64_t seed, int threads, bool
     }
 
     ExchangedPoints exchanged;
-    ASSERT_TRUE(continued.exchange(leaving, coming, true, exchanged)) << where;
+    ASSERT_TRUE(continued.exchange(leaving, coming, exchanged)) << where;
     std::vector<Vec3> left;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool leaves = std::find(leaving.begin(), leaving.end(), VertexId(i)) != leaving.end();
@@ -189,60 +186,6 @@ TEST(RepairRound, GoingOnIsLikeBeginningAnewOnASymmetricField) {
   go_on_and_compare(*testing::field_scene("sphere", 24), 1, 1);
 }
 
-// What a round has flipped stays so in the next one, where its tetrahedra do.
-TEST(RepairRound, SignsCanStayAsTheyWereBefore) {
-  std::size_t stayed = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const auto scene = noise_scene({11, 10, 9}, seed);
-    Rng rng(seed);
-    CellLevels cell_levels(*scene->isosurface);
-    refine_some(*scene, cell_levels, rng);
-    RepairRound round(scene->surface(), cell_levels, triangulation(*scene, all_crossings(*scene)));
-    round.take_signs();
-    EXPECT_FALSE(round.has_signs_before());
-    const Tetrahedralization& delaunay = round.restricted().delaunay();
-    for (std::size_t i = 0; i < delaunay.tet_slots(); ++i) {
-      const TetId t(i);
-      const std::uint8_t constraint = round.sign_constraints()[i];
-      const bool is_decided = constraint == kAbove || constraint == kBelow;
-      if (delaunay.is_live(t) && !delaunay.is_ghost(t) && !is_decided && rng.below(20) == 0) round.flip_sign(t);
-    }
-    const TetSigns before = round.restricted().signs();
-
-    ExchangedPoints exchanged;
-    const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
-    ASSERT_TRUE(round.exchange(leaving, {}, true, exchanged));
-    ASSERT_TRUE(round.has_signs_before());
-    round.take_signs_before();
-    const TetSigns after = round.restricted().signs();
-    std::vector<bool> is_renewed(after.size(), false);
-    for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
-    std::size_t others = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      if (is_renewed[i] || !delaunay.is_live(TetId(i))) continue;
-      (before[i] == after[i] ? stayed : others) += 1;
-    }
-    // Pockets that have become spurious.
-    EXPECT_LE(others, 4u) << "seed " << seed;
-    round.take_signs();
-    EXPECT_NE(round.restricted().signs(), after);
-  }
-  EXPECT_GT(stayed, 1000u);
-}
-
-TEST(RepairRound, SignsThatAreNotKeptAreNotTriedAgain) {
-  const auto scene = noise_scene({9, 9, 9}, 1);
-  const CellLevels cell_levels(*scene->isosurface);
-  RepairRound round(scene->surface(), cell_levels, triangulation(*scene, all_crossings(*scene)));
-  round.take_signs();
-  ExchangedPoints exchanged;
-  const std::vector<VertexId> leaving = {VertexId(7), VertexId(40)};
-  for (const bool keeps_signs : {false, true, false}) {
-    ASSERT_TRUE(round.exchange(leaving, {}, keeps_signs, exchanged));
-    EXPECT_EQ(round.has_signs_before(), keeps_signs);
-  }
-}
-
 // A vertex off the surface, in a cell that the surface does not meet, lies on no component.
 TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
   const auto scene = testing::field_scene("sphere", 24);
@@ -261,7 +204,7 @@ TEST(RepairRound, VerticesOffTheSurfaceLieOnNoComponent) {
   EXPECT_EQ(off, 2u);
   // It does not count as a part that the mesh misses, either.
   round.take_plain_signs();
-  EXPECT_TRUE(round.assemble().has_value());
+  EXPECT_FALSE(round.assemble().built.mesh.triangles.empty());
 }
 
 TEST(RepairRound, WithGuardsHasToBeginAnew) {
@@ -271,7 +214,7 @@ TEST(RepairRound, WithGuardsHasToBeginAnew) {
   RepairRound round(scene->surface(), cell_levels, triangulation(*scene, points));
   ExchangedPoints exchanged;
   const std::vector<Vec3> coming = {{5, 5, 5}};
-  EXPECT_FALSE(round.exchange({}, coming, true, exchanged));
+  EXPECT_FALSE(round.exchange({}, coming, exchanged));
 }
 
 }  // namespace
