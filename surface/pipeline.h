@@ -11,6 +11,7 @@
 #include "surface/base/exact_surface.h"
 #include "surface/certificate/component_assignment.h"
 #include "surface/certificate/promise.h"
+#include "surface/certificate/repeated_check.h"
 #include "surface/deliso.h"
 #include "surface/extract/recovered_surface.h"
 #include "surface/mesh/surface_mesh.h"
@@ -47,12 +48,12 @@ class Pipeline {
   // After RefineGeom (pipeline_end.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
-  void refine_by_distance(SurfaceMesh& mesh, RefineOptions options);
-  void bring_near_by_steps(SurfaceMesh& mesh);
+  void refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check);
+  void bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check);
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
-  void take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom);
+  void take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
   void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);

@@ -39,8 +39,9 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (is_sized(parameters_)) {
     if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh);
   } else {
-    refine_by_distance(mesh, options);
-    bring_near_by_steps(mesh);
+    RepeatedCheck check(*surface_, promise_);
+    refine_by_distance(mesh, options, check);
+    bring_near_by_steps(mesh, check);
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
@@ -91,7 +92,7 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
 
 // Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;
 // not without repair, as in the paper. What is promised is known afterwards.
-void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
+void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check) {
   constexpr int kMostRounds = 6, kCautiousRounds = 2;  // of shape: what it has cut off would be cut off again
   constexpr double kFraction = 0.75;  // of the distance promised: h is measured at one point of each triangle
   const bool may_refine = repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage;
@@ -99,7 +100,7 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
   options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
   std::int64_t off_before = 0;
   for (int round = 0;; ++round) {
-    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
     const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings);
     const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
     if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
@@ -118,23 +119,22 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options) {
 
 // A few triangles may be too far where nothing can be inserted, as along the faces of the box. Finer cubes would take
 // the place of all of their component; steps of the shape stage take that of these triangles alone.
-void Pipeline::bring_near_by_steps(SurfaceMesh& mesh) {
+void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
   if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
   constexpr double kReach = 0.9;  // of the distance promised
   Promise nearer = promise_;
   nearer.max_distance *= kReach;
-  const auto check = [&] {
-    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
-  };
-  take_steps_nearer(mesh, nearer, kFreeSteps);
-  check();
+  const auto look_again = [&] { last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); }); };
+  RepeatedCheck check_nearer(*surface_, nearer);
+  take_steps_nearer(mesh, check_nearer, kFreeSteps);
+  look_again();
   if (!last_.geometry.is_near()) return;
   const SurfaceMesh before = mesh;
   improve(mesh, parameters_.shape.rounds);
-  check();
+  look_again();
   if (last_.geometry.is_near()) return;
   mesh = before;
-  check();
+  look_again();
 }
 
 // What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
@@ -213,7 +213,8 @@ void Pipeline::bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults) {
   const std::int64_t off = faults.geometry.mesh_off + std::ssize(faults.geometry.missed_crossings);
   if (off == 0 || off > kFew || off != faults.count() || !improves_shape(parameters_)) return;
   SurfaceMesh nearer = mesh;
-  take_steps_nearer(nearer, promise_, kFreeSteps);
+  RepeatedCheck check(*surface_, promise_);
+  take_steps_nearer(nearer, check, kFreeSteps);
   MeshFaults left = faults_of(nearer);
   if (left.count() >= faults.count()) return;
   mesh = std::move(nearer);

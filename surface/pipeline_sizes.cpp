@@ -85,13 +85,11 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   options.r_min = std::min(options.r_min, kLeastShare * promise_.max_distance);
   options.criterion2 = Criterion2::kCircumradius;
   options.epsilon2 = 1;
-  const auto check = [&](const Promise& promise) {
-    last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise); });
-    return static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings));
-  };
+  RepeatedCheck check(*surface_, nearer);
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
-    const double off = check(nearer);
+    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+    const auto off = static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings));
     if (off == 0) return true;
     if (off > kProgress * before) break;
     before = off;
@@ -104,14 +102,14 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
     });
   }
   constexpr double kFreedom = 16;
-  take_steps_nearer(mesh, nearer, kFreedom);
-  check(promise_);
+  take_steps_nearer(mesh, check, kFreedom);
+  last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
   return last_.geometry.is_near();
 }
 
-// What refinement does not reach: steps of the shape stage, as long as anything is farther off than `wanted`. Spikes
-// are removed once other steps do not help: they may be all that covers a tip.
-void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, double freedom) {
+// What refinement does not reach: steps of the shape stage, as long as anything is farther off than it checks for.
+// Spikes are removed once other steps do not help: they may be all that covers a tip.
+void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom) {
   constexpr int kStepRounds = 8;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
   ShapeOptions options_of_steps = shape_options(parameters_);
@@ -119,16 +117,18 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, const Promise& wanted, doubl
   std::int64_t off_before = std::numeric_limits<std::int64_t>::max();
   bool removes_spikes = false;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
-    const GeometryCheck before = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, wanted); });
+    const GeometryCheck before = timed(result_.certify_stage, [&] { return check(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_crossings);
     if (off == 0 || (off >= off_before && removes_spikes)) return;
     removes_spikes = removes_spikes || off >= off_before;
     off_before = off;
     timed(result_.shape, [&] {
       insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
-      const GeometryCheck now = check_geometry(mesh, *surface_, wanted);
-      bring_near(mesh, *surface_, now.far_triangles, {wanted.max_distance, removes_spikes}, options_of_steps, controls_,
-                 result_.shape);
+    });
+    const GeometryCheck now = timed(result_.certify_stage, [&] { return check(mesh); });
+    timed(result_.shape, [&] {
+      bring_near(mesh, *surface_, now.far_triangles, {check.promise().max_distance, removes_spikes}, options_of_steps,
+                 controls_, result_.shape);
     });
   }
 }

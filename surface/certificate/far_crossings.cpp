@@ -14,24 +14,36 @@ namespace {
 
 constexpr double kBlock = 3.1;  // side of the blocks around crossings that are left, in reaches
 
-// The crossings that a look beside them leaves open.
-std::vector<Vec3> crossings_to_ask_for(const MeshPoints& points, const ExactSurface& surface) {
+struct OpenCrossing {
+  std::uint32_t number;
+  Vec3 position;
+};
+
+// Of the crossings asked for those that a look beside them leaves open.
+std::vector<OpenCrossing> crossings_left_open(const MeshPoints& points, const ExactSurface& surface,
+                                              const std::optional<std::span<const std::uint32_t>>& asked) {
   const auto& crossings = surface.topology.crossings;
-  return collect_in_blocks<Vec3>(crossings.size(), surface.threads, [&](std::size_t i, std::vector<Vec3>& left) {
-    if (!surface.wants(crossings[i])) return;
-    const Vec3 p = surface.position(crossings[i]);
-    if (!points.cover(p)) left.push_back(p);
-  });
+  const auto append_if_open = [&](std::size_t i, std::vector<OpenCrossing>& left) {
+    const std::uint32_t number = asked ? (*asked)[i] : static_cast<std::uint32_t>(i);
+    if (!surface.wants(crossings[number])) return;
+    const Vec3 p = surface.position(crossings[number]);
+    if (!points.cover(p)) left.push_back({number, p});
+  };
+  return collect_in_blocks<OpenCrossing>(asked ? asked->size() : crossings.size(), surface.threads, append_if_open);
 }
 
 }  // namespace
 
-std::vector<Vec3> far_crossings(const MeshPoints& mesh_points, const ExactSurface& surface) {
+std::vector<std::uint32_t> far_crossings(const MeshPoints& mesh_points, const ExactSurface& surface,
+                                         std::optional<std::span<const std::uint32_t>> asked) {
   const SurfaceMesh& mesh = mesh_points.mesh();
   const double reach = mesh_points.reach();
   const std::vector<std::uint32_t>& long_triangles = mesh_points.long_triangles();
-  const std::vector<Vec3> points = crossings_to_ask_for(mesh_points, surface);
-  if (points.empty()) return {};
+  const std::vector<OpenCrossing> open = crossings_left_open(mesh_points, surface, asked);
+  if (open.empty()) return {};
+  std::vector<Vec3> points;
+  points.reserve(open.size());
+  for (const OpenCrossing& crossing : open) points.push_back(crossing.position);
   // What is left is asked of all triangles that are near it by a corner, and of those that need not be. Blocks reach
   // farther than a long edge and `reach` together.
   const OccupiedBlocks near_blocks(points, kBlock * reach);
@@ -60,9 +72,9 @@ std::vector<Vec3> far_crossings(const MeshPoints& mesh_points, const ExactSurfac
       if (!is_corner_near(long_triangles[i])) cover_by(long_triangles[i]);
     }
   });
-  std::vector<Vec3> far;
+  std::vector<std::uint32_t> far;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_covered[i] == 0) far.push_back(points[i]);
+    if (is_covered[i] == 0) far.push_back(open[i].number);
   }
   return far;
 }

@@ -1,6 +1,9 @@
 // The crossings of the isosurface that a mesh has no triangle near.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
@@ -8,8 +11,9 @@
 
 namespace deliso {
 
-// Where no triangle is within the points' reach, in the order of the crossings; in mesh space. The same for any number
-// of threads.
-std::vector<Vec3> far_crossings(const MeshPoints& mesh_points, const ExactSurface& surface);
+// Where no triangle is within the points' reach: indices into topology.crossings, ascending. `asked`: the crossings
+// that are asked for, ascending; all, where there is none. The same for any number of threads.
+std::vector<std::uint32_t> far_crossings(const MeshPoints& mesh_points, const ExactSurface& surface,
+                                         std::optional<std::span<const std::uint32_t>> asked = {});
 
 }  // namespace deliso

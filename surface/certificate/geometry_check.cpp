@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
@@ -81,21 +83,26 @@ struct Corners {
 
 // Of the triangles, those that need a closer look are found first. Returns those with a long edge (far_crossings.h).
 std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
-                                           GeometryCheck& check) {
+                                           const KnownBefore* known, GeometryCheck& check) {
   std::vector<std::uint32_t> large = collect_in_blocks<std::uint32_t>(
       mesh.triangles.size(), surface.threads, [&](std::size_t t, std::vector<std::uint32_t>& found) {
         if (!Corners(mesh, t).all_within(promise.max_distance)) found.push_back(static_cast<std::uint32_t>(t));
       });
-  std::atomic<std::int64_t> off = 0;
-  const auto append_if_far = [&](std::size_t i, std::vector<std::uint32_t>& far) {
-    const std::int64_t count = count_far_samples(surface.isosurface, Corners(mesh, large[i]).p, promise.max_distance);
-    if (count == 0) return;
-    off += count;
-    far.push_back(large[i]);
+  using Far = std::pair<std::uint32_t, std::int64_t>;  // a triangle and how many of its samples are far
+  const auto append_if_far = [&](std::size_t i, std::vector<Far>& far) {
+    const std::uint32_t t = large[i];
+    const bool is_known = known != nullptr && known->far_samples[t] >= 0;
+    const std::int64_t count = is_known
+                                   ? known->far_samples[t]
+                                   : count_far_samples(surface.isosurface, Corners(mesh, t).p, promise.max_distance);
+    if (count > 0) far.emplace_back(t, count);
   };
-  check.far_triangles =
-      collect_in_blocks<std::uint32_t>(large.size(), surface.threads, append_if_far, kTrianglesAtOnce);
-  check.mesh_off = off;
+  for (const auto& [t, count] :
+       collect_in_blocks<Far>(large.size(), surface.threads, append_if_far, kTrianglesAtOnce)) {
+    check.far_triangles.push_back(t);
+    check.far_samples.push_back(count);
+    check.mesh_off += count;
+  }
   std::erase_if(large,
                 [&](std::uint32_t t) { return !Corners(mesh, t).has_edge_beyond(kLongEdge * promise.max_distance); });
   return large;
@@ -116,6 +123,20 @@ void check_vertices(const MeshPoints& points, const ExactSurface& surface, const
   check.off_vertices = collect_in_blocks<std::uint32_t>(points.order().size(), surface.threads, append_if_off);
   std::sort(check.off_vertices.begin(), check.off_vertices.end());
   check.vertices_off = static_cast<std::int64_t>(check.off_vertices.size());
+}
+
+void check_crossings(const MeshPoints& points, const ExactSurface& surface, const KnownBefore* known,
+                     GeometryCheck& check) {
+  if (known == nullptr) {
+    check.missed_numbers = far_crossings(points, surface);
+  } else {
+    const std::vector<std::uint32_t> far = far_crossings(points, surface, known->asked);
+    std::merge(known->missed.begin(), known->missed.end(), far.begin(), far.end(),
+               std::back_inserter(check.missed_numbers));
+  }
+  for (const std::uint32_t number : check.missed_numbers) {
+    check.missed_crossings.push_back(surface.position(surface.topology.crossings[number]));
+  }
 }
 
 // A triangle flatter than its vertices may be off the isosurface may face either way.
@@ -219,13 +240,14 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
   return count;
 }
 
-GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise) {
+GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                             const KnownBefore* known) {
   GeometryCheck check;
-  const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, check));
+  const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, known, check));
   check_vertices(points, surface, promise, check);
   // Two of these have no parts for several threads.
   run_tasks(3, surface.threads, [&](std::size_t task) {
-    if (task == 0) check.missed_crossings = far_crossings(points, surface);
+    if (task == 0) check_crossings(points, surface, known, check);
     if (task == 1) check_orientation(mesh, surface, check);
     if (task == 2) check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
   });

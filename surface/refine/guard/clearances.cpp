@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
+#include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -78,7 +81,7 @@ std::vector<std::uint32_t> doubled_vertices(const RefinementMesh& mesh) {
 
 // Sets the clearance of the reached vertices to 0. From there on a vertex's clearance is bounded by its distance along
 // edges.
-void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) {
+void bound_clearances(RefinementMesh& mesh, std::span<const std::uint32_t> reached) {
   if (reached.empty()) return;
   auto& vertices = mesh.vertices;
   for (const std::uint32_t v : reached) vertices[v].clearance = 0;
@@ -92,14 +95,21 @@ void bound_clearances(RefinementMesh& mesh, std::vector<std::uint32_t> reached) 
   for (const RefinementMesh::Triangle& t : mesh.triangles) {
     for (unsigned i = 0; i < 3; ++i) after[--first[t.corners[i]]] = t.corners[(i + 1) % 3];
   }
-  for (std::size_t at = 0; at < reached.size(); ++at) {
-    const std::uint32_t v = reached[at];
+  // The nearest first (Dijkstra 1959): in the order of their discovery vertices of a large mesh are bounded again and
+  // again. Either way each gets the least bound.
+  using Bound = std::pair<float, std::uint32_t>;
+  std::priority_queue<Bound, std::vector<Bound>, std::greater<>> queue;
+  for (const std::uint32_t v : reached) queue.emplace(0.0F, v);
+  while (!queue.empty()) {
+    const auto [clearance, v] = queue.top();
+    queue.pop();
+    if (clearance > vertices[v].clearance) continue;
     for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
       const std::uint32_t w = after[i];
-      const float bound = vertices[v].clearance + static_cast<float>(distance(vertices[v].point, vertices[w].point));
+      const float bound = clearance + static_cast<float>(distance(vertices[v].point, vertices[w].point));
       if (bound >= vertices[w].clearance) continue;
       vertices[w].clearance = bound;
-      reached.push_back(w);
+      queue.emplace(bound, w);
     }
   }
 }
@@ -128,7 +138,7 @@ void clear_clearances_near(RefinementMesh& mesh, std::span<const Vec3> suspects)
       reached.insert(reached.end(), corners.begin(), corners.end());
     }
   }
-  bound_clearances(mesh, std::move(reached));
+  bound_clearances(mesh, reached);
 }
 
 void clear_all_clearances(RefinementMesh& mesh) {

@@ -1,0 +1,132 @@
+#include "surface/certificate/repeated_check.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "delaunay/base/box3.h"
+#include "surface/base/parallel_blocks.h"
+
+namespace deliso {
+
+namespace {
+
+// A check of the whole mesh is no slower where more than this fraction of its triangles is new or gone.
+constexpr double kMostChanged = 0.1;
+
+std::array<Vec3, 3> corners_of(const SurfaceMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
+
+// Equal for equal corners in the same order.
+std::uint64_t hash_of(const std::array<Vec3, 3>& corners) {
+  std::uint64_t hash = 0xCBF29CE484222325ull;
+  for (const Vec3& p : corners) {
+    for (const double x : {p.x, p.y, p.z}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15ull;
+      hash ^= hash >> 29;
+    }
+  }
+  return hash;
+}
+
+// Triangles by their hashes, ascending.
+using ByHash = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
+
+// Appends the crossings in a box of mesh space.
+void append_crossings_in(const Box3& box, const ExactSurface& surface, std::vector<std::uint32_t>& found) {
+  const CrossingIndex& index = surface.topology.index;
+  const Vec3& step = surface.isosurface.step();
+  CellIndex low{}, high{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // A crossing belongs to the sample below it, up to a step away.
+    const double last = index.dims()[axis] - 1.0;
+    low[axis] = static_cast<std::int32_t>(std::clamp(std::floor(box.low[axis] / step[axis]) - 1, 0.0, last));
+    high[axis] = static_cast<std::int32_t>(std::clamp(std::ceil(box.high[axis] / step[axis]), 0.0, last));
+  }
+  constexpr std::int32_t kBits = CrossingIndex::kWordBits;
+  for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+    for (std::int32_t j = low[1]; j <= high[1]; ++j) {
+      for (std::int32_t w = low[0] / kBits; w <= high[0] / kBits; ++w) {
+        const auto crossed = index.crossed(w, j, k);
+        for (int axis = 0; axis < 3; ++axis) {
+          for (std::uint64_t bits = crossed[static_cast<std::size_t>(axis)]; bits != 0; bits &= bits - 1) {
+            const std::int32_t i = w * kBits + std::countr_zero(bits);
+            if (low[0] <= i && i <= high[0]) found.push_back(index.number(i, j, k, axis));
+          }
+        }
+      }
+    }
+  }
+}
+
+void sort_and_unite(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
+GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
+  const std::optional<KnownBefore> known = known_of(mesh);
+  GeometryCheck check = check_geometry(mesh, surface_, promise_, known ? &*known : nullptr);
+  // Where nothing is off at first, no other check follows.
+  if (!has_checked_ && check.is_near()) return check;
+  has_checked_ = true;
+  triangles_.clear();
+  triangles_.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) triangles_.push_back(corners_of(mesh, t));
+  far_samples_.assign(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < check.far_triangles.size(); ++i) {
+    far_samples_[check.far_triangles[i]] = check.far_samples[i];
+  }
+  missed_ = check.missed_numbers;
+  return check;
+}
+
+// Nothing where too little is known.
+std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) const {
+  if (!has_checked_) return std::nullopt;
+  ByHash before(triangles_.size());
+  for (std::uint32_t t = 0; t < before.size(); ++t) before[t] = {hash_of(triangles_[t]), t};
+  std::sort(before.begin(), before.end());
+  std::vector<bool> stays(before.size(), false);
+  KnownBefore known;
+  known.far_samples.assign(mesh.triangles.size(), -1);
+  std::vector<Triangle> changed;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle corners = corners_of(mesh, t);
+    const std::uint64_t hash = hash_of(corners);
+    for (auto at = std::lower_bound(before.begin(), before.end(), std::pair(hash, std::uint32_t{0}));
+         at != before.end() && at->first == hash; ++at) {
+      if (triangles_[at->second] != corners) continue;
+      stays[at->second] = true;
+      known.far_samples[t] = far_samples_[at->second];
+    }
+    if (known.far_samples[t] < 0) changed.push_back(corners);
+  }
+  for (std::size_t t = 0; t < stays.size(); ++t) {
+    if (!stays[t]) changed.push_back(triangles_[t]);
+  }
+  if (static_cast<double>(changed.size()) > kMostChanged * static_cast<double>(triangles_.size())) return std::nullopt;
+  const Vec3 around = promise_.max_distance * Vec3{1, 1, 1};
+  for (const Triangle& corners : changed) {
+    Box3 box;
+    for (const Vec3& p : corners) box.extend(p);
+    append_crossings_in({box.low - around, box.high + around}, surface_, known.asked);
+    // Neighbours have the same crossings around them.
+    constexpr std::size_t kTooMany = 1 << 22;
+    if (known.asked.size() > kTooMany) sort_and_unite(known.asked);
+  }
+  sort_and_unite(known.asked);
+  std::set_difference(missed_.begin(), missed_.end(), known.asked.begin(), known.asked.end(),
+                      std::back_inserter(known.missed));
+  return known;
+}
+
+}  // namespace deliso

@@ -1,0 +1,43 @@
+// Checks of one mesh again and again while few of its triangles change.
+//
+// What is off is mended in rounds, each of which changes few triangles and needs a check. On a smooth volume, whose
+// triangles are many voxels large, a check takes longer than all else, since it asks for each crossing of the
+// isosurface. So what the check before tells is kept: how many samples of a triangle are far is asked of new triangles
+// only, and whether a crossing is missed only near triangles that are new or gone. The result is that of a check of the
+// whole mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "surface/base/exact_surface.h"
+#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/promise.h"
+#include "surface/mesh/surface_mesh.h"
+
+namespace deliso {
+
+class RepeatedCheck {
+ public:
+  // Keeps a reference. Which components are dropped must stay the same.
+  RepeatedCheck(const ExactSurface& surface, const Promise& promise) : surface_(surface), promise_(promise) {}
+
+  [[nodiscard]] const Promise& promise() const { return promise_; }
+  // check_geometry() of a mesh. The same for any number of threads.
+  GeometryCheck operator()(const SurfaceMesh& mesh);
+
+ private:
+  using Triangle = std::array<Vec3, 3>;
+  [[nodiscard]] std::optional<KnownBefore> known_of(const SurfaceMesh& mesh) const;
+
+  const ExactSurface& surface_;
+  Promise promise_;
+  bool has_checked_ = false;
+  std::vector<Triangle> triangles_;        // of the mesh checked last
+  std::vector<std::int64_t> far_samples_;  // of each of these
+  std::vector<std::uint32_t> missed_;      // GeometryCheck::missed_numbers
+};
+
+}  // namespace deliso
