@@ -45,7 +45,13 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
-  if (!controls_.stopped()) find_last_faults(mesh);
+  if (controls_.stopped()) return;
+  find_last_faults(mesh);
+  // Finer cubes of a component that fills a large volume would be too many. There, as where an error is stated, stage 1
+  // runs again with more samples near what is too far.
+  if (last_.geometry.is_near() || is_sized(parameters_) || controls_.stopped()) return;
+  begin_again(mesh);
+  find_last_faults(mesh);
 }
 
 // Components left out on purpose count no more: neither the mesh nor the certificate has them.

@@ -10,6 +10,7 @@
 #include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/volume_files.h"
+#include "volume/fields/field_slices.h"
 #include "volume/io/volume_file.h"
 #include "volume/region.h"
 
@@ -51,6 +52,16 @@ TEST(LastResort, MendsPiecesThatHaveGrownOntoOthers) {
     EXPECT_TRUE(is_proven(result.certificate)) << region;
     EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used).proven) << region;
   }
+}
+
+// A byte volume whose steps leave a triangle too far, and whose component would be more than 2^25 finer samples.
+TEST(LastResort, AComponentTooLargeForFinerCubesGetsMoreSamples) {
+  MeshingOptions options;
+  options.threads = 2;
+  options.parameters.promise.max_distance = 0.2;
+  const MeshingResult result = mesh_isosurface(generate_field("gyroid_scan", 160), 135.5, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_EQ(result.repair.components_polygonized, 0);
 }
 
 }  // namespace
