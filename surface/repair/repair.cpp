@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 

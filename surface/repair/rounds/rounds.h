@@ -11,7 +11,6 @@
 
 #include "surface/base/controls.h"
 #include "surface/base/stage_stats.h"
-#include "surface/intersection/self_intersection.h"
 #include "surface/repair/diagnosis/euler_differences.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
