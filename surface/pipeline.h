@@ -60,7 +60,7 @@ class Pipeline {
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh);
   void improve_decimated(SurfaceMesh& mesh);
-  void find_last_faults(SurfaceMesh& mesh);
+  bool find_last_faults(SurfaceMesh& mesh);
   MeshFaults shaped_cubes(SurfaceMesh& mesh);
   void take_back_shape(const ShapeStats& before);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);

@@ -46,10 +46,10 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
   if (controls_.stopped()) return;
-  find_last_faults(mesh);
+  const bool has_cubes = find_last_faults(mesh);
   // Finer cubes of a component that fills a large volume would be too many. There, as where an error is stated, stage 1
   // runs again with more samples near what is too far.
-  if (last_.geometry.is_near() || is_sized(parameters_) || controls_.stopped()) return;
+  if (has_cubes || last_.geometry.is_near() || is_sized(parameters_) || controls_.stopped()) return;
   begin_again(mesh);
   find_last_faults(mesh);
 }
@@ -144,8 +144,8 @@ void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
 }
 
 // What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
-// Components with faults come from finer cubes.
-void Pipeline::find_last_faults(SurfaceMesh& mesh) {
+// Components with faults come from finer cubes. Returns whether there are such for one of them.
+bool Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
     const bool is_exact = is_exact_in_world(*isosurface_);
     if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
@@ -156,7 +156,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     }
     find_places(mesh, last_);
   });
-  if (!repairs(parameters_) || last_.count() == 0) return;
+  if (!repairs(parameters_) || last_.count() == 0) return false;
   // With a smaller error promised, cubes that are no smaller will mostly do.
   constexpr int kMostRounds = 4;
   constexpr double kTimes = 4, kLargest = 0.9;
@@ -164,6 +164,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
   std::vector<bool> is_marked;
   std::int64_t most = 0;
+  bool has_cubes = false;
   for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
     const ShapeStats shape_before = result_.shape;
     SurfaceMesh next = mesh;
@@ -171,6 +172,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
       return replace_faulty_components(next, *surface_, last_, cube / (1 + round), is_marked);
     });
     if (replaced == 0) break;
+    has_cubes = true;
     MeshFaults faults = shaped_cubes(next);
     if (is_sized(parameters_)) bring_cubes_near(next, faults);
     if (faults.count() >= last_.count()) {
@@ -182,6 +184,7 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
     most = std::max(most, replaced);
   }
   result_.repair.components_polygonized += most;
+  return has_cubes;
 }
 
 // What the stage says is of the mesh that is kept, but for its time.
