@@ -70,6 +70,9 @@ class BowyerWatson : public Tetrahedralization {
   // The same for p moved by an infinitesimal (x, y^2, z^3), where x, y and z have the given signs. The moved point lies
   // in one finite tetrahedron, or beyond the hull; a finite answer does not depend on `hint`, a ghost may.
   [[nodiscard]] TetId locate_moved(const Vec3& p, const Signs& signs, TetId hint) const;
+  // The tetrahedra that a segment moved in this way enters after `from` (point_location.h).
+  void append_passed_moved(const Vec3& a, const Vec3& b, const Signs& signs, TetId from,
+                           std::vector<Passage>& passed) const;
   // Whether p is in conflict with t (perturbed as if p were inserted next).
   [[nodiscard]] bool in_conflict(TetId t, const Vec3& p) const;
 

@@ -12,6 +12,11 @@ TetId BowyerWatson::locate_moved(const Vec3& p, const Signs& signs, TetId hint) 
   return visibility_walk_moved(*this, filter_, p, signs, hint);
 }
 
+void BowyerWatson::append_passed_moved(const Vec3& a, const Vec3& b, const Signs& signs, TetId from,
+                                       std::vector<Passage>& passed) const {
+  deliso::append_passed_moved(*this, filter_, a, b, signs, from, passed);
+}
+
 bool BowyerWatson::in_conflict(TetId t, const Vec3& p) const { return conflicts(t, p, VertexId(points_.size())); }
 
 bool BowyerWatson::conflicts(TetId t, const Vec3& p, VertexId p_rank) const {

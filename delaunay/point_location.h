@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "delaunay/base/slab.h"
 #include "delaunay/static_filter.h"
@@ -30,5 +31,17 @@ using Signs = std::array<int, 3>;
 // tetrahedron that contains it is the same from every hint. (Beyond the hull several ghosts may see the point.)
 TetId visibility_walk_moved(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& p,
                             const Signs& signs, TetId hint);
+
+// A tetrahedron that a segment enters at a share of its length (rounded; 0 and 1 are its ends).
+struct Passage {
+  TetId tet;
+  double entry = 0;
+};
+
+// Appends the tetrahedra that the segment from a to b enters one after the other, when both ends are moved by `signs`
+// as above; the first one, `from`, is left out. The last one contains b moved, or is a ghost, where the segment leaves
+// the hull. `from` is finite and contains a moved by `signs`, or by signs that differ along the segment alone.
+void append_passed_moved(const Tetrahedralization& tets, const StaticFilter& filter, const Vec3& a, const Vec3& b,
+                         const Signs& signs, TetId from, std::vector<Passage>& passed);
 
 }  // namespace deliso

@@ -40,8 +40,12 @@ bool FacetPairing::update(const TetSigns& signs) {
     touch(t);
   });
   if (touched_.empty()) return false;
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  std::vector<bool> is_touched(delaunay_.tet_slots(), false);
+  for (const TetId t : touched_) is_touched[t.index()] = true;
+  touched_.clear();
+  for (std::size_t i = 0; i < is_touched.size(); ++i) {
+    if (is_touched[i]) touched_.emplace_back(i);
+  }
   renew_facets(touched_);
   // Of each vertex: whether a tetrahedron at it has changed.
   std::vector<bool> has_changed(delaunay_.vertex_count(), false);

@@ -101,8 +101,11 @@ bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const
                               ExchangedPoints& exchanged) {
   exchanged = {};
   if (guards_ > 0) return false;
-  std::vector<TetId>& renewed = exchanged.renewed;
-  const auto note = [&](std::span<const TetId> tets) { renewed.insert(renewed.end(), tets.begin(), tets.end()); };
+  std::vector<bool> is_renewed(delaunay_.tet_slots(), false);
+  const auto note = [&](std::span<const TetId> tets) {
+    is_renewed.resize(std::max(is_renewed.size(), delaunay_.tet_slots()), false);
+    for (const TetId t : tets) is_renewed[t.index()] = true;
+  };
   // Step 1: remove vertices first, because a new point may lie where an old one is removed.
   std::vector<BowyerWatson::Going> goes(delaunay_.vertex_count(), BowyerWatson::Going::kNo);
   for (const VertexId v : leaving) goes[v.index()] = BowyerWatson::Going::kYes;
@@ -127,10 +130,11 @@ bool SignedDelaunay::exchange(std::span<const VertexId> leaving, std::span<const
     hint = delaunay_.created().front();
   }
   // Step 3: signs.
-  std::sort(renewed.begin(), renewed.end());
-  renewed.erase(std::unique(renewed.begin(), renewed.end()), renewed.end());
+  for (std::size_t i = 0; i < is_renewed.size(); ++i) {
+    if (is_renewed[i]) exchanged.renewed.emplace_back(i);
+  }
   sign_.resize(delaunay_.tet_slots());
-  for (const TetId t : renewed) sign_[t.index()] = delaunay_.is_live(t) ? sign_of(t) : Sign::kBelow;
+  for (const TetId t : exchanged.renewed) sign_[t.index()] = delaunay_.is_live(t) ? sign_of(t) : Sign::kBelow;
   return true;
 }
 

@@ -77,8 +77,12 @@ class SignedDelaunay {
   // The tetrahedron that holds p, by a walk from `hint`. If several do, the one in the direction of `inwards`, whatever
   // the hint; among several ghosts, any.
   [[nodiscard]] TetId locate(const Vec3& p, const Vec3& inwards, TetId hint) const {
-    return delaunay_.locate_moved(p, {p.x < inwards.x ? 1 : -1, p.y < inwards.y ? 1 : -1, p.z < inwards.z ? 1 : -1},
-                                  hint);
+    return delaunay_.locate_moved(p, signs_towards(p, inwards), hint);
+  }
+  // Appends the tetrahedra that the segment from a to b, moved as b is by locate(), enters after `from`, which holds a:
+  // the last one holds b, or is the ghost behind the facet where the segment leaves the hull.
+  void append_passed(const Vec3& a, const Vec3& b, const Vec3& inwards, TetId from, std::vector<Passage>& passed) const {
+    delaunay_.append_passed_moved(a, b, signs_towards(b, inwards), from, passed);
   }
   // Removes vertices and inserts points. Then the vertices are numbered as if the triangulation had been built from the
   // remaining points, in their order, and then the new points, in theirs. New tetrahedra have the signs of their
@@ -123,6 +127,10 @@ class SignedDelaunay {
   SignedDelaunay(SignedDelaunay& whole, const PartRoom& room)
       : isosurface_(whole.isosurface_), delaunay_(whole.delaunay_, room), sign_(whole.sign_, room.tets) {
     DELISO_CHECK(whole.guards_ == 0, "there are no guards");
+  }
+
+  static Signs signs_towards(const Vec3& p, const Vec3& inwards) {
+    return {p.x < inwards.x ? 1 : -1, p.y < inwards.y ? 1 : -1, p.z < inwards.z ? 1 : -1};
   }
 
   enum class Sign : std::uint8_t { kBelow, kAbove };  // kBelow until computed

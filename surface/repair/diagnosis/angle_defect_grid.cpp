@@ -43,7 +43,7 @@ AngleDefectGrid::AngleDefectGrid(const std::array<std::int32_t, 3>& dims, const 
   sums_.assign(nodes_[0] * nodes_[1] * nodes_[2], 0);
 }
 
-void AngleDefectGrid::add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken, float factor) {
+void AngleDefectGrid::add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken) {
   constexpr double kTurn = 2 * std::numbers::pi;
   // In turns: the sum of the angles at each vertex, and half a turn for a vertex of the boundary.
   std::vector<float> filled(mesh.points.size(), -1);
@@ -51,18 +51,27 @@ void AngleDefectGrid::add(const SurfaceMesh& mesh, const std::function<bool(std:
     const auto& v = mesh.triangles[t];
     if (!is_taken(v[0])) continue;
     for (const std::uint32_t q : v) filled[q] = std::max(filled[q], 0.0F);
+    // Two angles by the same cross product; the third one is what they lack to half a turn.
+    const Vec3 ab = mesh.points[v[1]] - mesh.points[v[0]], ac = mesh.points[v[2]] - mesh.points[v[0]];
+    const double twice_area = norm(cross(ab, ac));
+    const double at_a = std::atan2(twice_area, dot(ab, ac)) / kTurn;
+    const double at_b = std::atan2(twice_area, dot(ab, ab) - dot(ab, ac)) / kTurn;
+    filled[v[0]] += static_cast<float>(at_a);
+    filled[v[1]] += static_cast<float>(at_b);
+    filled[v[2]] += static_cast<float>(0.5 - at_a - at_b);
     for (unsigned i = 0; i < 3; ++i) {
-      const Vec3 a = mesh.points[v[(i + 1) % 3]] - mesh.points[v[i]],
-                 b = mesh.points[v[(i + 2) % 3]] - mesh.points[v[i]];
-      filled[v[i]] += static_cast<float>(std::atan2(norm(cross(a, b)), dot(a, b)) / kTurn);
       if (mesh.neighbours[t][i] != kNoSide) continue;
       filled[v[(i + 1) % 3]] += 0.25F;
       filled[v[(i + 2) % 3]] += 0.25F;
     }
   }
   for (std::size_t v = 0; v < filled.size(); ++v) {
-    if (filled[v] >= 0) spread(mesh.points[v], factor * (1 - filled[v]));
+    if (filled[v] >= 0) spread(mesh.points[v], 1 - filled[v]);
   }
+}
+
+void AngleDefectGrid::subtract(const AngleDefectGrid& other) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] -= other.sums_[i];
 }
 
 void AngleDefectGrid::spread(const Vec3& p, float amount) {

@@ -24,9 +24,12 @@ class AngleDefectGrid {
   // Over a volume with so many samples; `step` is the size of a voxel in mesh space.
   AngleDefectGrid(const std::array<std::int32_t, 3>& dims, const Vec3& step);
 
-  // Adds the angle defects of the vertices of some pieces of a mesh, times `factor`. `is_taken(vertex)` is the
-  // same for all vertices of a piece.
-  void add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken, float factor);
+  // Adds the angle defects of the vertices of some pieces of a mesh. `is_taken(vertex)` is the same for all vertices of
+  // a piece.
+  void add(const SurfaceMesh& mesh, const std::function<bool(std::uint32_t)>& is_taken);
+
+  // Subtracts the defects of another grid over the same volume.
+  void subtract(const AngleDefectGrid& other);
 
   // The windows whose sum is at least half a handle and has this sign: the largest first, none close to a larger one,
   // and at most `most`.

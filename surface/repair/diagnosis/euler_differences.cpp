@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/repair/diagnosis/angle_defect_grid.h"
-
 namespace deliso {
 
 namespace {
@@ -58,17 +56,29 @@ void EulerDifferences::add_by_angle_defects(const MatchedMesh& mesh, std::uint32
   const std::int64_t too_much =
       match.pieces[main].topology.euler_characteristic - surface.topology.components[component].euler_characteristic;
   if (too_much == 0) return;
-  const auto& [exact, component_of] = cache_.polygonized();
   AngleDefectGrid difference(surface.grid().dims(), surface.isosurface.step());
-  difference.add(
-      mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; }, 1);
-  difference.add(
-      exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; }, -1);
+  difference.add(mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; });
+  difference.subtract(exact_angle_defects(component));
   const std::vector<IndexBox> found = difference.places(too_much > 0, kMostByAngleDefects);
   if (found.empty()) return;
   IndexRanges& boxes = boxes_[component];
   boxes.likely = found;
   boxes.all.insert(boxes.all.end(), found.begin(), found.end());
+}
+
+// Those of the last few components that were asked for are kept: the same ones stay wrong from round to round.
+const AngleDefectGrid& EulerDifferences::exact_angle_defects(std::uint32_t component) {
+  const auto known = std::find_if(exact_angle_defects_.begin(), exact_angle_defects_.end(),
+                                  [&](const auto& one) { return one.first == component; });
+  if (known != exact_angle_defects_.end()) return known->second;
+  if (exact_angle_defects_.size() == kFewComponents) exact_angle_defects_.erase(exact_angle_defects_.begin());
+  const ExactSurface& surface = cache_.surface();
+  const auto& [exact, component_of] = cache_.polygonized();
+  AngleDefectGrid& defects =
+      exact_angle_defects_.emplace_back(component, AngleDefectGrid(surface.grid().dims(), surface.isosurface.step()))
+          .second;
+  defects.add(exact, [component, &of = component_of](std::uint32_t v) { return of[v] == component; });
+  return defects;
 }
 
 void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "surface/repair/diagnosis/angle_defect_grid.h"
 #include "surface/repair/diagnosis/euler_boxes.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/index_ranges.h"
@@ -40,11 +43,13 @@ class EulerDifferences {
                    const std::vector<std::uint32_t>& part_of_component,
                    std::vector<std::optional<EulerBoxes>>& boxes) const;
   void add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component);
+  const AngleDefectGrid& exact_angle_defects(std::uint32_t component);
 
   const ExactSurfaceCache& cache_;
-  std::vector<IndexRanges> boxes_;  // the last result
-  std::weak_ptr<MatchedMesh> of_;   // for this mesh
-  Effort effort_;                   // with this effort
+  std::vector<IndexRanges> boxes_;                                             // the last result
+  std::weak_ptr<MatchedMesh> of_;                                              // for this mesh
+  Effort effort_;                                                              // with this effort
+  std::deque<std::pair<std::uint32_t, AngleDefectGrid>> exact_angle_defects_;  // of components of the isosurface
 };
 
 }  // namespace deliso

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <unordered_set>
+#include <utility>
+
+#include "delaunay/spatial_order.h"
 
 namespace deliso {
 
 namespace {
 
-// Samples are exchanged in the present triangulation when they are fewer than all divided by this.
-constexpr std::size_t kExchangeShare = 4;
+// Samples are exchanged in the present triangulation when they are fewer than this share of all.
+constexpr double kExchangeShare = 0.4;
 
 std::vector<Vec3> points_of(std::span<const RepairSample> samples) {
   std::vector<Vec3> points;
@@ -37,40 +41,69 @@ RepairSamples::RepairSamples(const SignedDelaunay& restricted, std::span<const V
 std::vector<Vec3> RepairSamples::points() const { return points_of(samples_); }
 
 Resampling RepairSamples::resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
-                                     const Isosurface& isosurface) const {
+                                     const Isosurface& isosurface) {
+  const std::vector<std::pair<CellName, int>> changed = changed_cells(cell_levels);
+  std::unordered_set<CellName> refined;
+  for (const auto& [cell, level_before] : changed) {
+    if (level_before == 0) refined.insert(cell);
+  }
   Resampling resampling;
-  std::vector<std::uint64_t> have;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const RepairSample& sample = samples_[i];
-    if (sample.key != 0) {
-      have.push_back(sample.key);
-    } else if (cell_levels.is_refined(cell_levels.name(cell_levels.cell_of(sample.point))) &&
-               !SignedDelaunay::on_box(isosurface.box(), sample.point)) {
+    if (sample.key == 0 && refined.contains(cell_levels.name(cell_levels.cell_of(sample.point))) &&
+        !SignedDelaunay::on_box(isosurface.box(), sample.point)) {
       resampling.leaving.push_back(VertexId(i));
     }
   }
-  std::sort(have.begin(), have.end());
-  std::vector<LatticeSample> found;
-  for (const auto& [name, level] : cell_levels.levels()) lattice.append(cell_levels.cell(name), level, found);
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-  std::uint64_t last = 0;
-  for (const LatticeSample& sample : found) {
-    if (sample.key == last || std::binary_search(have.begin(), have.end(), sample.key)) continue;
-    last = sample.key;
-    resampling.coming.push_back({scaled(sample.point, isosurface.step()), sample.key});
-  }
+  std::vector<RepairSample> coming = new_samples(cell_levels, lattice, changed, isosurface.step());
+  coming.insert(coming.end(), hidden_.begin(), hidden_.end());
+  hidden_.clear();
+  // In an order in which the next one is near: each is sought from the one before it.
+  for (const std::uint32_t i : spatial_order(points_of(coming))) resampling.coming.push_back(coming[i]);
   return resampling;
 }
 
-bool RepairSamples::changes_few(const Resampling& resampling) const {
-  return resampling.leaving.size() + resampling.coming.size() < samples_.size() / kExchangeShare;
+std::vector<std::pair<CellName, int>> RepairSamples::changed_cells(const CellLevels& cell_levels) {
+  std::vector<std::pair<CellName, int>> changed;
+  auto before = sampled_.begin();
+  for (const auto& [cell, level] : cell_levels.levels()) {
+    // Refined cells stay refined.
+    const bool is_known = before != sampled_.end() && before->first == cell;
+    const int level_before = is_known ? (before++)->second : 0;
+    if (level_before != level) changed.emplace_back(cell, level_before);
+  }
+  sampled_.assign(cell_levels.levels().begin(), cell_levels.levels().end());
+  return changed;
 }
 
-// A lattice sample that equals a vertex is not stored: if that vertex is removed, the lattice sample comes again.
+std::vector<RepairSample> RepairSamples::new_samples(const CellLevels& cell_levels, const SampleLattice& lattice,
+                                                     std::span<const std::pair<CellName, int>> cells,
+                                                     const Vec3& step) {
+  std::vector<LatticeSample> found;
+  for (const auto& [cell, level_before] : cells)
+    lattice.append(cell_levels.cell(cell), cell_levels.levels().at(cell), found);
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+  std::vector<RepairSample> samples;
+  const auto known = static_cast<std::ptrdiff_t>(keys_.size());
+  for (const LatticeSample& sample : found) {
+    if (std::binary_search(keys_.begin(), keys_.begin() + known, sample.key)) continue;
+    if (!samples.empty() && samples.back().key == sample.key) continue;
+    keys_.push_back(sample.key);
+    samples.push_back({scaled(sample.point, step), sample.key});
+  }
+  std::inplace_merge(keys_.begin(), keys_.begin() + known, keys_.end());
+  return samples;
+}
+
+bool RepairSamples::changes_few(const Resampling& resampling) const {
+  const std::size_t changes = resampling.leaving.size() + resampling.coming.size();
+  return static_cast<double>(changes) < kExchangeShare * static_cast<double>(samples_.size());
+}
+
 void RepairSamples::exchange(const Resampling& resampling, std::span<const VertexId> vertex_of) {
   remove(resampling.leaving);
   for (std::size_t i = 0; i < resampling.coming.size(); ++i) {
-    if (vertex_of[i] == VertexId(samples_.size())) samples_.push_back(resampling.coming[i]);
+    (vertex_of[i] == VertexId(samples_.size()) ? samples_ : hidden_).push_back(resampling.coming[i]);
   }
 }
 
@@ -82,7 +115,11 @@ void RepairSamples::replace(const Resampling& resampling) {
 void RepairSamples::take_vertices(std::span<const VertexId> vertex_of) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (vertex_of[i] == VertexId(kept)) samples_[kept++] = samples_[i];
+    if (vertex_of[i] == VertexId(kept)) {
+      samples_[kept++] = samples_[i];
+    } else if (samples_[i].key != 0 && samples_[i].key != kStays) {
+      hidden_.push_back(samples_[i]);
+    }
   }
   samples_.resize(kept);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "surface/repair/lattice/cell_levels.h"
@@ -35,10 +36,11 @@ class RepairSamples {
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] std::vector<Vec3> points() const;
 
-  // The exchange that the refined cells need: free samples in them leave, and lattice samples come. Free samples on the
-  // box stay, because they lie on its boundary curves.
+  // The exchange that the cells refined since the last one need: free samples in them leave, and lattice samples come.
+  // Free samples on the box stay, because they lie on its boundary curves. One of the two functions at the end must
+  // follow.
   [[nodiscard]] Resampling resampling(const CellLevels& cell_levels, const SampleLattice& lattice,
-                                      const Isosurface& isosurface) const;
+                                      const Isosurface& isosurface);
   // Whether so few samples change that it is better to exchange them in the present triangulation.
   [[nodiscard]] bool changes_few(const Resampling& resampling) const;
 
@@ -51,8 +53,16 @@ class RepairSamples {
 
  private:
   void remove(std::span<const VertexId> leaving);
+  // The cells whose levels have changed since the last call, ascending, with their levels before (0: none).
+  std::vector<std::pair<CellName, int>> changed_cells(const CellLevels& cell_levels);
+  // The lattice samples of these cells that have not come before, in the order of their keys.
+  std::vector<RepairSample> new_samples(const CellLevels& cell_levels, const SampleLattice& lattice,
+                                        std::span<const std::pair<CellName, int>> cells, const Vec3& step);
 
   std::vector<RepairSample> samples_;
+  std::vector<RepairSample> hidden_;               // lattice samples that equal a vertex: they come if it leaves
+  std::vector<std::uint64_t> keys_;                // of all lattice samples so far, ascending
+  std::vector<std::pair<CellName, int>> sampled_;  // the levels at the last resampling, by cell
 };
 
 }  // namespace deliso

@@ -53,27 +53,32 @@ void LocatedCriticalPoints::find(std::span<const CellIndex> cells, int threads) 
 void LocatedCriticalPoints::add(const std::vector<LocatedCriticalPoint>& found) {
   std::vector<LocatedCriticalPoint> points;
   std::vector<TetId> tets;
+  std::vector<std::uint8_t> is_located;
   points.reserve(points_.size() + found.size());
   tets.reserve(points.capacity());
+  is_located.reserve(points.capacity());
   auto next = found.begin();
   for (std::size_t i = 0; i <= points_.size(); ++i) {
     for (; next != found.end() && (i == points_.size() || is_before(next->cell, points_[i].cell)); ++next) {
       points.push_back(*next);
       tets.push_back(TetId::none());
+      is_located.push_back(0);
     }
     if (i == points_.size()) break;
     points.push_back(points_[i]);
     tets.push_back(tets_[i]);
+    is_located.push_back(is_located_[i]);
   }
   points_ = std::move(points);
   tets_ = std::move(tets);
+  is_located_ = std::move(is_located);
 }
 
 void LocatedCriticalPoints::renew(const ExchangedPoints& exchanged) {
   std::vector<bool> is_renewed(restricted_.delaunay().tet_slots(), false);
   for (const TetId t : exchanged.renewed) is_renewed[t.index()] = true;
-  for (TetId& t : tets_) {
-    if (!t.is_none() && is_renewed[t.index()]) t = TetId::none();
+  for (std::size_t i = 0; i < tets_.size(); ++i) {
+    if (is_located_[i] != 0 && is_renewed[tets_[i].index()]) is_located_[i] = 0;
   }
 }
 
@@ -83,7 +88,13 @@ void LocatedCriticalPoints::locate(std::span<const std::uint32_t> wanted, int th
       [&](std::size_t first, std::size_t last) {
         TetId hint = restricted_.delaunay().incident_tet(VertexId(std::size_t{0}));
         for (const std::uint32_t i : wanted.subspan(first, last - first)) {
-          if (tets_[i].is_none()) tets_[i] = located(points_[i], hint);
+          if (is_located_[i] == 0) {
+            // What has taken the place of its tetrahedron is near it.
+            const TetId before = tets_[i];
+            if (!before.is_none() && restricted_.delaunay().is_live(before)) hint = before;
+            tets_[i] = located(points_[i], hint);
+            is_located_[i] = 1;
+          }
           hint = tets_[i];
         }
       },

@@ -50,7 +50,8 @@ class LocatedCriticalPoints {
 
   const SignedDelaunay& restricted_;
   std::vector<LocatedCriticalPoint> points_;
-  std::vector<TetId> tets_;  // of each point, as far as it was requested
+  std::vector<TetId> tets_;               // of each point, as far as it was requested
+  std::vector<std::uint8_t> is_located_;  // whether it still is that tetrahedron
 };
 
 }  // namespace deliso

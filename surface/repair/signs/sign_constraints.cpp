@@ -14,8 +14,9 @@ namespace deliso {
 
 namespace {
 
-// Segments are halved down to this length (mesh-space units); a shorter passage through a tetrahedron may be missed.
-constexpr double kShortest = 1.0 / 64;
+// A segment that passes through a tetrahedron for this share of its length or less touches an edge or a vertex of it,
+// but for rounding. In noise such tetrahedra are touched by segments of both sides.
+constexpr double kShortest = 1e-9;
 
 // The number of cells that a thread takes at a time.
 constexpr std::size_t kCellsAtOnce = 64;
@@ -33,14 +34,14 @@ class Collector {
         sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
-  // Notes the constraints from the segments of a cell; returns the tetrahedra that the segments cross.
-  std::vector<TetId> collect(const CellIndex& cell);
+  // Notes the constraints from the segments of a cell; returns the tetrahedra that the segments cross. One of those
+  // that they crossed before is a good place to begin at.
+  std::vector<TetId> collect(const CellIndex& cell, std::span<const TetId> crossed_before);
 
  private:
   void collect_edges(const CellIndex& cell, const CellCorners& corners);
   void collect_critical_points(const CellIndex& cell, const CellCorners& corners);
-  void follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side);
-  [[nodiscard]] bool passes_at_once(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b) const;
+  void follow(const Vec3& a, TetId at_a, const Vec3& b, std::uint8_t side);
   TetId note(const Vec3& p, std::uint8_t side);
   // A corner of the current cell; each is located once, from a corner that an edge joins to it.
   TetId note_corner(const CellIndex& cell, unsigned corner, std::uint8_t side) {
@@ -52,6 +53,7 @@ class Collector {
     return at = note(position(cell, corner_position(corner)), side);
   }
   void note_located(const Vec3& p, std::uint8_t side);
+  void note_ghosts(TetId t, const Vec3& p, const Vec3& q, std::uint8_t side);
   // Several collectors may call this at the same time; the result does not depend on the order.
   void note_at(TetId t, std::uint8_t side) {
     const std::atomic_ref<std::uint8_t> noted(sides_[t.index()]);
@@ -74,9 +76,13 @@ class Collector {
   Vec3 center_;
   std::array<TetId, 8> at_corner_;
   std::vector<TetId> trace_;
+  std::vector<Passage> passed_;  // by the latest segment
 };
 
-std::vector<TetId> Collector::collect(const CellIndex& cell) {
+std::vector<TetId> Collector::collect(const CellIndex& cell, std::span<const TetId> crossed_before) {
+  for (const TetId t : crossed_before) {
+    if (delaunay_.is_live(t)) hint_ = t;
+  }
   trace_.clear();
   at_corner_.fill(TetId::none());
   center_ = position(cell, {0.5, 0.5, 0.5});
@@ -94,9 +100,16 @@ void Collector::collect_edges(const CellIndex& cell, const CellCorners& corners)
       if ((corner & axis) != 0) continue;
       const std::uint8_t side = side_of(corners[corner]);
       if (side != side_of(corners[corner | axis])) continue;
-      const TetId at_a = note_corner(cell, corner, side);
-      const TetId at_b = note_corner(cell, corner | axis, side);
-      follow(position(cell, corner_position(corner)), at_a, position(cell, corner_position(corner | axis)), at_b, side);
+      unsigned a = corner, b = corner | axis;
+      if (delaunay_.is_ghost(note_corner(cell, a, side))) std::swap(a, b);
+      const TetId at_a = note_corner(cell, a, side);
+      if (delaunay_.is_ghost(at_a)) continue;  // the hull does not reach to either corner
+      const Vec3 to = position(cell, corner_position(b));
+      follow(position(cell, corner_position(a)), at_a, to, side);
+      if (at_corner_[b].is_none()) {
+        hint_ = at_corner_[b] = passed_.empty() ? at_a : passed_.back().tet;
+        note_located(to, side);
+      }
     }
   }
 }
@@ -116,40 +129,29 @@ void Collector::collect_critical_points(const CellIndex& cell, const CellCorners
     for (const int corner : face_corners(c.face)) {
       const double value = corners[static_cast<std::size_t>(corner)];
       if (side_of(value) == side && (value > c.value) == (side == kAbove)) {
-        const TetId at_p = note(p, side);
-        const TetId at_corner = note_corner(cell, static_cast<unsigned>(corner), side);
-        follow(p, at_p, position(cell, corner_position(static_cast<unsigned>(corner))), at_corner, side);
+        // The segment is moved as a whole, as its corner is.
+        const Vec3 to = position(cell, corner_position(static_cast<unsigned>(corner)));
+        hint_ = restricted_.locate(p, p + (center_ - to), hint_);
+        if (!delaunay_.is_ghost(hint_)) follow(p, hint_, to, side);
       }
     }
   }
 }
 
-// Halves the segment until both ends lie in one tetrahedron, or in two with a facet in between through which it passes,
-// and notes the middle points.
-void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b, std::uint8_t side) {
-  if (at_a == at_b || squared_distance(a, b) < kShortest * kShortest || passes_at_once(a, at_a, b, at_b)) return;
-  const Vec3 middle = 0.5 * (a + b);
-  const TetId at_middle = note(middle, side);
-  follow(a, at_a, middle, at_middle, side);
-  follow(middle, at_middle, b, at_b, side);
-}
-
-// Whether the segment passes from one tetrahedron to the other through the interior of their common facet. Both are
-// convex, so it meets no other one. On the box, where ghosts count as well, it is not asked.
-bool Collector::passes_at_once(const Vec3& a, TetId at_a, const Vec3& b, TetId at_b) const {
-  if (delaunay_.is_ghost(at_a) || delaunay_.is_ghost(at_b)) return false;
-  const Box3& box = restricted_.isosurface().box();
-  if (SignedDelaunay::on_box(box, a) || SignedDelaunay::on_box(box, b)) return false;
-  for (unsigned face = 0; face < 4; ++face) {
-    if (delaunay_.neighbour(at_a, face) != at_b) continue;
-    const auto [p, q, r] = delaunay_.facet_vertices(FacetId(at_a, face));
-    const auto turn = [&](VertexId from, VertexId to) {
-      return orient3d(a, b, delaunay_.point(from), delaunay_.point(to));
-    };
-    const double pq = turn(p, q), qr = turn(q, r), rp = turn(r, p);
-    return (pq > 0 && qr > 0 && rp > 0) || (pq < 0 && qr < 0 && rp < 0);
+// Notes the tetrahedra that the segment enters after the finite one that holds its first end.
+void Collector::follow(const Vec3& a, TetId at_a, const Vec3& b, std::uint8_t side) {
+  passed_.clear();
+  restricted_.append_passed(a, b, center_, at_a, passed_);
+  for (std::size_t i = 0; i < passed_.size(); ++i) {
+    const auto [t, entry] = passed_[i];
+    trace_.push_back(t);
+    const bool is_touched = i + 1 < passed_.size() && passed_[i + 1].entry - entry < kShortest;
+    if (!is_touched && !delaunay_.is_ghost(t)) note_at(t, side);
   }
-  return false;
+  const Box3& box = restricted_.isosurface().box();
+  if (!SignedDelaunay::on_box(box, a) || !SignedDelaunay::on_box(box, b)) return;
+  note_ghosts(at_a, a, b, side);
+  for (const Passage& p : passed_) note_ghosts(p.tet, a, b, side);
 }
 
 TetId Collector::note(const Vec3& p, std::uint8_t side) {
@@ -164,13 +166,22 @@ void Collector::note_located(const Vec3& p, std::uint8_t side) {
   trace_.push_back(hint_);
   if (delaunay_.is_ghost(hint_)) return;
   note_at(hint_, side);
-  if (!SignedDelaunay::on_box(restricted_.isosurface().box(), p)) return;
+  if (SignedDelaunay::on_box(restricted_.isosurface().box(), p)) note_ghosts(hint_, p, p, side);
+}
+
+// Notes the side at the ghosts behind those facets of t whose planes contain both points.
+void Collector::note_ghosts(TetId t, const Vec3& p, const Vec3& q, std::uint8_t side) {
+  if (delaunay_.is_ghost(t)) return;
   for (unsigned face = 0; face < 4; ++face) {
-    const auto [a, b, c] = delaunay_.facet_vertices(FacetId(hint_, face));
-    if (orient3d(delaunay_.point(a), delaunay_.point(b), delaunay_.point(c), p) != 0) continue;
-    const TetId across = delaunay_.neighbour(hint_, face);
+    const TetId across = delaunay_.neighbour(t, face);
+    if (!delaunay_.is_ghost(across)) continue;
+    const auto [a, b, c] = delaunay_.facet_vertices(FacetId(t, face));
+    const auto contains = [&](const Vec3& x) {
+      return orient3d(delaunay_.point(a), delaunay_.point(b), delaunay_.point(c), x) == 0;
+    };
+    if (!contains(p) || !contains(q)) continue;
     trace_.push_back(across);
-    if (delaunay_.is_ghost(across)) note_at(across, side);
+    note_at(across, side);
   }
 }
 
@@ -223,7 +234,7 @@ void SignConstraints::update(const CellLevels& cell_levels, int threads) {
         Collector collector(restricted_, grid_, sides_);
         for (std::size_t i = first; i < last; ++i) {
           Trace& trace = traces_[stale[i]];
-          trace.tets = collector.collect(cell_levels.cell(trace.cell));
+          trace.tets = collector.collect(cell_levels.cell(trace.cell), trace.tets);
           trace.is_stale = false;
         }
       },

@@ -41,6 +41,13 @@ std::unique_ptr<Scene> balls(const std::vector<Vec3>& centers, double radius, co
 
 ExactPolygonization polygonized(const Scene& scene) { return exact_polygonization(scene.surface()); }
 
+void subtract(AngleDefectGrid& difference, const Scene& scene, const SurfaceMesh& mesh,
+              const std::function<bool(std::uint32_t)>& is_taken) {
+  AngleDefectGrid other(scene.grid.dims(), scene.isosurface->step());
+  other.add(mesh, is_taken);
+  difference.subtract(other);
+}
+
 TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
   const std::vector<Vec3> centers = {{9.3, 10.1, 11.2}, {37.6, 12.4, 30.8}, {20.2, 35.1, 21.7}};
   const auto scene = balls(centers, 3.2, {48, 46, 44});
@@ -55,10 +62,8 @@ TEST(AngleDefectGrid, FindsPiecesThatCancelInAll) {
     });
   }
   AngleDefectGrid difference(scene->grid.dims(), scene->isosurface->step());
-  difference.add(
-      mesh, [&, &component = component](std::uint32_t v) { return component[v] != 0; }, 1);
-  difference.add(
-      mesh, [&, &component = component](std::uint32_t v) { return component[v] != 1; }, -1);
+  difference.add(mesh, [&, &component = component](std::uint32_t v) { return component[v] != 0; });
+  subtract(difference, *scene, mesh, [&, &component = component](std::uint32_t v) { return component[v] != 1; });
   const std::vector<IndexBox> too_much = difference.places(true, kManyPlaces),
                               missing = difference.places(false, kManyPlaces);
   ASSERT_EQ(too_much.size(), 1u);
@@ -79,8 +84,8 @@ TEST(AngleDefectGrid, FindsHandles) {
   const auto ball = balls({center}, 5, {40, 40, 26});
   ASSERT_EQ(torus->topology.components.front().euler_characteristic, 0);
   AngleDefectGrid difference(torus->grid.dims(), torus->isosurface->step());
-  difference.add(polygonized(*torus).mesh, takes_all, 1);
-  difference.add(polygonized(*ball).mesh, takes_all, -1);
+  difference.add(polygonized(*torus).mesh, takes_all);
+  subtract(difference, *ball, polygonized(*ball).mesh, takes_all);
   EXPECT_TRUE(difference.places(true, kManyPlaces).empty());
   const std::vector<IndexBox> missing = difference.places(false, kManyPlaces);
   ASSERT_EQ(missing.size(), 1u);
@@ -98,9 +103,9 @@ TEST(AngleDefectGrid, OtherTrianglesOfTheSameSurfaceAreNoDifference) {
     mesh.triangles = result.mesh.triangles;
     set_side_adjacency(mesh);
     AngleDefectGrid difference(scene->grid.dims(), step);
-    difference.add(mesh, takes_all, 1);
+    difference.add(mesh, takes_all);
     ASSERT_FALSE(difference.places(true, kManyPlaces).empty() && difference.places(false, kManyPlaces).empty());
-    difference.add(polygonized(*scene).mesh, takes_all, -1);
+    subtract(difference, *scene, polygonized(*scene).mesh, takes_all);
     EXPECT_TRUE(difference.places(true, kManyPlaces).empty());
     EXPECT_TRUE(difference.places(false, kManyPlaces).empty());
   }
@@ -111,10 +116,9 @@ TEST(AngleDefectGrid, GivesTheLargestDifferencesFirstAndNoMoreThanAskedFor) {
   const auto scene = balls(centers, 2.6, {50, 50, 46});
   const auto [mesh, component] = polygonized(*scene);
   AngleDefectGrid sums(scene->grid.dims(), scene->isosurface->step());
-  sums.add(mesh, takes_all, 1);
+  sums.add(mesh, takes_all);
   // Once more.
-  sums.add(
-      mesh, [&, &component = component](std::uint32_t v) { return component[v] == 2; }, 1);
+  sums.add(mesh, [&, &component = component](std::uint32_t v) { return component[v] == 2; });
   const std::vector<IndexBox> all = sums.places(true, kManyPlaces);
   ASSERT_EQ(all.size(), centers.size());
   const auto of_second = std::find(component.begin(), component.end(), 2u);

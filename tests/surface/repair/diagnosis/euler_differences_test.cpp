@@ -114,10 +114,10 @@ TEST_P(EulerDifferencesOfMuchNoise, TakeTheBoxesOfAngleDefectsWhenAskedAndEulerC
     const IndexRanges by_curves = differences.find(mesh_, others_done, {kMany, false})[c];
     const IndexRanges both = differences.find(mesh_, others_done, {kMany, true})[c];
     AngleDefectGrid grid(scene_->grid.dims(), step);
-    grid.add(
-        mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; }, 1);
-    grid.add(
-        exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; }, -1);
+    AngleDefectGrid exact_grid = grid;
+    grid.add(mesh_->built.mesh, [&](std::uint32_t v) { return mesh_->match.piece_of[v] == main; });
+    exact_grid.add(exact, [&, &component_of = component_of](std::uint32_t v) { return component_of[v] == c; });
+    grid.subtract(exact_grid);
     const std::int64_t too_much =
         mesh_->match.pieces[main].topology.euler_characteristic - scene_->topology.components[c].euler_characteristic;
     const std::vector<IndexBox> boxes = grid.places(too_much > 0, 16);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -53,6 +54,13 @@ TEST(RepairSamples, StayTheVerticesOfTheTriangulation) {
       ASSERT_EQ(samples.size(), vertices.size());
       const std::vector<Vec3> now = samples.points();
       for (std::size_t i = 0; i < vertices.size(); ++i) ASSERT_EQ(restricted->snapped(now[i]), vertices[i]) << i;
+      // Every sample of every refined cell is there, also those that were hidden by a vertex that has left.
+      std::vector<LatticeSample> wanted;
+      for (const auto& [cell, level] : cell_levels.levels()) lattice.append(cell_levels.cell(cell), level, wanted);
+      for (const LatticeSample& sample : wanted) {
+        const Vec3 p = restricted->snapped(scaled(sample.point, scene->isosurface->step()));
+        ASSERT_NE(std::find(vertices.begin(), vertices.end(), p), vertices.end()) << sample.key;
+      }
     }
   }
   EXPECT_GT(exchanges, 10);

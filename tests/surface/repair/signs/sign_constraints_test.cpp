@@ -60,6 +60,45 @@ TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideHaveTheirSide) {
   }
 }
 
+// However short the passage of a segment through a tetrahedron within the box.
+TEST(SignConstraint, NoShortPassageIsMissed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({7, 6, 5}, seed);
+    const SignedDelaunay signed_delaunay = dense(*scene);
+    const CellLevels cell_levels = everywhere(*scene);
+    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, scene->grid, cell_levels);
+    const Box3& box = scene->isosurface->box();
+    TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
+    for (const auto& [name, level] : cell_levels.levels()) {
+      const CellIndex cell = cell_levels.cell(name);
+      const Vec3 start{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+      const bool above = scene->grid.at(cell[0], cell[1], cell[2]) > scene->isovalue;
+      if (SignedDelaunay::on_box(box, start)) continue;
+      if (above != (scene->grid.at(cell[0] + 1, cell[1], cell[2]) > scene->isovalue)) continue;
+      for (int step = 0; step <= 2000; ++step) {
+        const Vec3 p{start.x + step / 2000.0, start.y, start.z};
+        hint = signed_delaunay.locate(p, {cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5}, hint);
+        ASSERT_NE(constraints[hint.index()] & (above ? kAbove : kBelow), 0) << "seed " << seed << " at " << p.x;
+      }
+    }
+  }
+}
+
+// The crossings on two grid edges in a row are joined by edges of tetrahedra through the sample between them, and
+// segments of either side pass through such edges. That is no reason for either side.
+TEST(SignConstraint, TouchedTetrahedraHaveNone) {
+  std::ptrdiff_t conflicts = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto scene = noise_scene({9, 8, 7}, seed);
+    const SignedDelaunay lattice(*scene->isosurface, testing::crossing_points(*scene));
+    const std::vector<std::uint8_t> constraints = constraints_in(lattice, scene->grid, everywhere(*scene));
+    conflicts += std::count(constraints.begin(), constraints.end(), kConflict);
+    all +=
+        std::count_if(constraints.begin(), constraints.end(), [](std::uint8_t side) { return side != kNoConstraint; });
+  }
+  EXPECT_LT(conflicts, all / 1000);
+}
+
 // Enough cells for several blocks. In the symmetric field many samples lie on facets of tetrahedra.
 TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
   for (const auto& scene : {noise_scene({24, 23, 22}, 1), field_scene("sphere", 60)}) {
