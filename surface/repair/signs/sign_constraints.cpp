@@ -175,9 +175,9 @@ void Collector::note_ghosts(TetId t, const Vec3& p, const Vec3& q, std::uint8_t 
   for (unsigned face = 0; face < 4; ++face) {
     const TetId across = delaunay_.neighbour(t, face);
     if (!delaunay_.is_ghost(across)) continue;
-    const auto [a, b, c] = delaunay_.facet_vertices(FacetId(t, face));
+    const std::array<VertexId, 3> facet = delaunay_.facet_vertices(FacetId(t, face));
     const auto contains = [&](const Vec3& x) {
-      return orient3d(delaunay_.point(a), delaunay_.point(b), delaunay_.point(c), x) == 0;
+      return orient3d(delaunay_.point(facet[0]), delaunay_.point(facet[1]), delaunay_.point(facet[2]), x) == 0;
     };
     if (!contains(p) || !contains(q)) continue;
     trace_.push_back(across);
