@@ -35,8 +35,29 @@ std::uint64_t hash_of(const std::array<Vec3, 3>& corners) {
   return hash;
 }
 
-// Triangles by their hashes, ascending.
-using ByHash = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
+// Finds triangles by their corners: a table with open addresses.
+class TrianglesByCorners {
+ public:
+  explicit TrianglesByCorners(std::size_t most) : table_(std::bit_ceil(2 * most + 2), kFree) {}
+
+  void add(std::uint32_t triangle, const std::array<Vec3, 3>& corners) {
+    std::size_t slot = hash_of(corners) & (table_.size() - 1);
+    while (table_[slot] != kFree) slot = (slot + 1) & (table_.size() - 1);
+    table_[slot] = triangle;
+  }
+  // Calls visit(triangle) for all whose hashes may be those of the corners.
+  template <class Visit>
+  void for_each_candidate(const std::array<Vec3, 3>& corners, const Visit& visit) const {
+    for (std::size_t slot = hash_of(corners) & (table_.size() - 1); table_[slot] != kFree;
+         slot = (slot + 1) & (table_.size() - 1)) {
+      visit(table_[slot]);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+  std::vector<std::uint32_t> table_;
+};
 
 // Appends the crossings in a box of mesh space.
 void append_crossings_in(const Box3& box, const ExactSurface& surface, std::vector<std::uint32_t>& found) {
@@ -92,22 +113,29 @@ GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
 // Nothing where too little is known.
 std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) const {
   if (!has_checked_) return std::nullopt;
-  ByHash before(triangles_.size());
-  for (std::uint32_t t = 0; t < before.size(); ++t) before[t] = {hash_of(triangles_[t]), t};
-  std::sort(before.begin(), before.end());
-  std::vector<bool> stays(before.size(), false);
+  std::vector<bool> stays(triangles_.size(), false);
   KnownBefore known;
   known.far_samples.assign(mesh.triangles.size(), -1);
+  // Most keep their numbers.
+  for (std::size_t t = 0; t < std::min(triangles_.size(), mesh.triangles.size()); ++t) {
+    if (triangles_[t] != corners_of(mesh, t)) continue;
+    stays[t] = true;
+    known.far_samples[t] = far_samples_[t];
+  }
+  const auto others = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), false));
+  TrianglesByCorners before(others);
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    if (!stays[t]) before.add(t, triangles_[t]);
+  }
   std::vector<Triangle> changed;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (known.far_samples[t] >= 0) continue;
     const Triangle corners = corners_of(mesh, t);
-    const std::uint64_t hash = hash_of(corners);
-    for (auto at = std::lower_bound(before.begin(), before.end(), std::pair(hash, std::uint32_t{0}));
-         at != before.end() && at->first == hash; ++at) {
-      if (triangles_[at->second] != corners) continue;
-      stays[at->second] = true;
-      known.far_samples[t] = far_samples_[at->second];
-    }
+    before.for_each_candidate(corners, [&](std::uint32_t old) {
+      if (triangles_[old] != corners) return;
+      stays[old] = true;
+      known.far_samples[t] = far_samples_[old];
+    });
     if (known.far_samples[t] < 0) changed.push_back(corners);
   }
   for (std::size_t t = 0; t < stays.size(); ++t) {
