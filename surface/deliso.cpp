@@ -152,6 +152,7 @@ SurfaceMesh Pipeline::refine(SurfaceMesh mesh) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
   options.announce = {};
+  options.smoothing_passes = 0;  // what comes after is for distances and sizes
   if (result_.build.bounds_a_solid) finish(mesh, options);
   return mesh;
 }

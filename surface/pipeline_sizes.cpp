@@ -163,8 +163,9 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
   SurfaceMesh again = stage1(samples);
   controls_.enter("refine");
-  const RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
+  RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
   timed(result_.refine, [&] { refine_geometry(again, *isosurface_, options, controls_, result_.refine); });
+  options.smoothing_passes = 0;
   if (parameters_.size.max_edge) limit_edges(again, options);
   improve(again, parameters_.shape.rounds);
   refine_to_error(again, options);

@@ -9,8 +9,9 @@
 //      h > max_distance           h > max_distance      ours: the absolute distance to the surface
 //
 // x_sigma is inserted when sigma is larger than r_min and one of the others holds. Ours, too: where h is at or below
-// h_min, criteria 1 and 2 of stage 2 lapse. At a crease of the isosurface, where voxel cells meet, h / r stays what it
-// is however small the triangles are, and poles come down to the surface: both would be refined to r_min everywhere.
+// h_min and r no larger than a voxel, criteria 1 and 2 of stage 2 lapse. At a crease of the isosurface, where voxel
+// cells meet, h / r stays what it is however small the triangles are, and poles come down to the surface: both would be
+// refined to r_min everywhere. Of a larger triangle h, which is measured in one place, tells too little.
 #pragma once
 
 #include <algorithm>
@@ -74,9 +75,10 @@ inline double larger(double a, double b) { return a < b ? b : a; }
 inline double approximate_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {
   return larger(larger(badness1(sigma, limit), badness3(sigma, limit)), distance_badness(sigma, limit));
 }
-// A badness of criterion 1 or 2 in stage 2, where they lapse at or below h_min: no more than 1 there.
+// A badness of criterion 1 or 2 in stage 2: no more than 1 where they lapse.
 inline double unless_lapsed(double badness, const TriangleMeasures& sigma, const Criteria& limit) {
-  const double above = sigma.h / limit.h_min;
+  constexpr double kLargest = 1;  // mesh-space units: a voxel
+  const double above = larger(sigma.h / limit.h_min, sigma.r / kLargest);
   return above < badness ? above : badness;
 }
 inline double refine_geometry_badness(const TriangleMeasures& sigma, const Criteria& limit) {

@@ -84,9 +84,10 @@ class Observer {
                                const RefinementCandidate& /*candidate*/) {}
   // A coarse triangle stays as it is for now, for a cause of kRefusalNames.
   virtual void disk_refused(const RefinementMesh& /*mesh*/, std::uint32_t /*triangle*/, std::string_view /*cause*/) {}
-  // Edges that lay across folds are flipped (stage2.h_min); insertions may follow.
-  virtual void flipped(const RefinementMesh& /*mesh*/) {}
-  // All insertions and flips since meshed() are taken back.
+  // Without insertions "folds": edges that lay across folds are flipped (stage2.h_min), insertions may follow; or
+  // "angles": vertices are moved to where the angles around them are larger (shape.smoothing).
+  virtual void improved(const RefinementMesh& /*mesh*/, std::string_view /*why*/) {}
+  // All changes since meshed() are taken back.
   virtual void restarted() {}
   // RefineGeom has ended with this mesh.
   virtual void refined(const RefinementMesh& /*mesh*/) {}

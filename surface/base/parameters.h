@@ -42,7 +42,8 @@ struct Stage2Parameters {
   double rho = 2.0;                                   // r / l above which a triangle is refined; >= 1
   double r_min = 0.001;                               // no refinement at or below this radius, as a fraction of b; >= 0
   std::optional<double> max_distance;                 // h above which a triangle is refined, in smallest spacings; > 0
-  double h_min = 0;                                   // h at or below which criteria 1 and 2 lapse, likewise; >= 0
+  std::optional<double> h_min;                        // h at or below which criteria 1 and 2 lapse, likewise; >= 0;
+                                                      // else by the thresholds (effective_h_min())
   Criterion2 criterion2 = Criterion2::kCircumradius;  // what is compared with the mean pole height
   NewPole new_pole = NewPole::kMean;  // a new vertex takes its neighbours' mean pole height, or the nearest one's
   bool store_hits = true;             // keep x_sigma with each triangle; else it is searched whenever it is needed
@@ -55,8 +56,9 @@ struct RepairParameters {
 
 struct ShapeParameters {
   std::optional<double>
-      min_angle;            // improve triangles with a smaller angle, in degrees; > 0, <= 35; else by stage2.rho
-  std::int32_t rounds = 4;  // 0 turns the stage off
+      min_angle;               // improve triangles with a smaller angle, in degrees; > 0, <= 35; else by stage2.rho
+  std::int32_t smoothing = 1;  // passes over the vertices at the end of stage 2; >= 0
+  std::int32_t rounds = 4;     // 0 turns the stage off, and smoothing
 };
 
 struct PromiseParameters {

@@ -30,6 +30,19 @@ double effective_rho(double rho, const SizeParameters& size) {
   return angle ? std::min(rho, std::max(1.0, 1 / (2 * std::sin(*angle * kDegree)))) : rho;
 }
 
+// The usual one takes white noise and masks nearer to the isosurface with as many vertices, and scans as near with
+// three to nine tenths of them. It falls as distances do with thresholds finer than the paper's. Where rho asks for
+// better angles there is none: small triangles along creases are what has such angles.
+double effective_h_min(const Parameters& parameters) {
+  const Stage2Parameters& stage2 = parameters.stage2;
+  const Stage2Parameters papers;
+  constexpr double kUsual = 0.025;
+  if (is_sized(parameters)) return 0;
+  if (stage2.h_min) return *stage2.h_min;
+  const double finer = std::min({1.0, stage2.epsilon1 / papers.epsilon1, stage2.epsilon2 / papers.epsilon2});
+  return effective_rho(stage2.rho, parameters.size) < papers.rho ? 0 : kUsual * finer * finer;
+}
+
 std::optional<double> effective_min_angle(const Parameters& parameters) {
   const std::optional<double> angle = wanted_angle(parameters.size);
   return angle ? angle : parameters.shape.min_angle;

@@ -34,6 +34,10 @@ std::optional<double> wanted_angle(const SizeParameters& size);
 // stages end with a rho of 1 or more; the shape stage does the rest.
 double effective_rho(double rho, const SizeParameters& size);
 
+// The h at or below which criteria 1 and 2 of stage 2 lapse (mesh-space units): stage2.h_min or the usual one; none
+// where an error is stated.
+double effective_h_min(const Parameters& parameters);
+
 // shape.min_angle, or the angle asked for.
 std::optional<double> effective_min_angle(const Parameters& parameters);
 

@@ -52,6 +52,7 @@ JsonTree refine_json(const RefineStats& refine) {
   json["restarts"] = refine.restarts;
   json["halvings"] = refine.halvings;
   json["flips"] = refine.flips;
+  json["moves"] = refine.moves;
   json["coverage_targets"] = refine.coverage_targets;
   return json;
 }

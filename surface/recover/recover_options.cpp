@@ -26,7 +26,7 @@ RecoverOptions full3d_options(const Parameters& parameters, const Box3& box) {
                       .r_min = absolute_r_min(stage2.r_min, box),
                       .epsilon2 = stage2.epsilon2,
                       .criterion2 = stage2.criterion2,
-                      .h_min = stage2.h_min};
+                      .h_min = effective_h_min(parameters)};
   options.new_pole = stage2.new_pole;
   if (stage2.max_distance) options.geometry.max_distance = *stage2.max_distance;
   options.size_bound = options.geometry.r_min;

@@ -162,7 +162,7 @@ bool RefineLoop::flip_edges(Controls& controls, int threads) {
     stats_.flips += std::ssize(flipped) / 2;
     looked_at = std::exchange(flipped, {});
   }
-  if (options_.observer != nullptr && stats_.flips > flips_before) options_.observer->flipped(mesh_);
+  if (options_.observer != nullptr && stats_.flips > flips_before) options_.observer->improved(mesh_, "folds");
   return queue_.size() > 0;
 }
 

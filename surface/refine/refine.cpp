@@ -72,6 +72,8 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     return round == Round::kSlabs ? meeting_pairs(part.mesh, threads.count())
                                   : meeting_pairs_of_renewed(part.mesh, threads.count());
   };
+  if (task.options.smoothing_passes > 0 && round != Round::kSeams)
+    part.smoothing = round == Round::kSlabs ? Smoothing::kAll : Smoothing::kRest;
   RefinementChange least;
   std::int64_t fewest = 0, before = 0;
   std::vector<Vec3> suspects;

@@ -31,6 +31,7 @@ void RefineLoop::run(Controls& controls, int threads) {
   }
   if (flip_edges(controls, threads)) refine_queued(controls);
   for (int i = 0; i < kCoverageTargetRounds && insert_coverage_targets(controls, threads); ++i) refine_queued(controls);
+  if (part_.smoothing != Smoothing::kNone && !controls.stopped()) smooth_vertices(controls, threads);
   guard_.reset();
 }
 

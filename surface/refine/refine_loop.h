@@ -18,10 +18,18 @@
 
 namespace deliso {
 
+// A vertex of the start, where it is or was.
+struct MovedVertex {
+  std::uint32_t vertex = 0;
+  Vec3 point;
+  float clearance = 0;
+};
+
 // The changes that a refinement made to a mesh.
 struct RefinementChange {
   std::vector<std::uint32_t> places;
   std::vector<RefinementMesh::Triangle> triangles;  // of these slots
+  std::vector<MovedVertex> moved;
   std::vector<RefinementMesh::Triangle> new_triangles;
   std::vector<RefinementMesh::Vertex> new_vertices;
 
@@ -78,6 +86,15 @@ class RefineLoop {
   [[nodiscard]] double height_at_middle(const Vec3& a, const Vec3& b, const Vec3& direction);
   [[nodiscard]] bool improves(const FlippedEdge& edge);
   void flip(const FlippedEdge& edge);
+  // Squared sines of the smallest angles of a star's triangles.
+  struct StarAngles {
+    double least = 1, sum = 0;
+  };
+  void smooth_vertices(Controls& controls, int threads);
+  [[nodiscard]] StarAngles angles_around(const Vec3& p) const;
+  bool smooth(std::uint32_t v);
+  [[nodiscard]] bool may_move_to(const Vec3& p, double reach);
+  void move_vertex(std::uint32_t v);
   void requeue(std::uint32_t triangle);
   void learn(std::uint32_t triangle, const NewTriangle& measured);
   void queue(std::uint32_t triangle, const NewTriangle& measured);
@@ -112,17 +129,20 @@ class RefineLoop {
   std::vector<NewTriangle> star_;       // and what is measured of it
   std::vector<std::uint32_t> slots_;    // the slots of the star's triangles
   std::vector<std::uint32_t> crossed_;  // triangles whose refinement a crossing prevented
-  // The state at the start: each changed triangle as it was, and the number of vertices.
+  // The state at the start: each changed triangle and moved vertex as it was, and the number of vertices.
   class Start {
    public:
     explicit Start(const RefinementMesh& mesh)
         : is_kept_(mesh.triangles.size(), false), vertex_count_(mesh.vertices.size()) {}
     void keep(std::uint32_t t, const RefinementMesh& mesh);
+    void keep_vertex(std::uint32_t v, const RefinementMesh& mesh);
     RefinementChange restore(RefinementMesh& mesh);
 
    private:
     std::vector<std::uint32_t> places_;
     std::vector<RefinementMesh::Triangle> triangles_;  // as they were in these slots
+    std::vector<MovedVertex> moved_;                   // where they were
+    std::vector<bool> is_moved_;                       // of each vertex of the start, once one is moved
     std::vector<bool> is_kept_;                        // of each triangle of the start
     std::size_t vertex_count_;
   };

@@ -14,7 +14,8 @@ RefineOptions refine_options(const Parameters& parameters, const Box3& box, std:
   options.rho = effective_rho(stage2.rho, parameters.size);
   options.r_min = absolute_r_min(stage2.r_min, box);
   options.max_distance = refined_height(parameters);
-  options.h_min = is_sized(parameters) ? 0 : stage2.h_min;
+  options.h_min = effective_h_min(parameters);
+  options.smoothing_passes = improves_shape(parameters) && !is_sized(parameters) ? parameters.shape.smoothing : 0;
   options.order = parameters.queue_order;
   options.restart_at_crossings = repairs(parameters);
   options.criterion2 = stage2.criterion2;

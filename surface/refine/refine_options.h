@@ -25,7 +25,8 @@ struct RefineOptions {
   double rho = 2;         // largest r / l
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
-  double h_min = 0;  // criteria 1 and 2 lapse at or below this h, in mesh-space units; 0: never
+  double h_min = 0;          // criteria 1 and 2 lapse at or below this h, in mesh-space units; 0: never
+  int smoothing_passes = 0;  // over the vertices, at the end (smoothing.cpp)
   QueueOrder order = QueueOrder::kWorstFirst;
   // If triangles came to meet, refine again with smaller clearances around them (refine.cpp).
   bool restart_at_crossings = true;
@@ -79,6 +80,7 @@ struct RefineStats : StageStats {
   std::int64_t coverage_targets = 0;  // of them coverage targets that the mesh had missed (coverage_targets.h)
   std::int64_t halvings = 0;          // of them on the longest edge of a coarse triangle whose x_sigma was refused
   std::int64_t flips = 0;             // of edges across folds, which insert nothing
+  std::int64_t moves = 0;             // of vertices to where the angles around them are larger
   std::array<std::int64_t, static_cast<std::size_t>(Refusal::kCount)> refused{};  // attempts
   std::int64_t stopped_at_r_min = 0;  // triangles that fail a criterion but are not larger than r_min
   std::int64_t restarts = 0;          // of a slab, or of a round in the whole mesh
@@ -91,6 +93,7 @@ struct RefineStats : StageStats {
     boundary_splits += part.boundary_splits;
     halvings += part.halvings;
     flips += part.flips;
+    moves += part.moves;
     coverage_targets += part.coverage_targets;
     for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += part.refused[i];
     restarts += part.restarts;

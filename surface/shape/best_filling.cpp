@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface/mesh/triangle_shape.h"
 #include "surface/shape/shape_steps.h"
-#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 

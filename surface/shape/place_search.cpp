@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 

@@ -6,9 +6,9 @@
 
 #include "delaunay/base/parallel.h"
 #include "surface/base/parallel_blocks.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/shape/patch_improvement.h"
 #include "surface/shape/patches.h"
-#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 

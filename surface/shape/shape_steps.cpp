@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "surface/mesh/triangle_shape.h"
 #include "surface/shape/best_filling.h"
-#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 

@@ -7,9 +7,9 @@
 
 #include "delaunay/triangle_contact.h"
 #include "surface/mesh/triangle_distance.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/shape/place_search.h"
 #include "surface/shape/swept_samples.h"
-#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 

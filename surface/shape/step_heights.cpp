@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "surface/certificate/geometry_check.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/shape/step_guard.h"
 #include "surface/shape/triangle_heights.h"
-#include "surface/shape/triangle_shape.h"
 
 namespace deliso {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "raycast/gradients_at.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 

@@ -10,7 +10,7 @@
 #include "surface/certificate/triangle_samples.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/shape/place_search.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 

@@ -13,7 +13,7 @@
 #include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/sizes/error_steps.h"
 #include "volume/topology/exact_topology.h"
 

@@ -64,8 +64,9 @@ Lesson.spaceStory = (() => {
       case "restart":
         return "Triangles came to meet: all of stage 2 is taken back, and begins again with more care.";
       case "shape":
-        return e.why ? "Edges across folds are flipped to run along them (not in the paper)." :
-                       "Badly shaped triangles are improved (not in the paper).";
+        return e.why === "folds"  ? "Edges across folds are flipped to run along them (not in the paper)." :
+               e.why === "angles" ? "Vertices move to where the angles around them are larger (not in the paper)." :
+                                    "Badly shaped triangles are improved (not in the paper).";
       case "refined":
         return "No triangle is left that can be refined.";
       case "certify":
@@ -100,8 +101,9 @@ Lesson.spaceStory = (() => {
       case "restart":
         return "Everything since BuildTriMesh was taken back.";
       case "shape":
-        return e.why ? "Edges across folds were flipped to run along them." :
-                       "Flips, moves and merges have improved small angles.";
+        return e.why === "folds"  ? "Edges across folds were flipped to run along them." :
+               e.why === "angles" ? "Vertices were moved to where the angles around them are larger." :
+                                    "Flips, moves and merges have improved small angles.";
       case "certify":
         return `Certificate: topology ${e.homeomorphic ? "equal" : "different"}, ${
             count(e.crossing, "pair of triangles crosses", "pairs of triangles cross")}, ${

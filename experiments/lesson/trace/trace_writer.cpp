@@ -242,8 +242,8 @@ void TraceWriter::disk_refused(const RefinementMesh& mesh, std::uint32_t triangl
   sink_(event);
 }
 
-void TraceWriter::flipped(const RefinementMesh& mesh) {
-  TraceEvent event{{"e", "shape"}, {"why", "folds"}};
+void TraceWriter::improved(const RefinementMesh& mesh, std::string_view why) {
+  TraceEvent event{{"e", "shape"}, {"why", why}};
   add_mesh(mesh, event);
   sink_(event);
 }

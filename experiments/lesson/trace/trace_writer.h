@@ -9,9 +9,10 @@
 //   mesh      points, poles, triangles, limits: what stage 2 begins with
 //   refine    t, why, h, r, l, pole, v, p, gone (E), rim, closed
 //   keep      t, cause: a coarse triangle whose refinement is refused for now; p and gone (E) where x_sigma was tried
-//   restart   all insertions and flips since `mesh` are taken back
+//   restart   all changes since `mesh` are taken back
 //   refined   vertices, triangles (counts), and the mesh itself after a restart
-//   shape     the mesh after steps of another kind; why: "folds" where stage 2 has flipped edges across folds
+//   shape     the mesh after steps of another kind; why: "folds" where stage 2 has flipped edges across folds,
+//             "angles" where it has moved vertices at its end
 //   certify   what was found of the mesh that leaves the program, and the bounds
 //
 // New tetrahedra are not written: they are the star of v over the rim of what is gone. Their signs, `above`, stand in
@@ -50,7 +51,7 @@ class TraceWriter : public Observer {
   void attempt_refused(const RefinementMesh& mesh, const RefinementDisk& e,
                        const RefinementCandidate& candidate) override;
   void disk_refused(const RefinementMesh& mesh, std::uint32_t triangle, std::string_view cause) override;
-  void flipped(const RefinementMesh& mesh) override;
+  void improved(const RefinementMesh& mesh, std::string_view why) override;
   void restarted() override;
   void refined(const RefinementMesh& mesh) override;
   void reshaped(const SurfaceMesh& mesh) override;

@@ -58,6 +58,25 @@ std::optional<TriangleSide> RefinementDisk::encroached_boundary_edge(const Refin
   return std::nullopt;
 }
 
+bool RefinementDisk::take_star(std::uint32_t corner) {
+  ++attempt_;
+  size_ = rim_size_ = 0;
+  for (std::uint32_t at = corner;;) {
+    const std::uint32_t t = at / 3, i = at % 3;
+    RefinementMesh::Triangle& triangle = mesh_.triangles[t];
+    if (t < frozen_) return false;
+    if (triangles_.size() <= size_) triangles_.resize(2 * size_ + 8);
+    if (rim_.size() <= rim_size_) rim_.resize(2 * rim_size_ + 8);
+    triangle.attempt = attempt_;
+    triangles_[size_++] = t;
+    rim_[rim_size_++] = {triangle.corners[(i + 1) % 3], triangle.corners[(i + 2) % 3], triangle.neighbours[i]};
+    const TriangleSide next = triangle.neighbours[(i + 1) % 3];
+    if (next == kNoSide) return false;
+    at = 3 * (next >> 2) + ((next & 3u) + 1) % 3;
+    if (at == corner) return true;
+  }
+}
+
 Vec3 RefinementDisk::normal_sum() const {
   Vec3 sum;
   for (const std::uint32_t t : triangles()) {

@@ -47,6 +47,9 @@ class RefinementDisk {
                                                                      const Box3& box) const;
   // Whether E would include a frozen triangle.
   [[nodiscard]] bool is_blocked() const { return is_blocked_; }
+  // Takes all triangles around the vertex at a corner (3 t + i) for E, whose rim is then in order: rim()[i] is that of
+  // triangles()[i]. False when one of them is frozen, or the vertex is on the boundary.
+  [[nodiscard]] bool take_star(std::uint32_t corner);
   // The sum of the normals of E's triangles, each as long as twice its area.
   [[nodiscard]] Vec3 normal_sum() const;
   // The largest distance of p from the planes of E's triangles.

@@ -29,6 +29,7 @@ struct RefinementMesh {
     std::uint32_t rim_place = 0;  // and the position in that rim of the edge that leaves this vertex
     // Whether it is a corner of a triangle that lies far off the surface (crossing_guard.h).
     bool is_suspect = false;
+    bool is_smoothed = false;  // a slab has tried to move it (smoothing.cpp)
   };
   // Side i of a triangle runs from corner i + 1 to corner i + 2. A neighbour is the same edge as a side of the triangle
   // across.

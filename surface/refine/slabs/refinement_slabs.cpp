@@ -221,6 +221,9 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin)
   whole_.vertices.insert(whole_.vertices.end(), behind(mesh.vertices, old_vertices), mesh.vertices.end());
   whole_.triangles.insert(whole_.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
   for (std::size_t v = 0; v < old_vertices; ++v) {
+    RefinementMesh::Vertex& old = whole_.vertices[origin.vertices[v]];
+    old.point = mesh.vertices[v].point;
+    old.is_smoothed = old.is_smoothed || mesh.vertices[v].is_smoothed;
     if (mesh.vertices[v].is_suspect) suspects_.push_back(origin.vertices[v]);
   }
   const auto place = [](const std::vector<std::uint32_t>& old, std::size_t first, std::uint32_t i) {

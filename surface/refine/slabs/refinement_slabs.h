@@ -18,11 +18,15 @@
 
 namespace deliso {
 
+// Which vertices a part moves at its end: those whose star is not frozen, or those that no other part has tried.
+enum class Smoothing { kNone, kAll, kRest };
+
 struct RefinementPart {
   RefinementMesh mesh;
   std::uint32_t frozen = 0;  // the number of frozen triangles, which come first
   Slab slab;
   std::optional<double> plane;  // across the slab's axis: if given, only triangles that meet it are to be refined
+  Smoothing smoothing = Smoothing::kNone;
   std::span<const Vec3> coverage_targets;  // that it has to come near to
 };
 

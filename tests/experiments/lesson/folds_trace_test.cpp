@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "experiments/lesson/followed_mesh.h"
 #include "experiments/lesson/trace/trace_writer.h"
@@ -26,9 +27,9 @@ class FoldsWriter : public TraceWriter {
     if (flips > 0 && compared < 50) compare(mesh);
     TraceWriter::disk(mesh, e, candidate);
   }
-  void flipped(const RefinementMesh& mesh) override {
-    TraceWriter::flipped(mesh);
-    ++flips;
+  void improved(const RefinementMesh& mesh, std::string_view why) override {
+    TraceWriter::improved(mesh, why);
+    ++(why == "folds" ? flips : moves);
     compare(mesh);
   }
   void refined(const RefinementMesh& mesh) override {
@@ -36,13 +37,14 @@ class FoldsWriter : public TraceWriter {
     compare(mesh);
   }
 
-  int flips = 0, compared = 0, as_changes = 0;
+  int flips = 0, moves = 0, compared = 0, as_changes = 0;
 
  private:
   void follow(const TraceEvent& event) {
     const TraceReplay::Json json = TraceReplay::Json::parse(event.dump());
     if (json.at("e") == "shape" && json.contains("why")) {
-      EXPECT_NE(sentence_of(event).find("folds"), std::string::npos);
+      const bool is_of_folds = json.at("why") == "folds";
+      EXPECT_NE(sentence_of(event).find(is_of_folds ? "folds" : "angles"), std::string::npos);
       expect_changes(followed_.changes(json), json);
     }
     if (json.at("e") != "compare") followed_.follow(json);
@@ -50,10 +52,10 @@ class FoldsWriter : public TraceWriter {
   }
 
   void expect_changes(const TraceReplay::Json& changes, const TraceReplay::Json& shape) {
-    EXPECT_EQ(changes.at("why"), "folds");
+    EXPECT_EQ(changes.at("why"), shape.at("why"));
     if (!changes.contains("at")) return;  // the whole mesh
     ++as_changes;
-    EXPECT_TRUE(changes.at("at").empty()) << "flips move no vertex";
+    EXPECT_EQ(changes.at("at").empty(), shape.at("why") == "folds") << "flips move no vertex";
     std::multiset<TraceReplay::Corners> changed = replay_.triangles, expected;
     for (const auto& t : changes.at("gone")) changed.erase(changed.find(rotated(t)));
     for (const auto& t : changes.at("come")) changed.insert(rotated(t));
@@ -80,7 +82,7 @@ class FoldsWriter : public TraceWriter {
 };
 
 TEST(TraceWithFlips, IsReplayedAndChangesNothing) {
-  int told = 0, insertions_after = 0, as_changes = 0;
+  int told = 0, moves = 0, insertions_after = 0, as_changes = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const ScalarGrid grid = generate_field("noise", 8, seed);
     MeshingOptions options;
@@ -93,10 +95,13 @@ TEST(TraceWithFlips, IsReplayedAndChangesNothing) {
     EXPECT_EQ(watched.mesh.triangles, plain.mesh.triangles) << seed;
     EXPECT_EQ(watched.refine.flips, plain.refine.flips) << seed;
     told += writer.flips;
-    insertions_after += writer.compared - writer.flips;
+    insertions_after += writer.compared - writer.flips - writer.moves;
+    moves += writer.moves;
+    EXPECT_EQ(writer.moves > 0, plain.refine.moves > 0) << seed;
     as_changes += writer.as_changes;
   }
   EXPECT_GE(told, 3);
+  EXPECT_GT(moves, 0);
   EXPECT_GT(insertions_after, 6);
   EXPECT_GT(as_changes, 0);
 }

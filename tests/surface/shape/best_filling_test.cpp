@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "delaunay/base/rng.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "delaunay/base/rng.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 #include "tests/support/mesh_examples.h"
 
 namespace deliso {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 #include "tests/support/mesh_fields.h"
 
 namespace deliso {

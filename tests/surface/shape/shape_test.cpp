@@ -10,7 +10,7 @@
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
 #include "surface/mesh/mesh_quality.h"
-#include "surface/shape/triangle_shape.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/verification/verification.h"
 #include "tests/support/mesh_fields.h"
 
@@ -20,6 +20,8 @@ namespace {
 MeshingResult meshed(const ScalarGrid& grid, double isovalue, int rounds, int threads = 1, double rho = 2) {
   MeshingOptions options;
   options.parameters.shape.rounds = rounds;
+  options.parameters.shape.smoothing = 0;
+  options.parameters.stage2.h_min = 0;
   options.parameters.stage2.rho = rho;
   options.threads = threads;
   return mesh_isosurface(grid, isovalue, options);

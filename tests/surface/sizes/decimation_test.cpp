@@ -214,6 +214,7 @@ TEST(Sizes, DensityDoesNotDependOnEmptySlices) {
   const auto count = [&](int empty, RMinOf r_min_of) {
     MeshingOptions options;
     options.parameters.r_min_of = r_min_of;
+    options.parameters.stage2.h_min = 0;
     return static_cast<double>(mesh_isosurface(slab(empty), 0.5, options).mesh.points.size());
   };
   const double bare = count(0, RMinOf::kVoxels);

@@ -1,0 +1,121 @@
+// Refinement: at its end, vertices move along the isosurface towards the middle of their neighbours where that makes
+// the angles around them larger. Ours. Of Laplacian smoothing only steps that improve a star are taken, as in Freitag
+// and Ollivier-Gooch (Tetrahedral mesh improvement using swapping and smoothing, 1997).
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "surface/mesh/triangle_shape.h"
+#include "surface/refine/refine_loop.h"
+
+namespace deliso {
+
+namespace {
+
+// Squared sines of smallest angles. Around a vertex whose angles are all above 42 degrees there is little to gain, and
+// no angle below 30 degrees may become smaller.
+constexpr double kFine = 0.45, kSmall = 0.25;
+// The sum of those of a star has to grow by this factor.
+constexpr double kGain = 1.01;
+// The whole way to the middle is tried, then half of it.
+constexpr int kTries = 2;
+constexpr std::uint32_t kNoCorner = std::numeric_limits<std::uint32_t>::max();
+
+// The corner (3 t + i) of some triangle from `first` on at each vertex.
+std::vector<std::uint32_t> corners_of_vertices(const RefinementMesh& mesh, std::uint32_t first) {
+  std::vector<std::uint32_t> corner_of(mesh.vertices.size(), kNoCorner);
+  for (std::uint32_t t = first; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) corner_of[mesh.triangles[t].corners[i]] = 3 * t + i;
+  }
+  return corner_of;
+}
+
+}  // namespace
+
+// Vertices of the boundary, and where the mesh is far off the isosurface, stay.
+void RefineLoop::smooth_vertices(Controls& controls, int threads) {
+  const bool is_rest = part_.smoothing == Smoothing::kRest;
+  const std::vector<std::uint32_t> corner_of = corners_of_vertices(mesh_, part_.frozen);
+  const std::int64_t moves_before = stats_.moves;
+  for (int pass = 0; pass < options_.smoothing_passes && !controls.poll(); ++pass) {
+    for (std::uint32_t v = 0; v < corner_of.size(); ++v) {
+      RefinementMesh::Vertex& vertex = mesh_.vertices[v];
+      if (corner_of[v] == kNoCorner || (is_rest && vertex.is_smoothed)) continue;
+      if (!disk_.take_star(corner_of[v])) continue;
+      if (!is_rest) vertex.is_smoothed = true;
+      if (!guard_) guard_.emplace(mesh_, threads);
+      if (!vertex.is_suspect && smooth(v)) ++stats_.moves;
+    }
+  }
+  if (options_.observer != nullptr && stats_.moves > moves_before) options_.observer->improved(mesh_, "angles");
+}
+
+RefineLoop::StarAngles RefineLoop::angles_around(const Vec3& p) const {
+  StarAngles angles;
+  for (const RimEdge& edge : disk_.rim()) {
+    const double squared =
+        squared_sine_of_least_angle(p, mesh_.vertices[edge.from].point, mesh_.vertices[edge.to].point);
+    angles.least = std::min(angles.least, squared);
+    angles.sum += squared;
+  }
+  return angles;
+}
+
+// Moves the vertex whose star is E, if that is an improvement.
+bool RefineLoop::smooth(std::uint32_t v) {
+  const Vec3 old = mesh_.vertices[v].point;
+  const StarAngles before = angles_around(old);
+  if (!(before.least < kFine)) return false;
+  const auto is_better = [&](const Vec3& p) {
+    const StarAngles now = angles_around(p);
+    return now.least >= std::min(before.least, kSmall) && now.sum > kGain * before.sum;
+  };
+  const std::span<const RimEdge> rim = disk_.rim();
+  Vec3 way;
+  for (const RimEdge& edge : rim) way += (mesh_.vertices[edge.from].point - old) / static_cast<double>(rim.size());
+  const Vec3 normal = disk_.normal_sum();
+  const double length = norm(normal), reach = distance(old, mesh_.vertices[rim.front().from].point);
+  if (!(length > 0)) return false;
+  for (int i = 0; i < kTries; ++i, way = way / 2) {
+    if (!is_better(old + way)) continue;
+    const Line line{old + way, normal / length};
+    const auto hit = isosurface_.nearest_falling_hit(line, reach, stats_.search);
+    if (!hit || !is_better(line.at(*hit)) || !may_move_to(line.at(*hit), reach)) continue;
+    move_vertex(v);
+    return true;
+  }
+  return false;
+}
+
+// Plans the star of E's rim around p, in which all criteria have to hold: along creases, where only r_min has ended
+// refinement, vertices stay.
+bool RefineLoop::may_move_to(const Vec3& p, double reach) {
+  if (!part_.slab.contains(p) || !isosurface_.box().contains(p)) return false;
+  const Vec3 gradient = isosurface_.gradient(p);
+  const Candidate candidate{isosurface_.settled(p), reach, 0, disk_.triangles().front(), kNoSide};
+  if (plan_star(candidate, gradient)) return false;
+  return std::all_of(star_.begin(), star_.end(), [](const NewTriangle& t) { return t.has_hit && t.badness <= 1; });
+}
+
+// To where its star was planned. The triangles keep their slots and corners.
+void RefineLoop::move_vertex(std::uint32_t v) {
+  const std::span<const std::uint32_t> triangles = disk_.triangles();
+  start_->keep_vertex(v, mesh_);
+  for (const std::uint32_t t : triangles) {
+    start_->keep(t, mesh_);
+    guard_->forget(t);
+  }
+  mesh_.vertices[v].point = shapes_.front().corners[0];
+  mesh_.vertices[v].clearance = guard_->new_clearance();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    mesh_.triangles[triangles[i]].renew();
+    learn(triangles[i], star_[i]);
+    guard_->learn(triangles[i], star_[i].squared_longest);
+  }
+}
+
+}  // namespace deliso
