@@ -91,6 +91,7 @@ class RefineLoop {
     double least = 1, sum = 0;
   };
   void smooth_vertices(Controls& controls, int threads);
+  [[nodiscard]] bool is_fine(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] StarAngles angles_around(const Vec3& p) const;
   bool smooth(std::uint32_t v);
   [[nodiscard]] bool may_move_to(const Vec3& p, double reach);

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> corners_of_vertices(const RefinementMesh& mesh, std::
 
 }  // namespace
 
-// Vertices of the boundary, and where the mesh is far off the isosurface, stay.
+// Vertices of the boundary, and where a criterion fails, stay.
 void RefineLoop::smooth_vertices(Controls& controls, int threads) {
   const bool is_rest = part_.smoothing == Smoothing::kRest;
   const std::vector<std::uint32_t> corner_of = corners_of_vertices(mesh_, part_.frozen);
@@ -48,10 +48,18 @@ void RefineLoop::smooth_vertices(Controls& controls, int threads) {
       if (!disk_.take_star(corner_of[v])) continue;
       if (!is_rest) vertex.is_smoothed = true;
       if (!guard_) guard_.emplace(mesh_, threads);
-      if (!vertex.is_suspect && smooth(v)) ++stats_.moves;
+      if (is_fine(disk_.triangles()) && smooth(v)) ++stats_.moves;
     }
   }
   if (options_.observer != nullptr && stats_.moves > moves_before) options_.observer->improved(mesh_, "angles");
+}
+
+// Whether all criteria hold: else they rarely would after a move.
+bool RefineLoop::is_fine(std::span<const std::uint32_t> triangles) const {
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t i) {
+    const RefinementMesh::Triangle& t = mesh_.triangles[i];
+    return t.has_hit() && !t.is_too_small() && !t.is_coarse() && !t.is_refused();
+  });
 }
 
 RefineLoop::StarAngles RefineLoop::angles_around(const Vec3& p) const {
