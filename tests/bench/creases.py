@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Vertices, two-sided error and angles with and without stage2.h_min: the table of tests/bench/README.md.
+"""Vertices, two-sided error and angles with and without stage2.h_min and smoothing: the table of tests/bench/README.md.
 
     tests/bench/creases.py build/release/experiments/deliso [--only NAME,...]
 
@@ -18,14 +18,16 @@ import subprocess
 import tempfile
 
 PUBLIC = [("ENGINE", "engine.nrrd", 40.1), ("BABY", "baby.nrrd", 35.8), ("ANEURISM", "aneurism.nrrd", 124.6)]
-OFF = {"stage2.h_min": 0}
+OFF = {"stage2.h_min": 0, "shape.smoothing": 0}
 VARIANTS = [
     ("criteria of the paper", OFF),
     ("epsilon 0.14, 0.28", {**OFF, "stage2.epsilon1": 0.14, "stage2.epsilon2": 0.28}),
     ("epsilon 0.2, 0.4", {**OFF, "stage2.epsilon1": 0.2, "stage2.epsilon2": 0.4}),
     ("r_min 0.002", {**OFF, "stage2.r_min": 0.002}),
     ("r_min 0.004", {**OFF, "stage2.r_min": 0.004}),
-    ("h_min 0.025", {"stage2.h_min": 0.025}),
+    ("smoothing alone", {"stage2.h_min": 0}),
+    ("default, h_min 0.025", {}),
+    ("h_min 0.025 without smoothing", {"shape.smoothing": 0}),
     ("h_min 0.05", {"stage2.h_min": 0.05}),
     ("h_min 0.1", {"stage2.h_min": 0.1}),
 ]
