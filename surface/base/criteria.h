@@ -30,7 +30,7 @@ struct Criteria {
   double max_distance = std::numeric_limits<double>::infinity();  // largest h
   double epsilon2 = std::numeric_limits<double>::infinity();      // largest r / h_mean; needs pole heights
   Criterion2 criterion2 = Criterion2::kCircumradius;              // or l / h_mean
-  double h_min = 0;  // criteria 1 and 2 of stage 2 ask for nothing at or below this h
+  double h_min = 0;  // criteria 1 and 2 of stage 2 lapse at or below this h, where r is no larger than a voxel
 };
 
 // r_min in mesh space, from the fraction of the smallest side of a box that a parameter gives: one of 256 smallest

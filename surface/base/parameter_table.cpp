@@ -173,10 +173,10 @@ constexpr std::array kTable = {
                                                      "refine a triangle whose height is above this; null: no bound"),
     row<&P::stage2, &Stage2Parameters::h_min>(
         "stage2.h_min", kNotNegative, "voxels",
-        "no refinement for epsilon1 and epsilon2 of a triangle whose height is "
-        "at or below this: at creases they would ask for r_min everywhere; "
-        "null: 0.025, less with epsilons below the defaults, 0 with a stage2.rho below "
-        "2; 0: as in the paper"),
+        "no refinement for epsilon1 and epsilon2 of a triangle no larger than a voxel whose height is at or below "
+        "this: "
+        "at creases they would ask for r_min everywhere; null: 0.025, less with epsilons below the defaults, 0 with a "
+        "stage2.rho below 2; 0: as in the paper"),
     row<&P::stage2, &Stage2Parameters::criterion2>("stage2.criterion2", kAny, "",
                                                    "which length of a triangle epsilon2 compares with the mean pole "
                                                    "height; circumradius is our reading of the paper"),
@@ -226,7 +226,7 @@ constexpr std::array kTable = {
     row<&P::shape, &ShapeParameters::smoothing>(
         "shape.smoothing", kNotNegative, "passes",
         "at the end of stage 2 move vertices along the isosurface so often to where the angles around them are larger; "
-        "0: never, nor if shape.rounds is 0 or a size is stated"),
+        "0: never, nor if shape.rounds is 0 or size.max_error or size.target_vertices is given"),
     row<&P::shape, &ShapeParameters::rounds>("shape.rounds", kNotNegative, "rounds",
                                              "improve badly shaped triangles at most this often, each time in wider "
                                              "surroundings; 0: never, nor if repair.max_rounds is 0"),

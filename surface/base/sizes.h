@@ -34,8 +34,8 @@ std::optional<double> wanted_angle(const SizeParameters& size);
 // stages end with a rho of 1 or more; the shape stage does the rest.
 double effective_rho(double rho, const SizeParameters& size);
 
-// The h at or below which criteria 1 and 2 of stage 2 lapse (mesh-space units): stage2.h_min or the usual one; none
-// where an error is stated.
+// The h at or below which criteria 1 and 2 of stage 2 lapse (mesh-space units): stage2.h_min or the usual one. 0 where
+// an error or a number of vertices is stated, which take the place of these criteria.
 double effective_h_min(const Parameters& parameters);
 
 // shape.min_angle, or the angle asked for.

@@ -150,9 +150,9 @@ std::optional<Refusal> RefineLoop::insert(Candidate candidate, TriangleSide* enc
   return std::nullopt;
 }
 
-// Measures the star of p over the rim without building it; refuses it when a triangle degenerates or turns against the
-// gradient, or a vertex is too near.
-std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const Vec3& gradient) {
+// Refuses the star of p over the rim when a triangle degenerates or turns against the gradient, a vertex is too near,
+// or triangles would cross.
+std::optional<Refusal> RefineLoop::refusal_of_star(const Candidate& candidate, const Vec3& gradient) {
   const Vec3& p = candidate.point;
   const double nearest = candidate.nearest * candidate.nearest;
   distances_.assign(1, squared_distance(p, mesh_.vertices[disk_.rim().front().from].point));
@@ -167,7 +167,14 @@ std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const V
   const double moved = disk_.distance_to(p);
   if (closed && moved > kFarthestMove * candidate.ball_radius) return Refusal::kTooFar;
   if (guard_->crosses(p, -gradient, moved, disk_)) return Refusal::kCrossingTriangle;
-  star_pole_height_ = inherited_pole_height(closed);
+  return std::nullopt;
+}
+
+// Measures the star of p over the rim without building it.
+std::optional<Refusal> RefineLoop::plan_star(const Candidate& candidate, const Vec3& gradient) {
+  if (const auto refusal = refusal_of_star(candidate, gradient)) return refusal;
+  const Vec3& p = candidate.point;
+  star_pole_height_ = inherited_pole_height(candidate.split == kNoSide);
   shapes_.clear();
   for (const RimEdge& edge : disk_.rim()) {
     const RefinementMesh::Vertex &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];

@@ -74,6 +74,7 @@ class RefineLoop {
   bool insert_coverage_targets(Controls& controls, int threads);
   bool treat(std::uint32_t triangle);
   std::optional<Refusal> insert(Candidate candidate, TriangleSide* encroached_edge);
+  [[nodiscard]] std::optional<Refusal> refusal_of_star(const Candidate& candidate, const Vec3& gradient);
   [[nodiscard]] std::optional<Refusal> plan_star(const Candidate& candidate, const Vec3& gradient);
   [[nodiscard]] Vec3 upwards(const Candidate& candidate) const;
   void replace_disk(const Candidate& candidate);
@@ -94,8 +95,8 @@ class RefineLoop {
   [[nodiscard]] bool is_fine(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] StarAngles angles_around(const Vec3& p) const;
   bool smooth(std::uint32_t v);
-  [[nodiscard]] bool may_move_to(const Vec3& p, double reach);
-  void move_vertex(std::uint32_t v);
+  [[nodiscard]] bool may_move(std::uint32_t v, const Vec3& to, double reach);
+  void move_vertex(std::uint32_t v, const Vec3& to);
   void requeue(std::uint32_t triangle);
   void learn(std::uint32_t triangle, const NewTriangle& measured);
   void queue(std::uint32_t triangle, const NewTriangle& measured);

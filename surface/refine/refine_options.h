@@ -25,7 +25,7 @@ struct RefineOptions {
   double rho = 2;         // largest r / l
   double r_min = 0;       // no refinement of triangles at or below this circumradius, in mesh-space units
   double max_distance = std::numeric_limits<double>::infinity();  // largest h, in mesh-space units
-  double h_min = 0;          // criteria 1 and 2 lapse at or below this h, in mesh-space units; 0: never
+  double h_min = 0;          // criteria 1 and 2 lapse at or below this h where r is no larger than a voxel; 0: never
   int smoothing_passes = 0;  // over the vertices, at the end (smoothing.cpp)
   QueueOrder order = QueueOrder::kWorstFirst;
   // If triangles came to meet, refine again with smaller clearances around them (refine.cpp).

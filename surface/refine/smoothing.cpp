@@ -2,6 +2,7 @@
 // the angles around them larger. Ours. Of Laplacian smoothing only steps that improve a star are taken, as in Freitag
 // and Ollivier-Gooch (Tetrahedral mesh improvement using swapping and smoothing, 1997).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,13 +17,15 @@ namespace deliso {
 
 namespace {
 
-// Squared sines of smallest angles. Around a vertex whose angles are all above 42 degrees there is little to gain, and
-// no angle below 30 degrees may become smaller.
+// Squared sines of smallest angles. Around a vertex whose angles are all above 42 degrees there is little to gain; the
+// smallest of them may become smaller, but not below 30 degrees.
 constexpr double kFine = 0.45, kSmall = 0.25;
 // The sum of those of a star has to grow by this factor.
 constexpr double kGain = 1.01;
 // The whole way to the middle is tried, then half of it.
 constexpr int kTries = 2;
+// The star is flat where no triangle turns by more than 26 degrees (the cosine) from their mean.
+constexpr double kFlat = 0.9;
 constexpr std::uint32_t kNoCorner = std::numeric_limits<std::uint32_t>::max();
 
 // The corner (3 t + i) of some triangle from `first` on at each vertex.
@@ -38,27 +41,39 @@ std::vector<std::uint32_t> corners_of_vertices(const RefinementMesh& mesh, std::
 
 // Vertices of the boundary, and where a criterion fails, stay.
 void RefineLoop::smooth_vertices(Controls& controls, int threads) {
+  constexpr std::uint32_t kPollsEvery = 1024;  // vertices
   const bool is_rest = part_.smoothing == Smoothing::kRest;
   const std::vector<std::uint32_t> corner_of = corners_of_vertices(mesh_, part_.frozen);
   const std::int64_t moves_before = stats_.moves;
-  for (int pass = 0; pass < options_.smoothing_passes && !controls.poll(); ++pass) {
+  bool is_moving = true;
+  for (int pass = 0; pass < options_.smoothing_passes && is_moving; ++pass) {
+    is_moving = false;
     for (std::uint32_t v = 0; v < corner_of.size(); ++v) {
+      if (v % kPollsEvery == 0 && controls.poll()) break;
       RefinementMesh::Vertex& vertex = mesh_.vertices[v];
       if (corner_of[v] == kNoCorner || (is_rest && vertex.is_smoothed)) continue;
       if (!disk_.take_star(corner_of[v])) continue;
       if (!is_rest) vertex.is_smoothed = true;
       if (!guard_) guard_.emplace(mesh_, threads);
-      if (is_fine(disk_.triangles()) && smooth(v)) ++stats_.moves;
+      if (vertex.is_suspect || !is_fine(disk_.triangles()) || !smooth(v)) continue;
+      ++stats_.moves;
+      is_moving = true;
     }
   }
   if (options_.observer != nullptr && stats_.moves > moves_before) options_.observer->improved(mesh_, "angles");
 }
 
-// Whether all criteria hold: else they rarely would after a move.
+// Whether all criteria hold, else they rarely would after a move, and the star lies flat: from a crease, which it runs
+// along, a vertex would be moved off.
 bool RefineLoop::is_fine(std::span<const std::uint32_t> triangles) const {
+  const Vec3 sum = disk_.normal_sum();
+  const double length = norm(sum);
   return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t i) {
     const RefinementMesh::Triangle& t = mesh_.triangles[i];
-    return t.has_hit() && !t.is_too_small() && !t.is_coarse() && !t.is_refused();
+    if (!t.has_hit() || t.is_too_small() || t.is_coarse() || t.is_refused()) return false;
+    const auto [a, b, c] = mesh_.corner_points(t.corners);
+    const Vec3 normal = cross(b - a, c - a);
+    return dot(normal, sum) > kFlat * norm(normal) * length;
   });
 }
 
@@ -92,33 +107,43 @@ bool RefineLoop::smooth(std::uint32_t v) {
     if (!is_better(old + way)) continue;
     const Line line{old + way, normal / length};
     const auto hit = isosurface_.nearest_falling_hit(line, reach, stats_.search);
-    if (!hit || !is_better(line.at(*hit)) || !may_move_to(line.at(*hit), reach)) continue;
-    move_vertex(v);
+    if (!hit) continue;
+    const Vec3 to = isosurface_.settled(line.at(*hit));
+    if (!is_better(to) || !may_move(v, to, reach)) continue;
+    move_vertex(v, to);
     return true;
   }
   return false;
 }
 
-// Plans the star of E's rim around p, in which all criteria have to hold: along creases, where only r_min has ended
-// refinement, vertices stay.
-bool RefineLoop::may_move_to(const Vec3& p, double reach) {
-  if (!part_.slab.contains(p) || !isosurface_.box().contains(p)) return false;
-  const Vec3 gradient = isosurface_.gradient(p);
-  const Candidate candidate{isosurface_.settled(p), reach, 0, disk_.triangles().front(), kNoSide};
-  if (plan_star(candidate, gradient)) return false;
+// Measures the star, all of E, as it would be with its vertex elsewhere. The criteria have to hold.
+bool RefineLoop::may_move(std::uint32_t v, const Vec3& to, double reach) {
+  if (!part_.slab.contains(to) || !isosurface_.box().contains(to)) return false;
+  const Candidate candidate{to, reach, 0, disk_.triangles().front(), kNoSide};
+  if (refusal_of_star(candidate, isosurface_.gradient(to))) return false;
+  shapes_.clear();
+  for (const std::uint32_t t : disk_.triangles()) {
+    const std::array<std::uint32_t, 3>& corners = mesh_.triangles[t].corners;
+    Shape& shape = shapes_.emplace_back(Shape{mesh_.corner_points(corners), mean_pole_height(t)});
+    for (std::size_t i = 0; i < 3; ++i) shape.corners[i] = corners[i] == v ? to : shape.corners[i];
+  }
+  star_.resize(shapes_.size());
+  measure(shapes_, star_);
   return std::all_of(star_.begin(), star_.end(), [](const NewTriangle& t) { return t.has_hit && t.badness <= 1; });
 }
 
-// To where its star was planned. The triangles keep their slots and corners.
-void RefineLoop::move_vertex(std::uint32_t v) {
+// After may_move(). The triangles keep their slots and corners.
+void RefineLoop::move_vertex(std::uint32_t v, const Vec3& to) {
   const std::span<const std::uint32_t> triangles = disk_.triangles();
   start_->keep_vertex(v, mesh_);
   for (const std::uint32_t t : triangles) {
     start_->keep(t, mesh_);
     guard_->forget(t);
   }
-  mesh_.vertices[v].point = shapes_.front().corners[0];
-  mesh_.vertices[v].clearance = guard_->new_clearance();
+  RefinementMesh::Vertex& vertex = mesh_.vertices[v];
+  const float moved_bound = vertex.clearance + static_cast<float>(distance(vertex.point, to));
+  vertex.clearance = std::min(moved_bound, guard_->new_clearance());
+  vertex.point = to;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     mesh_.triangles[triangles[i]].renew();
     learn(triangles[i], star_[i]);

@@ -222,7 +222,10 @@ void RefinementSlabs::put_back(const RefinementPart& part, const Origin& origin)
   whole_.triangles.insert(whole_.triangles.end(), behind(mesh.triangles, old_triangles), mesh.triangles.end());
   for (std::size_t v = 0; v < old_vertices; ++v) {
     RefinementMesh::Vertex& old = whole_.vertices[origin.vertices[v]];
-    old.point = mesh.vertices[v].point;
+    if (old.point != mesh.vertices[v].point) {
+      old.point = mesh.vertices[v].point;
+      old.clearance = mesh.vertices[v].clearance;
+    }
     old.is_smoothed = old.is_smoothed || mesh.vertices[v].is_smoothed;
     if (mesh.vertices[v].is_suspect) suspects_.push_back(origin.vertices[v]);
   }

@@ -1,6 +1,7 @@
 // Runs with stage2.h_min: their traces have the flips of edges across folds, so that they can be replayed, too.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -75,6 +76,10 @@ class FoldsWriter : public TraceWriter {
     }
     EXPECT_EQ(replay_.triangles, live);
     ASSERT_EQ(replay_.mesh_points.size(), mesh.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Vec3& p = mesh.vertices[v].point;
+      ASSERT_EQ(replay_.mesh_points[v], (std::array<double, 3>{p.x, p.y, p.z})) << v;
+    }
   }
 
   TraceReplay replay_;

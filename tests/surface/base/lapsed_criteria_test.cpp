@@ -9,6 +9,7 @@
 
 #include "delaunay/base/rng.h"
 #include "surface/base/criteria.h"
+#include "surface/base/sizes.h"
 
 namespace deliso {
 namespace {
@@ -69,6 +70,26 @@ TEST(LapsedCriteria, Stage1DoesNotAskForHMin) {
   EXPECT_NEAR(approximate_geometry_badness({.h = 0.5, .r = 1, .l = 1.7, .h_mean = 1}, limit), 5, 1e-12);
   EXPECT_EQ(refine_geometry_badness({.h = 0.5, .r = 0.25, .l = 0.4, .h_mean = 1}, limit), 0.5);  // h over h_min
   EXPECT_EQ(refine_geometry_badness({.h = 0.5, .r = 1.5, .l = 2, .h_mean = 1}, limit), 1.5);     // r over a voxel
+}
+
+// Fine thresholds must not lapse at the height that is usual at the paper's.
+TEST(LapsedCriteria, UsualHMinFollowsTheThresholds) {
+  Parameters parameters;
+  const double usual = effective_h_min(parameters);
+  EXPECT_GT(usual, 0);
+  parameters.stage2.epsilon1 /= 2;
+  EXPECT_DOUBLE_EQ(effective_h_min(parameters), usual / 4);
+  parameters.stage2.epsilon2 /= 10;
+  EXPECT_DOUBLE_EQ(effective_h_min(parameters), usual / 100);
+  parameters.stage2 = {};
+  parameters.stage2.epsilon1 *= 2;
+  EXPECT_EQ(effective_h_min(parameters), usual);
+  parameters.stage2.rho = 1.5;
+  EXPECT_EQ(effective_h_min(parameters), 0);
+  parameters.stage2.h_min = 0.04;
+  EXPECT_EQ(effective_h_min(parameters), 0.04);
+  parameters.size.max_error = 0.1;
+  EXPECT_EQ(effective_h_min(parameters), 0);
 }
 
 }  // namespace

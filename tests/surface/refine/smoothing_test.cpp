@@ -2,15 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "delaunay/constructions.h"
 #include "surface/base/observer.h"
-#include "surface/base/sizes.h"
 #include "surface/deliso.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/triangle_shape.h"
@@ -71,14 +72,9 @@ TEST(Smoothing, MakesAnglesLargerOnTheIsosurface) {
   }
 }
 
-// What the criteria ask for still holds wherever no insertion was refused.
-TEST(Smoothing, KeepsTheCriteria) {
-  const auto scene = field_scene("gyroid", 24);
-  SurfaceMesh mesh = stage1_mesh(*scene);
-  const RefineOptions options = smoothing_options(2);
-  std::vector<SurfaceDelaunayBall> balls;
-  const RefineStats stats = run(mesh, *scene, options, &balls);
-  ASSERT_GT(stats.moves, 100);
+// Triangles larger than r_min that fail a criterion: 1 or 3, for of 2 no pole heights are kept.
+std::int64_t failing_triangles(const SurfaceMesh& mesh, std::span<const SurfaceDelaunayBall> balls,
+                               const RefineOptions& options) {
   std::int64_t failing = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -91,7 +87,34 @@ TEST(Smoothing, KeepsTheCriteria) {
     const bool fails = h > options.epsilon1 * circle.radius * limit || circle.radius > options.rho * l * limit;
     failing += fails && circle.radius > options.r_min * limit ? 1 : 0;
   }
-  EXPECT_LE(failing, std::accumulate(stats.refused.begin(), stats.refused.end(), std::int64_t{0}));
+  return failing;
+}
+
+// Moves make no triangle coarse.
+TEST(Smoothing, KeepsTheCriteria) {
+  for (const char* const name : {"gyroid", "torus", "double_torus"}) {
+    const auto scene = field_scene(name, 24);
+    SurfaceMesh plain = stage1_mesh(*scene), smooth = plain;
+    RefineOptions options = smoothing_options(0);
+    options.slab_triangles = 1000000;  // else what slabs leave is refined after they were smoothed
+    std::vector<SurfaceDelaunayBall> plain_balls, balls;
+    run(plain, *scene, options, &plain_balls);
+    options.smoothing_passes = 2;
+    ASSERT_GT(run(smooth, *scene, options, &balls).moves, 100);
+    EXPECT_LE(failing_triangles(smooth, balls, options), failing_triangles(plain, plain_balls, options)) << name;
+  }
+}
+
+// A triangle's ball is that of its corners in their order, to the last bit: it may be searched again.
+TEST(Smoothing, SearchingBallsAgainGivesTheSameMesh) {
+  const auto scene = field_scene("gyroid", 20);
+  SurfaceMesh stored = stage1_mesh(*scene), searched = stored;
+  RefineOptions options = smoothing_options(1);
+  run(stored, *scene, options);
+  options.store_hits = false;
+  run(searched, *scene, options);
+  EXPECT_EQ(stored.points, searched.points);
+  EXPECT_EQ(stored.triangles, searched.triangles);
 }
 
 TEST(Smoothing, KeepsNoiseProvenAndNear) {
@@ -99,10 +122,9 @@ TEST(Smoothing, KeepsNoiseProvenAndNear) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const ScalarGrid grid = generate_field("noise", 8, seed);
     MeshingOptions options;
-    options.parameters.stage2.h_min = 0;
     options.parameters.shape.smoothing = 0;
     const MeshingResult plain = mesh_isosurface(grid, 127.5, options);
-    options.parameters.shape.smoothing = 2;
+    options.parameters.shape.smoothing = 1;
     const MeshingResult smooth = mesh_isosurface(grid, 127.5, options);
     moves += smooth.refine.moves;
     EXPECT_TRUE(is_proven(smooth.certificate)) << seed;
@@ -111,7 +133,9 @@ TEST(Smoothing, KeepsNoiseProvenAndNear) {
     EXPECT_TRUE(check.proven) << seed;
     EXPECT_LT(check.distance.mesh_to_isosurface.mean_voxels, 1.05 * plain_check.distance.mesh_to_isosurface.mean_voxels)
         << seed;
-    EXPECT_LT(check.distance.isosurface_to_mesh.mean_voxels, 1.05 * plain_check.distance.isosurface_to_mesh.mean_voxels)
+    // At crossings with grid edges, where vertices of noise lie exactly.
+    EXPECT_LT(check.distance.isosurface_to_mesh.mean_voxels,
+              plain_check.distance.isosurface_to_mesh.mean_voxels + 0.001)
         << seed;
   }
 }
@@ -121,8 +145,9 @@ TEST(Smoothing, IsTheSameForAnyNumberOfThreads) {
   const SurfaceMesh start = stage1_mesh(*scene);
   SurfaceMesh one = start;
   RefineOptions options = smoothing_options(1);
+  options.h_min = 0.025;
   const RefineStats stats = run(one, *scene, options);
-  EXPECT_GT(stats.moves, 0);
+  EXPECT_GT(stats.moves, 500);
   for (const int threads : {2, 3}) {
     options.threads = threads;
     SurfaceMesh several = start;
@@ -143,21 +168,32 @@ TEST(Smoothing, IsTakenBackAndAppliedAgain) {
   RefineStats stats;
   RefineLoop loop(part, *scene->isosurface, options, stats);
   loop.measure_all(1);
-  const auto points_of = [&] {
-    std::vector<Vec3> points;
-    for (const RefinementMesh::Vertex& v : part.mesh.vertices) points.push_back(v.point);
-    return points;
+  using State = std::tuple<std::vector<Vec3>, std::vector<float>, std::vector<std::array<std::uint32_t, 3>>,
+                           std::vector<Vec3>, std::vector<bool>>;
+  const auto state = [&] {
+    State now;
+    for (const RefinementMesh::Vertex& v : part.mesh.vertices) {
+      std::get<0>(now).push_back(v.point);
+      std::get<1>(now).push_back(v.clearance);
+    }
+    for (const RefinementMesh::Triangle& t : part.mesh.triangles) {
+      std::get<2>(now).push_back(t.corners);
+      std::get<3>(now).push_back(t.ball.center);
+      std::get<4>(now).push_back(t.is_coarse());
+    }
+    return now;
   };
-  const std::vector<Vec3> before = points_of();
+  const State before = state();
   Controls controls(BudgetParameters{}, nullptr, {});
   loop.run(controls, 1);
-  const std::vector<Vec3> after = points_of();
-  ASSERT_GT(after.size(), before.size());
-  EXPECT_FALSE(std::equal(before.begin(), before.end(), after.begin())) << "no vertex of the start has moved";
+  const State after = state();
+  const std::vector<Vec3>&old_points = std::get<0>(before), &points = std::get<0>(after);
+  ASSERT_GT(points.size(), old_points.size());
+  EXPECT_FALSE(std::equal(old_points.begin(), old_points.end(), points.begin())) << "no vertex of the start has moved";
   const RefinementChange change = loop.take_back();
-  EXPECT_EQ(points_of(), before);
+  EXPECT_EQ(state(), before);
   change.redo(part.mesh);
-  EXPECT_EQ(points_of(), after);
+  EXPECT_EQ(state(), after);
 }
 
 class MoveListener : public Observer {
@@ -177,26 +213,6 @@ TEST(Smoothing, IsToldToWhoeverWatches) {
   run(watched, *scene, options);
   EXPECT_EQ(observer.told, 1);
   EXPECT_EQ(watched.points, alone.points);
-}
-
-// Fine thresholds must not lapse at the height that is usual at the paper's.
-TEST(LapsedCriteria, UsualHMinFollowsTheThresholds) {
-  Parameters parameters;
-  const double usual = effective_h_min(parameters);
-  EXPECT_GT(usual, 0);
-  parameters.stage2.epsilon1 /= 2;
-  EXPECT_DOUBLE_EQ(effective_h_min(parameters), usual / 4);
-  parameters.stage2.epsilon2 /= 10;
-  EXPECT_DOUBLE_EQ(effective_h_min(parameters), usual / 100);
-  parameters.stage2 = {};
-  parameters.stage2.epsilon1 *= 2;
-  EXPECT_EQ(effective_h_min(parameters), usual);
-  parameters.stage2.rho = 1.5;
-  EXPECT_EQ(effective_h_min(parameters), 0);
-  parameters.stage2.h_min = 0.04;
-  EXPECT_EQ(effective_h_min(parameters), 0.04);
-  parameters.size.max_error = 0.1;
-  EXPECT_EQ(effective_h_min(parameters), 0);
 }
 
 }  // namespace
