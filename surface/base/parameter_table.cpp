@@ -174,9 +174,8 @@ constexpr std::array kTable = {
     row<&P::stage2, &Stage2Parameters::h_min>(
         "stage2.h_min", kNotNegative, "voxels",
         "no refinement for epsilon1 and epsilon2 of a triangle no larger than a voxel whose height is at or below "
-        "this: "
-        "at creases they would ask for r_min everywhere; null: 0.025, less with epsilons below the defaults, 0 with a "
-        "stage2.rho below 2; 0: as in the paper"),
+        "this: at creases they would ask for r_min everywhere; null: 0.025, less with epsilons below the defaults, 0 "
+        "with a stage2.rho below 2; 0: as in the paper"),
     row<&P::stage2, &Stage2Parameters::criterion2>("stage2.criterion2", kAny, "",
                                                    "which length of a triangle epsilon2 compares with the mean pole "
                                                    "height; circumradius is our reading of the paper"),

@@ -3,7 +3,6 @@
 // and Ollivier-Gooch (Tetrahedral mesh improvement using swapping and smoothing, 1997).
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -117,6 +116,8 @@ bool RefineLoop::smooth(std::uint32_t v) {
 }
 
 // Measures the star, all of E, as it would be with its vertex elsewhere. The criteria have to hold.
+// The gradient is that of the field on the wall, not of the wall itself: so hardly a vertex on walls moves, which would
+// wear off the edges of a closed box (ClosedSolids in the tests).
 bool RefineLoop::may_move(std::uint32_t v, const Vec3& to, double reach) {
   if (!part_.slab.contains(to) || !isosurface_.box().contains(to)) return false;
   const Candidate candidate{to, reach, 0, disk_.triangles().front(), kNoSide};
