@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "delaunay/base/minimum_cut.h"
 #include "surface/base/parallel_blocks.h"
 
 namespace deliso {
@@ -49,118 +49,31 @@ std::optional<std::uint32_t> index_of(std::span<const TetId> tets, TetId t) {
   return static_cast<std::uint32_t>(at - tets.begin());
 }
 
-// The signs of some tetrahedra for which the restricted facets have the least area, with the signs around them fixed.
-// This is a minimum cut between above and below in the graph whose nodes are the tetrahedra and whose edges are their
-// facets. It is found by augmenting flow along shortest paths, all those of one length before longer ones (Dinic 1970):
-// layers may have thousands of tetrahedra.
-class LeastCut {
- public:
-  // `tets`: ascending.
-  LeastCut(const SignedDelaunay& restricted, std::span<const TetId> tets) : arcs_of_(kFirst + tets.size()) {
-    const Tetrahedralization& delaunay = restricted.delaunay();
-    for (std::uint32_t i = 0; i < tets.size(); ++i) {
-      double all = 0;
-      for (unsigned face = 0; face < 4; ++face) {
-        const double area = twice_area(delaunay, FacetId(tets[i], face));
-        const TetId across = delaunay.neighbour(tets[i], face);
-        all += area;
-        if (const auto j = index_of(tets, across); !j) {
-          join(i, restricted.is_above(across), area);
-        } else if (*j > i) {
-          add_arcs(kFirst + i, kFirst + *j, area, area);
-        }
-      }
-      join(i, restricted.is_above(tets[i]), kWorthOfKeeping * all);
-    }
-    reached_by_.assign(arcs_of_.size(), kNone);
-    while (finds_levels()) {
-      while (finds_path()) send_along();
-    }
-  }
-
-  [[nodiscard]] bool is_above(std::size_t i) const { return level_[kFirst + i] != kNone; }
-
- private:
-  static constexpr std::uint32_t kAbove = 0, kBelow = 1, kFirst = 2;  // nodes
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
-  struct Arc {
-    std::uint32_t to = 0;
-    double room = 0;
+// The minimum cut between above and below in the graph whose nodes are some tetrahedra (ascending) and whose edges are
+// their facets: it tells the signs for which the restricted facets have the least area, with the signs around fixed.
+MinimumCut least_cut(const SignedDelaunay& restricted, std::span<const TetId> tets) {
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  MinimumCut cut(tets.size());
+  const auto join = [&](std::uint32_t i, bool to_above, double area) {
+    to_above ? cut.join_source(i, area) : cut.join_sink(i, area);
   };
-
-  // The reverse arc has the next number.
-  void add_arcs(std::uint32_t from, std::uint32_t to, double there, double back) {
-    arcs_of_[from].push_back(static_cast<std::uint32_t>(arcs_.size()));
-    arcs_.push_back({to, there});
-    arcs_of_[to].push_back(static_cast<std::uint32_t>(arcs_.size()));
-    arcs_.push_back({from, back});
-  }
-  void join(std::uint32_t i, bool to_above, double area) {
-    if (to_above) {
-      add_arcs(kAbove, kFirst + i, area, 0);
-    } else {
-      add_arcs(kFirst + i, kBelow, area, 0);
-    }
-  }
-
-  // The number of arcs with room on the shortest path from above to each node. Returns whether below is reached.
-  bool finds_levels() {
-    level_.assign(arcs_of_.size(), kNone);
-    level_[kAbove] = 0;
-    std::vector<std::uint32_t> open = {kAbove};
-    for (std::size_t at = 0; at < open.size(); ++at) {
-      for (const std::uint32_t arc : arcs_of_[open[at]]) {
-        const auto& [to, room] = arcs_[arc];
-        if (!(room > 0) || level_[to] != kNone) continue;
-        level_[to] = level_[open[at]] + 1;
-        if (to != kBelow) open.push_back(to);
+  for (std::uint32_t i = 0; i < tets.size(); ++i) {
+    double all = 0;
+    for (unsigned face = 0; face < 4; ++face) {
+      const double area = twice_area(delaunay, FacetId(tets[i], face));
+      const TetId across = delaunay.neighbour(tets[i], face);
+      all += area;
+      if (const auto j = index_of(tets, across); !j) {
+        join(i, restricted.is_above(across), area);
+      } else if (*j > i) {
+        cut.join(i, *j, area);
       }
     }
-    next_.assign(arcs_of_.size(), 0);
-    return level_[kBelow] != kNone;
+    join(i, restricted.is_above(tets[i]), kWorthOfKeeping * all);
   }
-  // Walks from level to level until below is reached. An arc that leads nowhere is not looked at again: next_.
-  bool finds_path() {
-    std::uint32_t node = kAbove;
-    while (node != kBelow) {
-      if (next_[node] == arcs_of_[node].size()) {
-        if (node == kAbove) return false;
-        node = arcs_[reached_by_[node] ^ 1U].to;
-        ++next_[node];
-        continue;
-      }
-      const std::uint32_t arc = arcs_of_[node][next_[node]];
-      const auto& [to, room] = arcs_[arc];
-      if (room > 0 && level_[to] == level_[node] + 1) {
-        reached_by_[to] = arc;
-        node = to;
-      } else {
-        ++next_[node];
-      }
-    }
-    return true;
-  }
-  void send_along() {
-    double flow = std::numeric_limits<double>::infinity();
-    const auto for_each_arc = [&](const auto& visit) {
-      for (std::uint32_t node = kBelow; node != kAbove; node = arcs_[reached_by_[node] ^ 1U].to) {
-        visit(reached_by_[node]);
-      }
-    };
-    for_each_arc([&](std::uint32_t arc) { flow = std::min(flow, arcs_[arc].room); });
-    for_each_arc([&](std::uint32_t arc) {
-      arcs_[arc].room -= flow;
-      arcs_[arc ^ 1U].room += flow;
-    });
-  }
-
-  std::vector<Arc> arcs_;
-  std::vector<std::vector<std::uint32_t>> arcs_of_;  // of each node
-  std::vector<std::uint32_t> level_;                 // of each node; kNone where no path with room leads
-  std::vector<std::size_t> next_;                    // of each node: its first arc that may lead on
-  std::vector<std::uint32_t> reached_by_;            // of each node on the path at hand: the arc
-};
+  cut.find();
+  return cut;
+}
 
 }  // namespace
 
@@ -209,8 +122,8 @@ void SliverSigns::settle(SignedDelaunay& restricted) const {
   };
   for (const std::vector<TetId>& layer : layers_) {
     if (std::none_of(layer.begin(), layer.end(), meets_surface)) continue;
-    const LeastCut cut(restricted, layer);
-    for (std::size_t i = 0; i < layer.size(); ++i) restricted.set_sign(layer[i], cut.is_above(i));
+    const MinimumCut cut = least_cut(restricted, layer);
+    for (std::uint32_t i = 0; i < layer.size(); ++i) restricted.set_sign(layer[i], cut.is_on_source_side(i));
   }
 }
 
