@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "delaunay/base/vec3.h"
@@ -26,6 +27,11 @@ struct ExactSurface {
   // Where a crossing lies, in mesh space.
   [[nodiscard]] Vec3 position(const EdgeCrossing& crossing) const {
     return scaled(crossing_position(grid(), crossing), isosurface.step());
+  }
+  // The component on which a point of mesh space lies (component_of in exact_topology.h).
+  [[nodiscard]] std::optional<std::uint32_t> component_at(const Vec3& p) const {
+    const Vec3& step = isosurface.step();
+    return component_of(grid(), isosurface.isovalue(), topology, {p.x / step.x, p.y / step.y, p.z / step.z});
   }
 };
 

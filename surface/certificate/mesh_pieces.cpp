@@ -50,12 +50,8 @@ std::vector<std::uint32_t> components_at(const SurfaceMesh& mesh, std::span<cons
                                          const ExactSurface& surface) {
   std::vector<std::uint32_t> components;
   components.reserve(vertices.size());
-  const Vec3& step = surface.isosurface.step();
   for (const std::uint32_t v : vertices) {
-    const Vec3& p = mesh.points[v];
-    components.push_back(component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
-                                      {p.x / step.x, p.y / step.y, p.z / step.z})
-                             .value_or(kNoComponent));
+    components.push_back(surface.component_at(mesh.points[v]).value_or(kNoComponent));
   }
   return components;
 }

@@ -188,11 +188,8 @@ void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<con
   set_side_adjacency(mesh);
   const PieceComponents pieces = piece_components(mesh, surface);
   std::vector<Missed> missed;
-  const Vec3& step = surface.isosurface.step();
   for (const Vec3& p : points) {
-    const auto component = component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
-                                        {p.x / step.x, p.y / step.y, p.z / step.z});
-    if (component) missed.push_back({p, *component});
+    if (const auto component = surface.component_at(p)) missed.push_back({p, *component});
   }
   const std::vector<std::uint32_t> nearest = nearest_triangles(mesh, pieces, missed, surface);
   const std::vector<std::uint32_t> component_of_vertex = components_of_vertices(mesh, pieces);

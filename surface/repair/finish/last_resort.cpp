@@ -45,11 +45,8 @@ void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const
                           &AssignmentFaults::overrunning}) {
     for (const std::uint32_t component : faults.places.*kind) is_marked[component] = true;
   }
-  const Vec3& step = surface.isosurface.step();
   for (const Vec3& p : faults.geometry.missed_crossings) {
-    const auto component = component_of(surface.grid(), surface.isosurface.isovalue(), surface.topology,
-                                        {p.x / step.x, p.y / step.y, p.z / step.z});
-    if (component) is_marked[*component] = true;
+    if (const auto component = surface.component_at(p)) is_marked[*component] = true;
   }
 }
 

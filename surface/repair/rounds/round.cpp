@@ -41,16 +41,12 @@ RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& cell_lev
 // Finds the exact components of the vertices from this one on.
 void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), kNoComponent);
-  const Isosurface& isosurface = restricted_->isosurface();
-  const Vec3& step = isosurface.step();
   covered_by_.resize(component_of_vertex_.size(), kNoFacet);
   const auto find = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first_vertex + first; i < first_vertex + last; ++i) {
       if (restricted_->is_virtual(VertexId(i))) continue;
       const Vec3& p = restricted_->delaunay().point(VertexId(i));
-      const Vec3 index_point{p.x / step.x, p.y / step.y, p.z / step.z};
-      component_of_vertex_[i] =
-          component_of(surface_.grid(), isosurface.isovalue(), surface_.topology, index_point).value_or(kNoComponent);
+      component_of_vertex_[i] = surface_.component_at(p).value_or(kNoComponent);
     }
   };
   for_each_block(component_of_vertex_.size() - first_vertex, surface_.threads, find, kVerticesAtOnce);
