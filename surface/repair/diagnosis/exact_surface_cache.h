@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "surface/base/exact_surface.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/repair/diagnosis/exact_euler_curves.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 
 namespace deliso {
 

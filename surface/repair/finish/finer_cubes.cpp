@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 
 namespace deliso {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "delaunay/base/rng.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

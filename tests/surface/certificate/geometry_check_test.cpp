@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 

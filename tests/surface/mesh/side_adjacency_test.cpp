@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
 

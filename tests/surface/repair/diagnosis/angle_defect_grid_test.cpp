@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/deliso.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/raycast_fields.h"
 #include "tests/support/surface_fields.h"
 

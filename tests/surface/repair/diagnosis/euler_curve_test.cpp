@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

@@ -7,9 +7,9 @@
 #include <array>
 #include <vector>
 
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "surface/certificate/certificate.h"
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/verification/surface_distance.h"
 #include "tests/support/mesh_examples.h"
 #include "tests/support/mesh_fields.h"

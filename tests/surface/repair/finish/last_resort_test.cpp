@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "surface/certificate/exact_polygonization.h"
 #include "surface/deliso.h"
-#include "surface/repair/diagnosis/exact_polygonization.h"
 #include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/volume_files.h"

@@ -1,4 +1,4 @@
-#include "surface/repair/diagnosis/exact_polygonization.h"
+#include "surface/certificate/exact_polygonization.h"
 
 #include <algorithm>
 #include <array>

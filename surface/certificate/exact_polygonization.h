@@ -1,4 +1,4 @@
-// The marching-cubes mesh of the surface, whose topology is exact. Repair takes components from it as a last resort.
+// The marching-cubes mesh of the surface: a mesh whose topology is exact.
 #pragma once
 
 #include <cstdint>
