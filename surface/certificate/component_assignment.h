@@ -50,6 +50,12 @@ struct AssignmentFaults {
     return without.size() + repeated.size() + unlike.size() + overrunning.size();
   }
   [[nodiscard]] bool is_empty() const { return count() == 0; }
+  // Marks the components that have a fault of any kind.
+  void mark(std::vector<bool>& is_marked) const {
+    for (const auto* components : {&without, &repeated, &unlike, &overrunning}) {
+      for (const std::uint32_t c : *components) is_marked[c] = true;
+    }
+  }
 };
 AssignmentFaults assignment_faults(const AssignedPieces& pieces);
 

@@ -106,4 +106,10 @@ PieceComponents piece_components(const SurfaceMesh& mesh, const ExactSurface& su
   return pieces;
 }
 
+void drop_pieces(SurfaceMesh& mesh, const PieceComponents& pieces, const std::function<bool(std::uint32_t)>& is_gone) {
+  std::vector<bool> is_dropped(mesh.triangles.size(), false);
+  for (std::uint32_t t = 0; t < is_dropped.size(); ++t) is_dropped[t] = is_gone(pieces.component_of(t));
+  drop_triangles(mesh, is_dropped);
+}
+
 }  // namespace deliso

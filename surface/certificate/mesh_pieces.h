@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -62,5 +63,7 @@ struct PieceComponents {
 };
 // Precondition: the mesh has neighbours.
 PieceComponents piece_components(const SurfaceMesh& mesh, const ExactSurface& surface);
+// Removes the pieces on the components (or kNoComponent) for which is_gone(component) is true.
+void drop_pieces(SurfaceMesh& mesh, const PieceComponents& pieces, const std::function<bool(std::uint32_t)>& is_gone);
 
 }  // namespace deliso

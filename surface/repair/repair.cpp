@@ -9,7 +9,6 @@
 #include "surface/intersection/self_intersection.h"
 #include "surface/repair/finish/foreign_vertices.h"
 #include "surface/repair/finish/inverted_umbrellas.h"
-#include "surface/repair/finish/cube_heights.h"
 #include "surface/repair/finish/marching_cubes_fallback.h"
 #include "surface/repair/rounds/component_selection.h"
 #include "surface/repair/rounds/rounds.h"
@@ -91,10 +90,8 @@ bool Repair::assemble() {
 // Takes the components that have no mesh from marching cubes.
 void Repair::polygonize_rest() {
   if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
-  const auto& [polygonized, component] = cache_.polygonized();
-  const std::size_t first = result_.mesh.points.size();
-  append_pieces(polygonized, component, is_polygonized_, result_.mesh);
-  raise_pole_heights(result_.mesh, first, surface_);
+  append_cubes(cache_, is_polygonized_, result_.mesh);
+  const std::vector<std::uint32_t>& component = cache_.polygonized().component;
   std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),
                [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
 }

@@ -37,14 +37,11 @@ void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const
                      std::vector<bool>& is_marked) {
   const PieceComponents pieces = piece_components(mesh, surface);
   const std::vector<bool> is_faulty = faulty_triangles(mesh, faults);
-  for (std::size_t t = 0; t < is_faulty.size(); ++t) {
-    const std::uint32_t component = pieces.component[pieces.piece_of[t]];
+  for (std::uint32_t t = 0; t < is_faulty.size(); ++t) {
+    const std::uint32_t component = pieces.component_of(t);
     if (is_faulty[t] && component != kNoComponent) is_marked[component] = true;
   }
-  for (const auto kind : {&AssignmentFaults::without, &AssignmentFaults::repeated, &AssignmentFaults::unlike,
-                          &AssignmentFaults::overrunning}) {
-    for (const std::uint32_t component : faults.places.*kind) is_marked[component] = true;
-  }
+  faults.places.mark(is_marked);
   for (const Vec3& p : faults.geometry.missed_crossings) {
     if (const auto component = surface.component_at(p)) is_marked[*component] = true;
   }
@@ -68,13 +65,8 @@ std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>
   }
   const std::int64_t count = std::count(is_replaced.begin(), is_replaced.end(), true);
   if (count == 0) return 0;
-  const PieceComponents pieces = piece_components(mesh, surface);
-  std::vector<bool> is_gone(mesh.triangles.size(), false);
-  for (std::size_t t = 0; t < is_gone.size(); ++t) {
-    const std::uint32_t component = pieces.component[pieces.piece_of[t]];
-    is_gone[t] = component != kNoComponent && is_replaced[component];
-  }
-  drop_triangles(mesh, is_gone);
+  drop_pieces(mesh, piece_components(mesh, surface),
+              [&](std::uint32_t component) { return component != kNoComponent && is_replaced[component]; });
   append_pieces(finer, std::vector<std::uint32_t>(finer.points.size(), 0), {true}, mesh);
   take_foreign_vertices_out(surface, mesh);
   return count;

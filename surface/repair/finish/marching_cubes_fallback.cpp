@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <span>
 
+#include "delaunay/base/check.h"
 #include "surface/certificate/component_assignment.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/intersection/self_intersection.h"
+#include "surface/restricted/poles.h"
 
 namespace deliso {
 
@@ -15,50 +17,46 @@ namespace {
 // The largest number of pairs whose pieces are examined in one pass.
 constexpr std::size_t kMostPairs = 4096;
 
-// Drops the pieces of the pairs whose components are not polygonized yet; marks these components, and returns them.
-std::vector<bool> drop_pieces(std::span<const TrianglePair> pairs, SurfaceMesh& mesh, const ExactSurface& surface,
-                              std::vector<bool>& is_polygonized) {
-  std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
-  std::vector<bool> dropped(is_polygonized.size(), false);
-  for (const TrianglePair& pair : pairs) {
-    for (const std::uint32_t seed : {pair.first, pair.second}) {
-      if (is_seen[seed]) continue;
-      const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-      const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
-      if (!component || is_polygonized[*component]) continue;
-      dropped[*component] = is_polygonized[*component] = true;
-      for (const std::uint32_t t : piece) is_gone[t] = true;
+// Raises the heights of the vertices from `first` on.
+void raise_pole_heights(SurfaceMesh& mesh, std::size_t first, const ExactSurface& surface) {
+  const std::span<const Vec3> points = std::span(mesh.points).subspan(first);
+  std::vector<VertexId> vertex_of;
+  try {
+    const SignedDelaunay triangulation(surface.isosurface, points, surface.threads, &vertex_of);
+    const std::vector<bool> all(triangulation.delaunay().vertex_count(), true);
+    const std::vector<double> heights = compute_poles(triangulation, all, PoleHeight::kNearer, surface.threads);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (vertex_of[i].is_none()) continue;
+      double& height = mesh.pole_heights[first + i];
+      height = std::max(height, heights[vertex_of[i].index()]);
     }
+  } catch (const InputError&) {
+    // All points on one line: crossings nearer to each other than numbers tell apart.
   }
-  drop_triangles(mesh, is_gone);
-  return dropped;
 }
 
-// Drops the pieces assigned to one of these components, or to none at all.
-void drop_pieces_of(const std::vector<bool>& components, SurfaceMesh& mesh, const ExactSurface& surface) {
-  std::vector<bool> is_seen(mesh.triangles.size(), false), is_gone(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-    const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
-    if (component && !components[*component]) continue;
-    for (const std::uint32_t t : piece) is_gone[t] = true;
-  }
-  drop_triangles(mesh, is_gone);
+// Takes these components from marching cubes instead. Pieces on no component go, too.
+void replace(const std::vector<bool>& components, const PieceComponents& pieces, const ExactSurfaceCache& cache,
+             SurfaceMesh& mesh) {
+  drop_pieces(mesh, pieces, [&](std::uint32_t c) { return c == kNoComponent || components[c]; });
+  append_cubes(cache, components, mesh);
 }
 
 }  // namespace
+
+void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh) {
+  const std::size_t first = mesh.points.size();
+  append_pieces(cache.polygonized().mesh, cache.polygonized().component, components, mesh);
+  raise_pole_heights(mesh, first, cache.surface());
+}
 
 bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized) {
   const AssignmentFaults faults = assignment_faults(mesh, cache.surface());
   if (faults.is_empty()) return false;
   std::vector<bool> replaced(is_polygonized.size(), false);
-  for (const auto* components : {&faults.without, &faults.repeated, &faults.unlike, &faults.overrunning}) {
-    for (const std::uint32_t c : *components) replaced[c] = is_polygonized[c] = true;
-  }
-  drop_pieces_of(replaced, mesh, cache.surface());
-  const ExactPolygonization& cubes = cache.polygonized();
-  append_pieces(cubes.mesh, cubes.component, replaced, mesh);
+  faults.mark(replaced);
+  faults.mark(is_polygonized);
+  replace(replaced, piece_components(mesh, cache.surface()), cache, mesh);
   return true;
 }
 
@@ -68,16 +66,22 @@ void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cach
     const SelfIntersections found =
         self_intersections(mesh.points, mesh.triangles, kMostPairs, cache.surface().threads);
     if (found.crossing_pairs == 0) return;
-    const ExactPolygonization& cubes = cache.polygonized();
-    const std::vector<bool> dropped = drop_pieces(found.crossing, mesh, cache.surface(), is_polygonized);
-    if (std::find(dropped.begin(), dropped.end(), true) == dropped.end()) {
+    const PieceComponents pieces = piece_components(mesh, cache.surface());
+    std::vector<bool> replaced(is_polygonized.size(), false);
+    for (const TrianglePair& pair : found.crossing) {
+      for (const std::uint32_t t : {pair.first, pair.second}) {
+        const std::uint32_t c = pieces.component_of(t);
+        if (c != kNoComponent && !is_polygonized[c]) replaced[c] = is_polygonized[c] = true;
+      }
+    }
+    if (std::find(replaced.begin(), replaced.end(), true) == replaced.end()) {
       // No further piece can be blamed. Inverted umbrellas may have been removed from pieces of marching cubes, so even
       // these may cross: take all components from marching cubes anew.
       is_polygonized.assign(is_polygonized.size(), true);
-      mesh = cubes.mesh;
+      mesh = cache.polygonized().mesh;
       return;
     }
-    append_pieces(cubes.mesh, cubes.component, dropped, mesh);
+    replace(replaced, pieces, cache, mesh);
   }
 }
 

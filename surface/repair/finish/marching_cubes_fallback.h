@@ -1,5 +1,4 @@
-// The end of repair: pieces of the mesh that cross, or lie on the wrong component, are replaced by the marching-cubes
-// mesh of their components.
+// Components from marching cubes, where no other mesh is right.
 #pragma once
 
 #include <vector>
@@ -9,6 +8,11 @@
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 
 namespace deliso {
+
+// Appends the marching-cubes mesh of some components. Its pole heights are those of the Delaunay triangulation of its
+// vertices, but one voxel at least, which is what noise needs. Where such a component is smooth, one voxel alone makes
+// RefineGeom give it four times as many triangles as others have (BABY 16.4: two million vertices instead of one).
+void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh);
 
 // Replaces pieces that cross. Pieces may cross if they come from different Delaunay meshes, or if copies of a vertex
 // could not be moved apart. The component of a piece is the one on which most of its vertices lie. Marching cubes does

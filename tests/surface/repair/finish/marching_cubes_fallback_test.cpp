@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "surface/certificate/certificate.h"
 #include "surface/intersection/self_intersection.h"
@@ -52,6 +54,51 @@ TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
   const std::vector<Vec3> before = mesh.points;
   polygonize_crossing_pieces(mesh, ExactSurfaceCache(scene->surface(2)), is_polygonized, controls);
   EXPECT_EQ(mesh.points, before);
+}
+
+// The poles of a sphere are its center and points far away; those of the interpolant of one are somewhat nearer.
+TEST(MarchingCubesFallback, PoleHeightsOfASphereAreNearItsRadius) {
+  const auto scene = testing::field_scene("sphere", 40);
+  SurfaceMesh mesh;
+  append_cubes(ExactSurfaceCache(scene->surface()), {true}, mesh);
+  const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
+                                               [](const Vec3& a, const Vec3& b) { return a.x < b.x; });
+  const double radius = (high->x - low->x) / 2;
+  ASSERT_GT(radius, 5);
+  for (const double height : mesh.pole_heights) EXPECT_GT(height, radius / 2);
+}
+
+TEST(MarchingCubesFallback, PoleHeightsOfNoiseAreAVoxelOrMore) {
+  const auto scene = testing::noise_scene({9, 8, 9}, 2);
+  SurfaceMesh mesh;
+  append_cubes(ExactSurfaceCache(scene->surface()), std::vector<bool>(scene->topology.components.size(), true), mesh);
+  const auto voxels = std::count(mesh.pole_heights.begin(), mesh.pole_heights.end(), 1.0);
+  EXPECT_GT(voxels, std::ssize(mesh.points) * 9 / 10);
+  for (const double height : mesh.pole_heights) EXPECT_GE(height, 1);
+}
+
+TEST(MarchingCubesFallback, PoleHeightsOfOtherComponentsStay) {
+  const auto scene = testing::field_scene("shells", 48);
+  const ExactSurfaceCache cache(scene->surface());
+  std::vector<bool> others(scene->topology.components.size(), true);
+  others[0] = false;
+  SurfaceMesh mesh;
+  append_pieces(cache.polygonized().mesh, cache.polygonized().component, {true}, mesh);
+  const std::size_t first = mesh.points.size();
+  append_cubes(cache, others, mesh);
+  for (std::size_t v = 0; v < first; ++v) EXPECT_EQ(mesh.pole_heights[v], 1);
+  EXPECT_GT(*std::max_element(mesh.pole_heights.begin(), mesh.pole_heights.end()), 1);
+}
+
+// All crossings round to the same sample: there is no triangulation of their points.
+TEST(MarchingCubesFallback, PointsOnALineAreNoError) {
+  std::vector<double> samples(5 * 5 * 5, 0);
+  samples[2 + 5 * (2 + 5 * 2)] = 1;
+  const testing::Scene scene("sample", {{5, 5, 5}, std::move(samples)}, 1 - 0x1p-53);
+  SurfaceMesh mesh;
+  append_cubes(ExactSurfaceCache(scene.surface()), {true}, mesh);
+  EXPECT_EQ(mesh.points.size(), 6u);
+  for (const double height : mesh.pole_heights) EXPECT_EQ(height, 1);
 }
 
 }  // namespace
