@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 
+#include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/minimum_cut.h"
 #include "surface/base/parallel_blocks.h"
 
@@ -94,25 +94,15 @@ void SliverSigns::renew(const ExchangedPoints& exchanged) {
 }
 
 void SliverSigns::find_layers() {
-  layers_.clear();
-  std::vector<bool> is_in_layer(flat_.size(), false);
-  for (std::uint32_t seed = 0; seed < flat_.size(); ++seed) {
-    if (is_in_layer[seed]) continue;
-    std::vector<TetId> layer;
-    const auto take = [&](std::uint32_t i) {
-      is_in_layer[i] = true;
-      layer.push_back(flat_[i]);
-    };
-    take(seed);
-    for (std::size_t at = 0; at < layer.size(); ++at) {
-      for (unsigned face = 0; face < 4; ++face) {
-        const auto next = index_of(flat_, restricted_.delaunay().neighbour(layer[at], face));
-        if (next && !is_in_layer[*next]) take(*next);
-      }
+  DisjointSets sets(flat_.size());
+  for (std::uint32_t i = 0; i < flat_.size(); ++i) {
+    for (unsigned face = 0; face < 4; ++face) {
+      if (const auto next = index_of(flat_, restricted_.delaunay().neighbour(flat_[i], face))) sets.unite(i, *next);
     }
-    std::sort(layer.begin(), layer.end());
-    layers_.push_back(std::move(layer));
   }
+  layers_.assign(flat_.size(), {});
+  for (std::uint32_t i = 0; i < flat_.size(); ++i) layers_[sets.find(i)].push_back(flat_[i]);
+  std::erase_if(layers_, [](const std::vector<TetId>& layer) { return layer.empty(); });
 }
 
 void SliverSigns::settle(SignedDelaunay& restricted) const {
