@@ -82,17 +82,13 @@ void CellLevels::grade() {
   }
 }
 
-std::vector<CellName> CellLevels::extend(Zone& zone) const {
-  std::vector<CellName> added;
-  const auto add = [&](CellName name) {
-    if (zone.cells.insert(name).second) added.push_back(name);
-  };
+std::vector<bool> CellLevels::zone() const {
+  std::vector<bool> zone(grid_.sample_count(), false);
   for (const auto& [at, level] : level_) {
-    if (!zone.refined.insert(at).second) continue;
-    add(at);
-    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) { add(name(neighbour)); });
+    zone[at] = true;
+    for_each_neighbour(cell(at), [&](const CellIndex& neighbour) { zone[name(neighbour)] = true; });
   }
-  return added;
+  return zone;
 }
 
 template <class Visit>

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <unordered_set>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -39,12 +38,8 @@ class CellLevels {
   // The level of each refined cell, by name.
   [[nodiscard]] const std::map<CellName, int>& levels() const { return level_; }
 
-  // The refined cells at some time; and these together with the ring of cells around them.
-  struct Zone {
-    std::unordered_set<CellName> refined, cells;
-  };
-  // Brings a zone up to date. Returns the cells that are new in it.
-  std::vector<CellName> extend(Zone& zone) const;
+  // By name: whether a cell is refined or in the ring of cells around a refined one.
+  [[nodiscard]] std::vector<bool> zone() const;
 
  private:
   void grade();

@@ -55,10 +55,6 @@ class RepairRound {
   [[nodiscard]] const SignedDelaunay& restricted() const { return *restricted_; }
   // The exact component on which each vertex lies, or kNoComponent.
   [[nodiscard]] const std::vector<std::uint32_t>& component_of_vertex() const { return component_of_vertex_; }
-  // The sign constraints of the tetrahedra, by slot (sign_constraints.h); empty before signs are set by the rule.
-  [[nodiscard]] std::span<const std::uint8_t> sign_constraints() const {
-    return rule_ ? std::span<const std::uint8_t>(rule_->constraints()) : std::span<const std::uint8_t>();
-  }
 
  private:
   void find_components(std::size_t first);

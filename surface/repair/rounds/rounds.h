@@ -47,7 +47,6 @@ class RepairRounds {
   }
   // The meshes kept so far. Their components can be assembled once the meshes have pole heights.
   [[nodiscard]] const ComponentSelection& selection() const { return kept_; }
-  [[nodiscard]] bool is_done() const { return kept_.is_done(); }
   [[nodiscard]] bool is_done_but_for_mixing() const { return kept_.is_done_but_for_mixing(); }
   // No further round will follow: frees the triangulation and the mesh.
   void end() {

@@ -5,7 +5,7 @@
 // circumcenter is right: on a smooth, densely sampled sheet the centroids of flat tetrahedra give random signs.
 #pragma once
 
-#include <utility>
+#include <cstdint>
 #include <vector>
 
 #include "surface/repair/lattice/cell_levels.h"
@@ -31,24 +31,15 @@ class SignRule {
   // whatever the rule says.
   void take_signs(const TetSigns& at_circumcenters);
 
-  // The sign constraint of each tetrahedron, by slot (sign_constraints.h).
-  [[nodiscard]] const std::vector<std::uint8_t>& constraints() const { return constraints_.sides(); }
-
  private:
-  using Signs = std::vector<std::pair<TetId, bool>>;  // tetrahedra, and whether their sign is above
-  static constexpr CellName kNoCell = ~CellName{0};
-  void update_centroid_cells();
-  void update_by_centroid();
-
   SignedDelaunay& restricted_;
   const CellLevels& cell_levels_;
   int threads_;
   SignConstraints constraints_;
-  Signs by_constraint_;                   // of small tetrahedra whose constraint is one side
-  Signs by_centroid_;                     // of small tetrahedra in the zone
-  std::vector<CellName> centroid_cells_;  // of each slot: the cell of the centroid of a small tetrahedron, or kNoCell
-  CellLevels::Zone zone_;                 // as of the last update
-  std::vector<TetId> renewed_;            // slots renewed since the last update
+  // Of each slot: the cell of the centroid of a small tetrahedron, or kNoCell, or kStale; and the side of the centroid
+  // once its cell has entered the zone, which it never leaves.
+  std::vector<CellName> centroid_cells_;
+  std::vector<std::uint8_t> centroid_sides_;
 };
 
 }  // namespace deliso

@@ -8,7 +8,6 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/sample_lattice.h"
-#include "surface/repair/signs/sign_constraints.h"
 #include "surface/restricted/restricted_delaunay.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
@@ -18,7 +17,6 @@ namespace {
 
 using testing::noise_scene;
 using testing::Scene;
-using testing::TetName;
 
 std::unique_ptr<SignedDelaunay> triangulation(const Scene& scene, const std::vector<Vec3>& points) {
   return std::make_unique<SignedDelaunay>(*scene.isosurface, points);
@@ -44,19 +42,6 @@ std::vector<Vec3> all_crossings(const Scene& scene) {
     points.push_back(scaled(crossing_position(scene.grid, c), scene.isosurface->step()));
   }
   return points;
-}
-
-std::map<TetName, int> constraints_by_name(const RepairRound& round) {
-  std::map<TetName, int> names;
-  const Tetrahedralization& delaunay = round.restricted().delaunay();
-  for (std::size_t i = 0; i < round.sign_constraints().size(); ++i) {
-    if (delaunay.is_live(TetId(i))) {
-      names[testing::name_of(delaunay, TetId(i))] = round.sign_constraints()[i];
-    } else {
-      EXPECT_EQ(round.sign_constraints()[i], 0);
-    }
-  }
-  return names;
 }
 
 // A mesh's triangles by the vertices of the triangulation, the lowest first, so copies of a vertex are not
@@ -95,7 +80,6 @@ void compare(RepairRound& continued, RepairRound& fresh, const std::string& wher
   for (const bool is_plain : {false, true}) {
     is_plain ? continued.take_plain_signs() : continued.take_signs();
     is_plain ? fresh.take_plain_signs() : fresh.take_signs();
-    ASSERT_EQ(constraints_by_name(continued), constraints_by_name(fresh)) << where;
     ASSERT_EQ(testing::signs_by_name(continued.restricted()), testing::signs_by_name(fresh.restricted())) << where;
     // Circumcenters are rounded differently when the vertices of a tetrahedron are in another order.
     const std::vector<double>& heights = continued.pole_heights(all);

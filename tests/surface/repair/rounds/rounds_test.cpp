@@ -39,8 +39,8 @@ TEST(RepairRounds, AreTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
     MendedScene one(seed, {12, 11, 12}, 1), three(seed, {12, 11, 12}, 3);
-    ASSERT_TRUE(one.rounds->is_done());
-    ASSERT_TRUE(three.rounds->is_done());
+    ASSERT_TRUE(one.rounds->selection().is_done());
+    ASSERT_TRUE(three.rounds->selection().is_done());
     EXPECT_GT(one.stats.rounds, 0);
     const SurfaceMesh expected = one.rounds->unrepaired_mesh(), found = three.rounds->unrepaired_mesh();
     EXPECT_EQ(found.points, expected.points);
