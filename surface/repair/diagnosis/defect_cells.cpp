@@ -7,6 +7,7 @@
 
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
+#include "surface/repair/signs/critical_points_in_cells.h"
 #include "volume/topology/cell_crossings.h"
 #include "volume/topology/cell_sweep.h"
 
@@ -30,7 +31,6 @@ class DefectFinder {
         component_of_vertex_(context.component_of_vertex),
         done_(context.done),
         boxes_(context.boxes),
-        critical_(context.critical),
         threads_(context.surface.threads),
         near_boxes_(context.boxes.size()),
         has_defect_(context.done.size(), false) {
@@ -87,7 +87,6 @@ class DefectFinder {
   const std::vector<std::uint32_t>& component_of_vertex_;
   const std::vector<bool>& done_;
   const std::vector<IndexRanges>& boxes_;  // of each exact component
-  LocatedCriticalPoints& critical_;
   int threads_;
   std::vector<std::optional<DistanceFromRanges>> near_boxes_;  // of each exact component
   std::vector<bool> has_defect_;                               // of each exact component
@@ -139,22 +138,12 @@ void DefectFinder::flag_critical_points() {
   std::vector<CellIndex> cells;
   std::vector<std::uint32_t> open;  // for each cell a component that is not done
   find_open_cells(cells, open);
-  critical_.find(cells, threads_);
-  const std::vector<LocatedCriticalPoint>& points = critical_.points();
-  std::vector<std::uint32_t> wanted;
-  std::vector<std::uint32_t> component_of;  // of each wanted point
-  for (std::size_t i = 0, at = 0; i < points.size(); ++i) {
-    while (at < cells.size() && is_before(cells[at], points[i].cell)) ++at;
-    if (at == cells.size()) break;
-    if (cells[at] != points[i].cell || !matters(points[i].point, open[at], DefectKind::kTopology)) continue;
-    wanted.push_back(static_cast<std::uint32_t>(i));
-    component_of.push_back(open[at]);
-  }
-  critical_.locate(wanted, threads_);
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const LocatedCriticalPoint& critical = points[wanted[k]];
-    if (restricted_.is_above(critical_.tet(wanted[k])) == critical.is_above) continue;
-    flag(critical.point, component_of[k], DefectKind::kTopology);
+  std::vector<CriticalPointInCell> points = critical_points_in(cells, restricted_.isosurface(), threads_);
+  std::erase_if(points, [&](const auto& p) { return !matters(p.point, open[p.cell], DefectKind::kTopology); });
+  const std::vector<TetId> tets = tets_at(points, cells, restricted_, threads_);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (restricted_.is_above(tets[i]) == points[i].is_above) continue;
+    flag(points[i].point, open[points[i].cell], DefectKind::kTopology);
   }
 }
 

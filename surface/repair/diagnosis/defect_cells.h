@@ -8,7 +8,6 @@
 #include "surface/repair/diagnosis/index_ranges.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/located_critical_points.h"
 #include "surface/restricted/signed_delaunay.h"
 
 namespace deliso {
@@ -25,7 +24,6 @@ struct DefectContext {
   const std::vector<IndexRanges>& boxes;
   // For components with boxes, only defects near the boxes count.
   bool is_near_boxes = true;
-  LocatedCriticalPoints& critical;  // of the volume, in the triangulation
 };
 
 // The voxel cells near the defects of the components that are not done; a cell may be listed several times. Defects

@@ -8,13 +8,14 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/build_triangle_mesh.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
+#include "surface/repair/signs/sliver_signs.h"
+#include "surface/repair/signs/spurious_pockets.h"
 #include "surface/search/covering_triangles.h"
 
 namespace deliso {
 
 namespace {
 
-constexpr std::uint32_t kNoFacet = 0xFFFFFFFFu;
 constexpr std::size_t kVerticesAtOnce = 2048;
 
 // Marks a component whose main piece has the right topology but misses a part of it.
@@ -32,8 +33,6 @@ RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& cell_lev
       cell_levels_(cell_levels),
       restricted_(std::move(restricted)),
       at_circumcenters_(restricted_->signs()),
-      flat_(*restricted_, surface.threads),
-      pockets_(*restricted_, surface.grid(), surface.threads),
       poles_(*restricted_) {
   find_components(0);
 }
@@ -41,7 +40,6 @@ RepairRound::RepairRound(const ExactSurface& surface, const CellLevels& cell_lev
 // Finds the exact components of the vertices from this one on.
 void RepairRound::find_components(std::size_t first_vertex) {
   component_of_vertex_.resize(restricted_->delaunay().vertex_count(), kNoComponent);
-  covered_by_.resize(component_of_vertex_.size(), kNoFacet);
   const auto find = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first_vertex + first; i < first_vertex + last; ++i) {
       if (restricted_->is_virtual(VertexId(i))) continue;
@@ -60,27 +58,22 @@ bool RepairRound::exchange(std::span<const VertexId> leaving, std::span<const Ve
   std::size_t kept = 0;
   for (std::size_t i = 0; i < exchanged.renamed.size(); ++i) {
     if (exchanged.renamed[i].is_none()) continue;
-    covered_by_[kept] = covered_by_[i];
     component_of_vertex_[kept++] = component_of_vertex_[i];
   }
-  covered_by_.resize(kept);
   component_of_vertex_.resize(kept);
   find_components(kept);
   if (rule_) {
     rule_->renew(exchanged);
     rule_->update();
   }
-  flat_.renew(exchanged);
-  pockets_.renew(exchanged);
   if (pairing_) pairing_->renew(exchanged);
-  if (located_) located_->renew(exchanged);
   poles_.renew(exchanged);
   return true;
 }
 
 void RepairRound::settle_signs() {
-  flat_.settle(*restricted_);
-  pockets_.flip(*restricted_);
+  settle_slivers(*restricted_, surface_.threads);
+  flip_spurious_pockets(*restricted_, surface_.threads);
 }
 
 void RepairRound::take_plain_signs() {
@@ -106,20 +99,17 @@ PairedTriangles RepairRound::take_triangles() {
 }
 
 MatchedMesh RepairRound::assemble() {
-  PairedTriangles triangles = take_triangles();
-  const std::vector<FacetId> facets = std::move(triangles.facets);
-  MatchedMesh mesh{build_triangle_mesh(*restricted_, std::move(triangles)), {}, {}};
+  MatchedMesh mesh{build_triangle_mesh(*restricted_, take_triangles()), {}, {}};
   mesh.component.reserve(mesh.built.vertex_of.size());
   for (const VertexId v : mesh.built.vertex_of) mesh.component.push_back(component_of_vertex_[v.index()]);
   mesh.match = match_components(mesh.built.mesh, mesh.component, surface_.topology.components);
-  find_missing_parts(mesh, facets);
+  find_missing_parts(mesh);
   return mesh;
 }
 
 // Finds components whose main piece has the right topology but misses a part, for example a branch that was cut off.
-// Every sample that is no vertex of a main piece must have a triangle of a main piece near it. `facets` holds the
-// facets of the mesh's triangles, ascending; the last triangles have none.
-void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets) {
+// Every sample that is no vertex of a main piece must have a triangle of a main piece near it.
+void RepairRound::find_missing_parts(MatchedMesh& mesh) const {
   ComponentMatch& match = mesh.match;
   const auto on_main_piece = [&](std::uint32_t v) {
     const std::uint32_t piece = match.piece_of[v];
@@ -130,26 +120,17 @@ void RepairRound::find_missing_parts(MatchedMesh& mesh, std::span<const FacetId>
   for (std::uint32_t v = 0; v < mesh.component.size(); ++v) {
     if (on_main_piece(v)) used[mesh.built.vertex_of[v].index()] = true;
   }
-  // Most samples are covered by the triangle that covered them in an earlier mesh.
-  const auto is_still_covered = [&](std::size_t vertex, std::uint32_t facet) {
-    const auto at = std::lower_bound(facets.begin(), facets.end(), FacetId(facet));
-    if (facet == kNoFacet || at == facets.end() || *at != FacetId(facet)) return false;
-    const auto t = static_cast<std::uint32_t>(at - facets.begin());
-    return takes(t) && is_covered_by(restricted_->delaunay().point(VertexId(vertex)), mesh.built.mesh, t);
-  };
   std::vector<std::size_t> unused;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] || restricted_->is_virtual(VertexId(i))) continue;
     const std::uint32_t component = component_of_vertex_[i];
     if (component == kNoComponent || match.agreement[component] <= Agreement::kPartial) continue;
-    if (is_still_covered(i, covered_by_[i])) continue;
     unused.push_back(i);
     points.push_back(restricted_->delaunay().point(VertexId(i)));
   }
   const std::vector<std::uint32_t> covering = covering_triangles(points, mesh.built.mesh, takes, surface_.threads);
   for (std::size_t i = 0; i < unused.size(); ++i) {
-    covered_by_[unused[i]] = covering[i] < facets.size() ? facets[covering[i]].value : kNoFacet;
     if (covering[i] == kNoTriangle) make_partial(match, component_of_vertex_[unused[i]]);
   }
 }

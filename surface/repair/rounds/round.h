@@ -14,10 +14,7 @@
 #include "surface/extract/facet_pairing.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/lattice/cell_levels.h"
-#include "surface/repair/signs/located_critical_points.h"
 #include "surface/repair/signs/sign_rule.h"
-#include "surface/repair/signs/sliver_signs.h"
-#include "surface/repair/signs/spurious_pockets.h"
 #include "surface/restricted/poles.h"
 #include "surface/restricted/signed_delaunay.h"
 #include "volume/topology/exact_topology.h"
@@ -44,8 +41,6 @@ class RepairRound {
   void drop_pairing() { pairing_.reset(); }
   // The mesh for the present signs, matched with the exact components.
   MatchedMesh assemble();
-  // The saddles and critical samples of the volume with their tetrahedra, as far as they have been requested.
-  LocatedCriticalPoints& located() { return located_ ? *located_ : located_.emplace(*restricted_); }
   // The pole heights of the wanted vertices for the present signs.
   const std::vector<double>& pole_heights(const std::vector<bool>& wanted) {
     return poles_.heights(wanted, surface_.threads);
@@ -60,7 +55,7 @@ class RepairRound {
   void find_components(std::size_t first);
   void settle_signs();
   PairedTriangles take_triangles();
-  void find_missing_parts(MatchedMesh& mesh, std::span<const FacetId> facets);
+  void find_missing_parts(MatchedMesh& mesh) const;
 
   ExactSurface surface_;
   const CellLevels& cell_levels_;
@@ -68,13 +63,7 @@ class RepairRound {
   TetSigns at_circumcenters_;
   std::vector<std::uint32_t> component_of_vertex_;
   std::optional<SignRule> rule_;  // made when first needed
-  SliverSigns flat_;
-  SpuriousPockets pockets_;
   std::optional<FacetPairing> pairing_;
-  // Of each vertex: the facet of the triangle that covered it when no main piece used it the last time; kNoFacet when
-  // there was none.
-  std::vector<std::uint32_t> covered_by_;
-  std::optional<LocatedCriticalPoints> located_;
   KnownPoles poles_;
 };
 

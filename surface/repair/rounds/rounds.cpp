@@ -58,7 +58,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
         differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
     std::vector<CellName> cells =
         defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(), kept_.done(),
-                      boxes, round != kRoundOfAllDefects, round_->located()});
+                      boxes, round != kRoundOfAllDefects});
     if (!gives_up(cells)) mend_once(std::move(cells), controls);
   }
   return false;

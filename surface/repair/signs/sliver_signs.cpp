@@ -75,42 +75,35 @@ MinimumCut least_cut(const SignedDelaunay& restricted, std::span<const TetId> te
   return cut;
 }
 
-}  // namespace
-
-SliverSigns::SliverSigns(const SignedDelaunay& restricted, int threads) : restricted_(restricted) {
-  const Tetrahedralization& delaunay = restricted.delaunay();
-  flat_ = collect_in_blocks<TetId>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<TetId>& found) {
-    if (is_flat(delaunay, TetId(i))) found.push_back(TetId(i));
-  });
-  find_layers();
-}
-
-void SliverSigns::renew(const ExchangedPoints& exchanged) {
-  flat_.insert(flat_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
-  std::sort(flat_.begin(), flat_.end());
-  flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
-  std::erase_if(flat_, [&](TetId t) { return !is_flat(restricted_.delaunay(), t); });
-  find_layers();
-}
-
-void SliverSigns::find_layers() {
-  DisjointSets sets(flat_.size());
-  for (std::uint32_t i = 0; i < flat_.size(); ++i) {
+// Sets of them that are connected across common facets, each ascending.
+std::vector<std::vector<TetId>> layers_of(const SignedDelaunay& restricted, std::span<const TetId> flat) {
+  DisjointSets sets(flat.size());
+  for (std::uint32_t i = 0; i < flat.size(); ++i) {
     for (unsigned face = 0; face < 4; ++face) {
-      if (const auto next = index_of(flat_, restricted_.delaunay().neighbour(flat_[i], face))) sets.unite(i, *next);
+      if (const auto next = index_of(flat, restricted.delaunay().neighbour(flat[i], face))) sets.unite(i, *next);
     }
   }
-  layers_.assign(flat_.size(), {});
-  for (std::uint32_t i = 0; i < flat_.size(); ++i) layers_[sets.find(i)].push_back(flat_[i]);
-  std::erase_if(layers_, [](const std::vector<TetId>& layer) { return layer.empty(); });
+  std::vector<std::vector<TetId>> layers(flat.size());
+  for (std::uint32_t i = 0; i < flat.size(); ++i) layers[sets.find(i)].push_back(flat[i]);
+  std::erase_if(layers, [](const std::vector<TetId>& layer) { return layer.empty(); });
+  return layers;
 }
 
-void SliverSigns::settle(SignedDelaunay& restricted) const {
+}  // namespace
+
+std::vector<TetId> slivers(const SignedDelaunay& restricted, int threads) {
+  const Tetrahedralization& delaunay = restricted.delaunay();
+  return collect_in_blocks<TetId>(delaunay.tet_slots(), threads, [&](std::size_t i, std::vector<TetId>& found) {
+    if (is_flat(delaunay, TetId(i))) found.push_back(TetId(i));
+  });
+}
+
+void settle_slivers(SignedDelaunay& restricted, int threads) {
   const auto meets_surface = [&](TetId t) {
     const auto is_restricted = [&](unsigned face) { return restricted.is_restricted(FacetId(t, face)); };
     return is_restricted(0) || is_restricted(1) || is_restricted(2) || is_restricted(3);
   };
-  for (const std::vector<TetId>& layer : layers_) {
+  for (const std::vector<TetId>& layer : layers_of(restricted, slivers(restricted, threads))) {
     if (std::none_of(layer.begin(), layer.end(), meets_surface)) continue;
     const MinimumCut cut = least_cut(restricted, layer);
     for (std::uint32_t i = 0; i < layer.size(); ++i) restricted.set_sign(layer[i], cut.is_on_source_side(i));

@@ -12,25 +12,10 @@ namespace deliso {
 // where its circumcenter and centroid lie, and so its sign. With wrong signs the restricted facets pass through a layer
 // of such tetrahedra three times instead of once: a fold by half a turn, whose triangles cross as soon as their corners
 // are rounded again. So the flat tetrahedra take those signs for which the restricted facets have the least area. Among
-// signs of equal area they keep their own.
-class SliverSigns {
- public:
-  // Keeps a reference. The same for any number of threads.
-  explicit SliverSigns(const SignedDelaunay& restricted, int threads = 1);
+// signs of equal area they keep their own. They are found anew each time, which takes a few thousandths of a run.
+void settle_slivers(SignedDelaunay& restricted, int threads = 1);
 
-  // Updates the list of flat tetrahedra after an exchange of points.
-  void renew(const ExchangedPoints& exchanged);
-  // Sets these signs of the flat tetrahedra; the others keep theirs. `restricted` is that of the constructor.
-  void settle(SignedDelaunay& restricted) const;
-  // The flat tetrahedra, ascending.
-  [[nodiscard]] const std::vector<TetId>& tets() const { return flat_; }
-
- private:
-  void find_layers();
-
-  const SignedDelaunay& restricted_;
-  std::vector<TetId> flat_;
-  std::vector<std::vector<TetId>> layers_;  // sets connected across common facets, each ascending
-};
+// The flat tetrahedra, ascending. The same for any number of threads.
+std::vector<TetId> slivers(const SignedDelaunay& restricted, int threads = 1);
 
 }  // namespace deliso

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <vector>
 
@@ -27,8 +28,9 @@ bool holds(const SignedDelaunay& restricted, TetId t, const Vec3& p) {
 }
 
 // Whether a tetrahedron contains a sample whose side is the tetrahedron's sign.
-bool has_sample_of_its_sign(const SignedDelaunay& restricted, const ScalarGrid& grid, TetId t) {
+bool has_sample_of_its_sign(const SignedDelaunay& restricted, TetId t) {
   const Isosurface& isosurface = restricted.isosurface();
+  const ScalarGrid& grid = isosurface.grid();
   const Vec3& step = isosurface.step();
   Box3 box;
   for (const VertexId v : restricted.delaunay().vertices(t)) box.extend(restricted.delaunay().point(v));
@@ -50,97 +52,80 @@ bool has_sample_of_its_sign(const SignedDelaunay& restricted, const ScalarGrid& 
   return false;
 }
 
-}  // namespace
+using Pocket = std::vector<TetId>;
 
-SpuriousPockets::SpuriousPockets(const SignedDelaunay& restricted, const ScalarGrid& grid, int threads)
-    : restricted_(restricted), delaunay_(restricted.delaunay()), grid_(grid), threads_(threads) {}
+// Searches pockets one by one.
+class PocketSearch {
+ public:
+  explicit PocketSearch(const SignedDelaunay& restricted)
+      : restricted_(restricted), state_(restricted.delaunay().tet_slots(), State::kUnseen) {}
 
-void SpuriousPockets::renew(const ExchangedPoints& exchanged) {
-  if (signs_.empty()) return;
-  signs_.resize(delaunay_.tet_slots(), 0);
-  renewed_.insert(renewed_.end(), exchanged.renewed.begin(), exchanged.renewed.end());
-}
-
-void SpuriousPockets::update() {
-  if (signs_.empty()) return search_all();
-  std::vector<bool> touched(signs_.size(), false);
-  std::vector<TetId> seeds;
-  const auto seed_at = [&](TetId t) {
-    seeds.push_back(t);
-    if (!delaunay_.is_live(t)) return;
-    for (unsigned face = 0; face < 4; ++face) seeds.push_back(delaunay_.neighbour(t, face));
-  };
-  for (const TetId t : renewed_) {
-    signs_[t.index()] = restricted_.is_above(t) ? 1 : 0;
-    seed_at(t);
+  // Floods the face-connected set of tetrahedra of one sign around a seed. Returns false as soon as the set turns out
+  // to have been seen, to be too large or to have a ghost.
+  bool floods_pocket(TetId seed);
+  [[nodiscard]] const Pocket& flood() const { return flood_; }
+  [[nodiscard]] bool is_spurious() const {
+    return std::none_of(flood_.begin(), flood_.end(), [&](TetId t) { return has_sample_of_its_sign(restricted_, t); });
   }
-  renewed_.clear();
-  restricted_.for_each_change(signs_, seed_at);
-  for (const TetId t : seeds) touched[t.index()] = true;
-  std::erase_if(pockets_, [&](const Pocket& pocket) {
-    return std::any_of(pocket.begin(), pocket.end(), [&](TetId t) { return touched[t.index()]; });
-  });
-  Search search(signs_.size());
-  for (const TetId t : seeds) {
-    if (floods_pocket(t, search) && is_spurious(search.flood)) pockets_.push_back(search.flood);
-  }
-}
 
-// Every share of the slots is searched independently; its floods may leave the share. A pocket is found by the share
-// that holds its lowest slot, when that slot is the seed.
-void SpuriousPockets::search_all() {
-  signs_.assign(delaunay_.tet_slots(), 0);
-  restricted_.for_each_change(signs_, [](TetId) {});
-  const Shares shares(signs_.size(), threads_);
-  std::vector<std::vector<Pocket>> found(shares.count());
-  shares.for_each(threads_, [&](std::size_t share, std::size_t first, std::size_t last) {
-    Search search(signs_.size());
-    for (std::size_t i = first; i < last; ++i) {
-      if (!floods_pocket(TetId(i), search)) continue;
-      const bool is_own = *std::min_element(search.flood.begin(), search.flood.end()) == TetId(i);
-      if (is_own && is_spurious(search.flood)) found[share].push_back(search.flood);
-    }
-  });
-  for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets_));
-}
+ private:
+  enum class State : std::uint8_t { kUnseen, kPocket, kExcluded };
 
-// Floods the face-connected set of tetrahedra of one sign around an unseen seed. Returns false as soon as the set turns
-// out to be too large or to have a ghost.
-bool SpuriousPockets::floods_pocket(TetId seed, Search& search) const {
-  if (search.state[seed.index()] != State::kUnseen || !delaunay_.is_live(seed)) return false;
-  Pocket& flood = search.flood;
-  flood.assign(1, seed);
-  search.state[seed.index()] = State::kPocket;
+  const SignedDelaunay& restricted_;
+  std::vector<State> state_;  // by slot
+  Pocket flood_;
+};
+
+bool PocketSearch::floods_pocket(TetId seed) {
+  const Tetrahedralization& delaunay = restricted_.delaunay();
+  if (state_[seed.index()] != State::kUnseen || !delaunay.is_live(seed)) return false;
+  flood_.assign(1, seed);
+  state_[seed.index()] = State::kPocket;
   bool is_pocket = true;
-  for (std::size_t at = 0; at < flood.size() && is_pocket; ++at) {
-    is_pocket = !delaunay_.is_ghost(flood[at]);
+  for (std::size_t at = 0; at < flood_.size() && is_pocket; ++at) {
+    is_pocket = !delaunay.is_ghost(flood_[at]);
     for (unsigned face = 0; face < 4 && is_pocket; ++face) {
-      const TetId next = delaunay_.neighbour(flood[at], face);
-      State& state = search.state[next.index()];
+      const TetId next = delaunay.neighbour(flood_[at], face);
+      State& state = state_[next.index()];
       if (restricted_.is_above(next) != restricted_.is_above(seed) || state == State::kPocket) continue;
-      is_pocket = state == State::kUnseen && flood.size() < kLargestPocket;
+      is_pocket = state == State::kUnseen && flood_.size() < kLargestPocket;
       if (!is_pocket) break;
       state = State::kPocket;
-      flood.push_back(next);
+      flood_.push_back(next);
     }
   }
   if (!is_pocket) {
-    for (const TetId t : flood) search.state[t.index()] = State::kExcluded;
+    for (const TetId t : flood_) state_[t.index()] = State::kExcluded;
   }
   return is_pocket;
 }
 
-bool SpuriousPockets::is_spurious(const Pocket& pocket) const {
-  return std::none_of(pocket.begin(), pocket.end(),
-                      [&](TetId t) { return has_sample_of_its_sign(restricted_, grid_, t); });
+}  // namespace
+
+// Every share of the slots is searched independently; its floods may leave the share. A pocket is found by the share
+// that holds its lowest slot, when that slot is the seed.
+std::vector<Pocket> spurious_pockets(const SignedDelaunay& restricted, int threads) {
+  const Shares shares(restricted.delaunay().tet_slots(), threads);
+  std::vector<std::vector<Pocket>> found(shares.count());
+  shares.for_each(threads, [&](std::size_t share, std::size_t first, std::size_t last) {
+    PocketSearch search(restricted);
+    for (std::size_t i = first; i < last; ++i) {
+      if (!search.floods_pocket(TetId(i))) continue;
+      const bool is_own = *std::min_element(search.flood().begin(), search.flood().end()) == TetId(i);
+      if (is_own && search.is_spurious()) found[share].push_back(search.flood());
+    }
+  });
+  std::vector<Pocket> pockets;
+  for (std::vector<Pocket>& some : found) std::move(some.begin(), some.end(), std::back_inserter(pockets));
+  return pockets;
 }
 
-std::int64_t SpuriousPockets::flip(SignedDelaunay& restricted) {
-  update();
-  for (const auto& pocket : pockets_) {
+std::size_t flip_spurious_pockets(SignedDelaunay& restricted, int threads) {
+  const std::vector<Pocket> pockets = spurious_pockets(restricted, threads);
+  for (const Pocket& pocket : pockets) {
     for (const TetId t : pocket) restricted.flip_sign(t);
   }
-  return static_cast<std::int64_t>(pockets_.size());
+  return pockets.size();
 }
 
 }  // namespace deliso

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "delaunay/base/rng.h"
-#include "surface/repair/signs/spurious_pockets.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -117,59 +116,6 @@ TEST(FacetPairing, PairsSidesOfTheSameEdgeWithEachOther) {
       }
     }
     EXPECT_GT(paired, pairing.facets().size());
-  }
-}
-
-TEST(SpuriousPockets, FollowChangedSignsAsIfSoughtAnew) {
-  const auto sorted = [](std::vector<std::vector<TetId>> pockets) {
-    for (auto& pocket : pockets) std::sort(pocket.begin(), pocket.end());
-    std::sort(pockets.begin(), pockets.end());
-    return pockets;
-  };
-  std::size_t found = 0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto scene = noise_scene({8, 7, 6}, seed);
-    SignedDelaunay restricted = dense(*scene);
-    SpuriousPockets pockets(restricted, scene->grid);
-    pockets.update();
-    Rng rng(seed);
-    for (const std::uint64_t count : {1u, 3u, 30u, 300u, 2u}) {
-      turn_some(restricted, count, rng);
-      pockets.update();
-      SpuriousPockets anew(restricted, scene->grid);
-      anew.update();
-      EXPECT_EQ(sorted(pockets.pockets()), sorted(anew.pockets())) << "seed " << seed;
-      found += anew.pockets().size();
-    }
-  }
-  EXPECT_GT(found, 50u);
-}
-
-// Shares of the slots are looked at apart; pockets reach across their ends, for slots are filled in no order of place.
-TEST(SpuriousPockets, AreTheSameForAnyNumberOfThreads) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto scene = noise_scene({23, 22, 22}, seed);
-    SignedDelaunay restricted = dense(*scene);
-    ASSERT_GT(restricted.delaunay().tet_slots(), 5 * kBlockSize);  // a share for each thread
-    Rng rng(seed);
-    turn_some(restricted, 3000, rng);
-    SpuriousPockets one(restricted, scene->grid, 1);
-    one.update();
-    for (const int threads : {2, 3, 5}) {
-      const Shares shares(restricted.delaunay().tet_slots(), threads);
-      ASSERT_EQ(shares.count(), static_cast<std::size_t>(threads));
-      std::size_t across = 0;
-      for (const std::vector<TetId>& pocket : one.pockets()) {
-        const auto [low, high] = std::minmax_element(pocket.begin(), pocket.end());
-        for (std::size_t k = 1; k < shares.count(); ++k) {
-          across += low->index() < shares.begin(k) && shares.begin(k) <= high->index() ? 1 : 0;
-        }
-      }
-      EXPECT_GT(across, 3u) << "seed " << seed << ", " << threads << " threads";
-      SpuriousPockets several(restricted, scene->grid, threads);
-      several.update();
-      EXPECT_EQ(several.pockets(), one.pockets()) << "seed " << seed << ", " << threads << " threads";
-    }
   }
 }
 

@@ -81,13 +81,12 @@ TEST(SliverSigns, WhateverTheyWereTheSurfacePassesOnce) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Rng rng(seed);
     SignedDelaunay restricted(isosurface, plane_points(rng));
-    const SliverSigns flat(restricted);
-    EXPECT_EQ(flat.tets().size(), give_signs(restricted, rng)) << "seed " << seed;
+    EXPECT_EQ(slivers(restricted).size(), give_signs(restricted, rng)) << "seed " << seed;
     folded += restricted_area(restricted) > 1.01 * kLast * kLast ? 1 : 0;
-    flat.settle(restricted);
+    settle_slivers(restricted);
     EXPECT_NEAR(restricted_area(restricted), kLast * kLast, 1e-6) << "seed " << seed;
     const TetSigns settled = restricted.signs();
-    flat.settle(restricted);
+    settle_slivers(restricted);
     EXPECT_EQ(restricted.signs(), settled) << "seed " << seed;
   }
   EXPECT_GT(folded, 20);
@@ -98,35 +97,10 @@ TEST(SliverSigns, SignsOfOtherTetrahedraAreLeftAlone) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = testing::dense(*scene);
     const TetSigns before = restricted.signs();
-    const SliverSigns flat(restricted);
-    flat.settle(restricted);
+    const std::vector<TetId> flat = slivers(restricted);
+    settle_slivers(restricted);
     restricted.for_each_difference(
-        before, [&](TetId t) { EXPECT_TRUE(std::binary_search(flat.tets().begin(), flat.tets().end(), t)) << name; });
-  }
-}
-
-TEST(SliverSigns, AfterAnExchangeOfPointsTheyAreThoseOfATriangulationMadeAnew) {
-  const ScalarGrid grid = plane_grid();
-  const Isosurface isosurface(grid, kHeight, SearchOptions{});
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Rng rng(seed);
-    const std::vector<Vec3> points = plane_points(rng);
-    std::vector<VertexId> vertex_of;
-    SignedDelaunay restricted(isosurface, points, 1, &vertex_of);
-    SliverSigns flat(restricted);
-    ExchangedPoints exchanged;
-    ASSERT_TRUE(restricted.exchange(std::vector{vertex_of[points.size() / 2]},
-                                    std::vector<Vec3>{{5, 5, kHeight}, {5.5, 4, kHeight + 0x1p-50}}, exchanged));
-    flat.renew(exchanged);
-    give_signs(restricted, rng);
-    const TetSigns given = restricted.signs();
-    const SliverSigns anew(restricted);
-    EXPECT_EQ(flat.tets(), anew.tets()) << "seed " << seed;
-    flat.settle(restricted);
-    const TetSigns settled = restricted.signs();
-    restricted.set_signs(given);
-    anew.settle(restricted);
-    EXPECT_EQ(restricted.signs(), settled) << "seed " << seed;
+        before, [&](TetId t) { EXPECT_TRUE(std::binary_search(flat.begin(), flat.end(), t)) << name; });
   }
 }
 

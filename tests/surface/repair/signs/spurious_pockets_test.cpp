@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
+#include "delaunay/base/rng.h"
+#include "surface/base/parallel_blocks.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/surface_oracle.h"
 
@@ -45,7 +49,7 @@ TEST(SpuriousPockets, DenseSamplesOfSmoothSurfacesAreLeftAlone) {
     const auto scene = field_scene(name, 16);
     SignedDelaunay restricted = dense(*scene);
     const auto before = testing::signs_by_name(restricted);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 0) << name;
+    EXPECT_EQ(flip_spurious_pockets(restricted), 0u) << name;
     EXPECT_EQ(testing::signs_by_name(restricted), before);
   }
 }
@@ -66,7 +70,7 @@ TEST(SpuriousPockets, ALoneTetrahedronWithoutASampleIsFlippedBack) {
     }
     if (!alone || holds_any_sample(*scene, testing::corners_of(delaunay, t), 1e-9)) continue;
     restricted.flip_sign(t);
-    EXPECT_EQ(SpuriousPockets(restricted, scene->grid).flip(restricted), 1) << i;
+    EXPECT_EQ(flip_spurious_pockets(restricted), 1u) << i;
     EXPECT_EQ(testing::signs_by_name(restricted), before) << i;
     if (::testing::Test::HasFailure()) return;
     ++turned;
@@ -94,9 +98,9 @@ TEST(SpuriousPockets, ALoneTetrahedronWithASampleOfItsSignStays) {
       has_sample = scene->grid.at(s[0], s[1], s[2]) > scene->isovalue &&
                    holds(testing::corners_of(delaunay, t), {double(s[0]), double(s[1]), double(s[2])}, -1e-9);
     }
-    const std::int64_t count = SpuriousPockets(restricted, scene->grid).flip(restricted);
+    const std::size_t count = flip_spurious_pockets(restricted);
     if (has_sample) {
-      EXPECT_EQ(count, 0);
+      EXPECT_EQ(count, 0u);
       EXPECT_TRUE(restricted.is_above(t));
       ++kept;
     }
@@ -109,9 +113,37 @@ TEST(SpuriousPockets, NoiseEndsAfterFewPassesAndKeepsParity) {
     const auto scene = noise_scene({5, 5, 5}, seed);
     SignedDelaunay restricted(*scene->isosurface, scene->start());
     int passes = 0;
-    while (SpuriousPockets(restricted, scene->grid).flip(restricted) > 0 && passes < 20) ++passes;
+    while (flip_spurious_pockets(restricted) > 0 && passes < 20) ++passes;
     EXPECT_LT(passes, 20) << "seed " << seed;
     EXPECT_EQ(testing::odd_edges(restricted), 0u);
+  }
+}
+
+// Shares of the slots are looked at apart; pockets reach across their ends, for slots are filled in no order of place.
+TEST(SpuriousPockets, AreTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scene = noise_scene({23, 22, 22}, seed);
+    SignedDelaunay restricted = dense(*scene);
+    ASSERT_GT(restricted.delaunay().tet_slots(), 5 * kBlockSize);  // a share for each thread
+    Rng rng(seed);
+    for (int i = 0; i < 3000; ++i) {
+      const TetId t(static_cast<std::size_t>(rng.below(restricted.delaunay().tet_slots())));
+      if (restricted.delaunay().is_live(t)) restricted.flip_sign(t);
+    }
+    const std::vector<std::vector<TetId>> one = spurious_pockets(restricted, 1);
+    for (const int threads : {2, 3, 5}) {
+      const Shares shares(restricted.delaunay().tet_slots(), threads);
+      ASSERT_EQ(shares.count(), static_cast<std::size_t>(threads));
+      std::size_t across = 0;
+      for (const std::vector<TetId>& pocket : one) {
+        const auto [low, high] = std::minmax_element(pocket.begin(), pocket.end());
+        for (std::size_t k = 1; k < shares.count(); ++k) {
+          across += low->index() < shares.begin(k) && shares.begin(k) <= high->index() ? 1 : 0;
+        }
+      }
+      EXPECT_GT(across, 3u) << "seed " << seed << ", " << threads << " threads";
+      EXPECT_EQ(spurious_pockets(restricted, threads), one) << "seed " << seed << ", " << threads << " threads";
+    }
   }
 }
 
