@@ -1,7 +1,6 @@
 #include "surface/repair/rounds/component_selection.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "delaunay/base/disjoint_sets.h"
@@ -9,7 +8,6 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/extract/edge_positions.h"
 #include "surface/extract/pinch_separation.h"
-#include "surface/mesh/vertex_decimation.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 
 namespace deliso {
@@ -64,67 +62,6 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
     for (Copy& copy : part.built.groups.back()) copy.vertex = name[copy.vertex];
   }
   return part;
-}
-
-// The positions on the surface of those copies that also have a position off the surface.
-class PositionsOnSurface {
- public:
-  // Precondition: every copy of `mesh` is still at its own position, and the others have been found.
-  PositionsOnSurface(const SurfaceMesh& mesh, std::span<const PinchGroup> groups) {
-    for (const PinchGroup& group : groups) {
-      for (const Copy& copy : group) {
-        if (!copy.is_on_edge) continue;
-        std::vector<Vec3> positions = copy.other_positions;
-        positions.insert(positions.begin(), mesh.points[copy.vertex]);
-        positions.pop_back();
-        positions_.emplace_back(copy.vertex, std::move(positions));
-      }
-    }
-  }
-  // The copies that ended at least kPinchSeparation away from all their positions on the surface.
-  [[nodiscard]] std::vector<std::uint32_t> copies_away_from_all(const std::vector<Vec3>& points) const {
-    std::vector<std::uint32_t> left;
-    for (const auto& [v, positions] : positions_) {
-      const Vec3& p = points[v];
-      const auto is_near = [&](const Vec3& position) {
-        return squared_distance(p, position) < kPinchSeparation * kPinchSeparation;
-      };
-      if (std::none_of(positions.begin(), positions.end(), is_near)) left.push_back(v);
-    }
-    return left;
-  }
-
- private:
-  std::vector<std::pair<std::uint32_t, std::vector<Vec3>>> positions_;
-};
-
-// A mesh from which some pieces are taken, with the component and the piece of each vertex.
-struct GivenMesh {
-  SurfaceMesh mesh;
-  std::vector<std::uint32_t> component;
-  std::vector<std::uint32_t> piece_of;
-
-  // Removes vertices. A piece that needs one of these vertices to stay is not wanted any more.
-  void take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted);
-};
-
-void GivenMesh::take_out(const std::vector<std::uint32_t>& vertices, std::vector<bool>& wanted) {
-  if (vertices.empty()) return;
-  VertexDecimation fans(mesh);
-  fans.take_out(vertices);
-  for (const std::uint32_t v : vertices) {
-    if (fans.has(v)) wanted[piece_of[v]] = false;
-  }
-  // The remaining vertices keep their order.
-  std::size_t vertex_count = 0;
-  for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
-    if (!fans.has(v)) continue;
-    component[vertex_count] = component[v];
-    piece_of[vertex_count++] = piece_of[v];
-  }
-  component.resize(vertex_count);
-  piece_of.resize(vertex_count);
-  fans.drop_free_slots();
 }
 
 }  // namespace
@@ -210,46 +147,36 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosur
   left.assign(done_.size(), true);
   stats.components_mixed = stats.components_stray = 0;
   std::vector<std::vector<bool>> wanted(kept_.size());  // the wanted pieces of each mesh
-  std::vector<std::size_t> giver(done_.size(), kept_.size());
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const ComponentMatch& match = kept_[i].mesh->match;
     wanted[i].assign(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (giver[c] < kept_.size() || !may_give(*kept_[i].mesh, c)) continue;
-      giver[c] = i;
+      if (!left[c] || !may_give(*kept_[i].mesh, c)) continue;
+      left[c] = false;
       wanted[i][match.main_piece[c]] = true;
+      stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
+      stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
   }
-  std::vector<GivenMesh> given(kept_.size());
+  const auto is_wanted = [&](std::size_t i, std::uint32_t v) {
+    const std::uint32_t piece = kept_[i].mesh->match.piece_of[v];
+    return piece != kNoPiece && wanted[i][piece];
+  };
+  std::vector<SurfaceMesh> given(kept_.size());
   run_tasks(kept_.size(), threads, [&](std::size_t i) {
-    const auto& [built, component, match] = *kept_[i].mesh;
-    if (std::find(wanted[i].begin(), wanted[i].end(), true) == wanted[i].end()) return;
-    const auto is_wanted = [&wanted = wanted[i], &piece_of = match.piece_of](std::uint32_t v) {
-      return piece_of[v] != kNoPiece && wanted[piece_of[v]];
-    };
-    given[i] = {built.mesh, component, match.piece_of};
+    const BuiltMesh& built = kept_[i].mesh->built;
+    given[i] = built.mesh;
     std::vector<PinchGroup> groups = built.groups;
     find_other_positions(groups, isosurface);
-    separate_pinches(given[i].mesh, groups, built.vertex_of, isosurface.box(), isosurface.surface_box(), is_wanted);
-    std::vector<std::uint32_t> off_surface =
-        PositionsOnSurface(built.mesh, groups).copies_away_from_all(given[i].mesh.points);
-    std::erase_if(off_surface, [&](std::uint32_t v) { return !is_wanted(v); });
-    given[i].take_out(off_surface, wanted[i]);
+    separate_pinches(given[i], groups, built.vertex_of, isosurface.box(), isosurface.surface_box(),
+                     [&](std::uint32_t v) { return is_wanted(i, v); });
   });
-  for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (giver[c] == kept_.size()) continue;
-    const ComponentMatch& match = kept_[giver[c]].mesh->match;
-    if (!wanted[giver[c]][match.main_piece[c]]) continue;
-    left[c] = false;
-    stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
-    stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
-  }
   AssembledMesh all;
   for (std::size_t i = kept_.size(); i-- > 0;) {
-    const GivenMesh from = std::exchange(given[i], {});
-    append_pieces(from.mesh, from.piece_of, wanted[i], all.mesh);
-    for (std::size_t v = 0; v < from.piece_of.size(); ++v) {
-      if (from.piece_of[v] != kNoPiece && wanted[i][from.piece_of[v]]) all.component.push_back(from.component[v]);
+    const auto& [built, component, match] = *kept_[i].mesh;
+    append_pieces(std::exchange(given[i], {}), match.piece_of, wanted[i], all.mesh);
+    for (std::uint32_t v = 0; v < component.size(); ++v) {
+      if (is_wanted(i, v)) all.component.push_back(component[v]);
     }
   }
   return all;

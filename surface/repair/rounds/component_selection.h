@@ -45,9 +45,8 @@ class ComponentSelection {
   void keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs);
   // Computes the pole heights of the meshes of this round. Call before its triangulation is changed or destroyed.
   void give_poles(RepairRound& round);
-  // Takes every component from the latest mesh that agrees with it best. A copy of a vertex that is near none of its
-  // positions on the surface is removed. A component is `left` if no mesh has it completely, or if such a copy cannot
-  // be removed. Precondition: the meshes have pole heights.
+  // Takes every component from the latest mesh that agrees with it best. A component is `left` if no mesh has it
+  // completely. Precondition: the meshes have pole heights.
   AssembledMesh assemble(std::vector<bool>& left, const Isosurface& isosurface, int threads, RepairStats& stats) const;
 
  private:
