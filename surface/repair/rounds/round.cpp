@@ -82,7 +82,7 @@ void RepairRound::take_plain_signs() {
 }
 
 void RepairRound::take_signs() {
-  if (!rule_) rule_.emplace(*restricted_, surface_.grid(), cell_levels_, surface_.threads);
+  if (!rule_) rule_.emplace(*restricted_, cell_levels_, surface_.threads);
   rule_->take_signs(at_circumcenters_);
   settle_signs();
 }

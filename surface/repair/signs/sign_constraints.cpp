@@ -27,10 +27,10 @@ Vec3 corner_position(unsigned corner) {
 
 class Collector {
  public:
-  Collector(const SignedDelaunay& restricted, const ScalarGrid& grid, std::vector<std::uint8_t>& sides)
+  Collector(const SignedDelaunay& restricted, std::vector<std::uint8_t>& sides)
       : restricted_(restricted),
         delaunay_(restricted.delaunay()),
-        grid_(grid),
+        grid_(restricted.isosurface().grid()),
         sides_(sides),
         hint_(delaunay_.incident_tet(VertexId(std::size_t{0}))) {}
 
@@ -231,7 +231,7 @@ void SignConstraints::update(const CellLevels& cell_levels, int threads) {
   for_each_block(
       stale.size(), threads,
       [&](std::size_t first, std::size_t last) {
-        Collector collector(restricted_, grid_, sides_);
+        Collector collector(restricted_, sides_);
         for (std::size_t i = first; i < last; ++i) {
           Trace& trace = traces_[stale[i]];
           trace.tets = collector.collect(cell_levels.cell(trace.cell), trace.tets);

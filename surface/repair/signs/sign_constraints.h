@@ -25,8 +25,8 @@ enum SignConstraint : std::uint8_t { kNoConstraint = 0, kAbove = 1, kBelow = 2, 
 // segments cross new tetrahedra, are visited.
 class SignConstraints {
  public:
-  // Keeps references.
-  SignConstraints(const SignedDelaunay& restricted, const ScalarGrid& grid) : restricted_(restricted), grid_(grid) {}
+  // Keeps a reference.
+  explicit SignConstraints(const SignedDelaunay& restricted) : restricted_(restricted) {}
 
   // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);
@@ -45,7 +45,6 @@ class SignConstraints {
   };
 
   const SignedDelaunay& restricted_;
-  const ScalarGrid& grid_;
   std::vector<std::uint8_t> sides_;
   std::vector<Trace> traces_;  // of the refined cells, ascending
 };

@@ -39,8 +39,8 @@ std::optional<Vec3> centroid_of_small(const SignedDelaunay& restricted, TetId t)
 
 }  // namespace
 
-SignRule::SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& cell_levels, int threads)
-    : restricted_(restricted), cell_levels_(cell_levels), threads_(threads), constraints_(restricted, grid) {
+SignRule::SignRule(SignedDelaunay& restricted, const CellLevels& cell_levels, int threads)
+    : restricted_(restricted), cell_levels_(cell_levels), threads_(threads), constraints_(restricted) {
   update();
 }
 

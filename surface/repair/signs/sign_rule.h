@@ -19,7 +19,7 @@ namespace deliso {
 class SignRule {
  public:
   // Keeps references. The result does not depend on the number of threads.
-  SignRule(SignedDelaunay& restricted, const ScalarGrid& grid, const CellLevels& cell_levels, int threads);
+  SignRule(SignedDelaunay& restricted, const CellLevels& cell_levels, int threads);
 
   // Updates the arrays after an exchange of points; call update() afterwards.
   void renew(const ExchangedPoints& exchanged);

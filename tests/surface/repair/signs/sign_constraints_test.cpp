@@ -14,9 +14,9 @@ using testing::field_scene;
 using testing::noise_scene;
 using testing::Scene;
 
-std::vector<std::uint8_t> constraints_in(const SignedDelaunay& restricted, const ScalarGrid& grid,
-                                         const CellLevels& cell_levels, int threads = 1) {
-  SignConstraints constraints(restricted, grid);
+std::vector<std::uint8_t> constraints_in(const SignedDelaunay& restricted, const CellLevels& cell_levels,
+                                         int threads = 1) {
+  SignConstraints constraints(restricted);
   constraints.update(cell_levels, threads);
   return constraints.sides();
 }
@@ -37,7 +37,7 @@ TEST(SignConstraint, TetrahedraOnGridEdgesOfOneSideHaveTheirSide) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
     const CellLevels cell_levels = everywhere(*scene);
-    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, scene->grid, cell_levels);
+    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, cell_levels);
     TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
     for (const auto& [name, level] : cell_levels.levels()) {
       const CellIndex cell = cell_levels.cell(name);
@@ -66,7 +66,7 @@ TEST(SignConstraint, NoShortPassageIsMissed) {
     const auto scene = noise_scene({7, 6, 5}, seed);
     const SignedDelaunay signed_delaunay = dense(*scene);
     const CellLevels cell_levels = everywhere(*scene);
-    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, scene->grid, cell_levels);
+    const std::vector<std::uint8_t> constraints = constraints_in(signed_delaunay, cell_levels);
     const Box3& box = scene->isosurface->box();
     TetId hint = signed_delaunay.delaunay().incident_tet(VertexId(std::size_t{0}));
     for (const auto& [name, level] : cell_levels.levels()) {
@@ -91,7 +91,7 @@ TEST(SignConstraint, TouchedTetrahedraHaveNone) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto scene = noise_scene({9, 8, 7}, seed);
     const SignedDelaunay lattice(*scene->isosurface, testing::crossing_points(*scene));
-    const std::vector<std::uint8_t> constraints = constraints_in(lattice, scene->grid, everywhere(*scene));
+    const std::vector<std::uint8_t> constraints = constraints_in(lattice, everywhere(*scene));
     conflicts += std::count(constraints.begin(), constraints.end(), kConflict);
     all +=
         std::count_if(constraints.begin(), constraints.end(), [](std::uint8_t side) { return side != kNoConstraint; });
@@ -105,16 +105,16 @@ TEST(SignConstraint, IsTheSameForAnyNumberOfThreads) {
     const SignedDelaunay signed_delaunay = dense(*scene);
     const CellLevels cell_levels = everywhere(*scene);
     EXPECT_GT(cell_levels.levels().size(), 4096u);
-    const std::vector<std::uint8_t> one = constraints_in(signed_delaunay, scene->grid, cell_levels);
+    const std::vector<std::uint8_t> one = constraints_in(signed_delaunay, cell_levels);
     EXPECT_GT(std::count(one.begin(), one.end(), kAbove), 1000) << scene->name;
-    EXPECT_EQ(constraints_in(signed_delaunay, scene->grid, cell_levels, 3), one) << scene->name;
+    EXPECT_EQ(constraints_in(signed_delaunay, cell_levels, 3), one) << scene->name;
   }
 }
 
 TEST(SignConstraint, IsNoneWithoutRefinedCells) {
   const auto scene = noise_scene({6, 6, 6}, 3);
   const SignedDelaunay signed_delaunay = dense(*scene);
-  for (const std::uint8_t e : constraints_in(signed_delaunay, scene->grid, CellLevels(*scene->isosurface))) {
+  for (const std::uint8_t e : constraints_in(signed_delaunay, CellLevels(*scene->isosurface))) {
     ASSERT_EQ(e, kNoConstraint);
   }
 }
