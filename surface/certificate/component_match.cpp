@@ -10,19 +10,6 @@ namespace deliso {
 
 namespace {
 
-// Numbers the pieces; returns how many.
-std::uint32_t label_triangles(const SurfaceMesh& mesh, std::vector<std::uint32_t>& piece_of_triangle) {
-  piece_of_triangle.assign(mesh.triangles.size(), kNoPiece);
-  std::vector<bool> is_labelled(mesh.triangles.size(), false);
-  std::uint32_t pieces = 0;
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_labelled[seed]) continue;
-    for (const std::uint32_t t : flood(mesh, seed, is_labelled)) piece_of_triangle[t] = pieces;
-    ++pieces;
-  }
-  return pieces;
-}
-
 // Counts the boundary loops of each piece: on a manifold exactly one boundary edge leaves every boundary vertex, so
 // loops are cycles.
 void count_loops(const SurfaceMesh& mesh, ComponentMatch& match) {
@@ -96,8 +83,8 @@ void find_agreements(const std::vector<ComponentTopology>& components, const std
 
 ComponentMatch find_pieces(const SurfaceMesh& mesh) {
   ComponentMatch match;
-  std::vector<std::uint32_t> piece_of_triangle;
-  match.pieces.resize(label_triangles(mesh, piece_of_triangle));
+  const std::vector<std::uint32_t> piece_of_triangle =
+      number_pieces(mesh, [&](const auto&) { match.pieces.emplace_back(); });
   match.piece_of.assign(mesh.points.size(), kNoPiece);
 
   // Euler characteristic: vertices - edges + triangles; an edge with two triangles is counted from the larger side.

@@ -12,17 +12,27 @@ constexpr std::size_t kFewTriangles = 64;
 
 }  // namespace
 
-std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked) {
-  std::vector<std::uint32_t> piece = {seed};
-  is_marked[seed] = true;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    for (const TriangleSide side : mesh.neighbours[piece[i]]) {
-      if (side == kNoSide || is_marked[side >> 2]) continue;
-      is_marked[side >> 2] = true;
-      piece.push_back(side >> 2);
+std::vector<std::uint32_t> number_pieces(const SurfaceMesh& mesh,
+                                         const std::function<void(const std::vector<std::uint32_t>&)>& visit) {
+  constexpr std::uint32_t kUnseen = 0xFFFFFFFFu;
+  std::vector<std::uint32_t> piece_of(mesh.triangles.size(), kUnseen);
+  std::vector<std::uint32_t> piece;
+  std::uint32_t number = 0;
+  for (std::uint32_t seed = 0; seed < piece_of.size(); ++seed) {
+    if (piece_of[seed] != kUnseen) continue;
+    piece.assign(1, seed);
+    piece_of[seed] = number;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      for (const TriangleSide side : mesh.neighbours[piece[i]]) {
+        if (side == kNoSide || piece_of[side >> 2] != kUnseen) continue;
+        piece_of[side >> 2] = number;
+        piece.push_back(side >> 2);
+      }
     }
+    visit(piece);
+    ++number;
   }
-  return piece;
+  return piece_of;
 }
 
 std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {
@@ -94,15 +104,10 @@ std::optional<std::uint32_t> most_frequent(std::span<const std::uint32_t> compon
 
 PieceComponents piece_components(const SurfaceMesh& mesh, const ExactSurface& surface) {
   PieceComponents pieces;
-  pieces.piece_of.assign(mesh.triangles.size(), 0);
-  std::vector<bool> is_seen(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-    for (const std::uint32_t t : piece) pieces.piece_of[t] = static_cast<std::uint32_t>(pieces.component.size());
+  pieces.piece_of = number_pieces(mesh, [&](const std::vector<std::uint32_t>& piece) {
     const auto component = most_frequent(components_at(mesh, vertices_of(mesh, piece), surface));
     pieces.component.push_back(component.value_or(kNoComponent));
-  }
+  });
   return pieces;
 }
 

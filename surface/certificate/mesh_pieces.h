@@ -13,8 +13,10 @@
 
 namespace deliso {
 
-// Marks and returns all triangles connected with `seed` across sides. Precondition: none of them is marked.
-std::vector<std::uint32_t> flood(const SurfaceMesh& mesh, std::uint32_t seed, std::vector<bool>& is_marked);
+// The number of the piece of each triangle: pieces are connected across sides, and numbered by their first triangles.
+// Calls visit(triangles) for each in turn, with its triangles in no order. Precondition: the mesh has neighbours.
+std::vector<std::uint32_t> number_pieces(const SurfaceMesh& mesh,
+                                         const std::function<void(const std::vector<std::uint32_t>&)>& visit);
 
 // Each vertex of some triangles once, ascending.
 std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles);

@@ -69,14 +69,8 @@ bool is_small(const MeasuredPiece& piece, const ComponentParameters& wanted) {
 
 MeasuredPieces measure_pieces(const SurfaceMesh& mesh) {
   MeasuredPieces measured;
-  measured.piece_of.assign(mesh.triangles.size(), 0);
-  std::vector<bool> is_seen(mesh.triangles.size(), false);
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (is_seen[seed]) continue;
-    const std::vector<std::uint32_t> piece = flood(mesh, seed, is_seen);
-    for (const std::uint32_t t : piece) measured.piece_of[t] = static_cast<std::uint32_t>(measured.pieces.size());
-    measured.pieces.push_back(measure(mesh, piece));
-  }
+  measured.piece_of = number_pieces(
+      mesh, [&](const std::vector<std::uint32_t>& piece) { measured.pieces.push_back(measure(mesh, piece)); });
   return measured;
 }
 
