@@ -1,7 +1,7 @@
 // The triangulation of a round of repair, and the meshes that follow from its signs.
 //
-// Most rounds change few points. So data that depend on the triangulation alone are updated only where points were
-// exchanged, and data that depend on signs only where signs have changed.
+// Most rounds change few points. So what takes long to find is updated only where points were exchanged, if it depends
+// on the triangulation alone, and only where signs have changed, if it depends on them.
 #pragma once
 
 #include <cstdint>
