@@ -138,6 +138,7 @@ TEST(Smoothing, KeepsNoiseProvenAndNear) {
               plain_check.distance.isosurface_to_mesh.mean_voxels + 0.001)
         << seed;
   }
+  EXPECT_GT(moves, 100);
 }
 
 TEST(Smoothing, IsTheSameForAnyNumberOfThreads) {
