@@ -7,13 +7,6 @@
 
 namespace deliso {
 
-BestFilling::BestFilling(std::span<const Vec3> polygon)
-    : size_(polygon.size()), best_(size_ * size_, 1), middle_(size_ * size_, 0) {
-  for (std::size_t width = 2; width < size_; ++width) {
-    for (std::size_t i = 0; i + width < size_; ++i) find(polygon, i, i + width);
-  }
-}
-
 void BestFilling::find(std::span<const Vec3> polygon, std::size_t i, std::size_t j) {
   double& best = best_[i * size_ + j];
   best = 0;

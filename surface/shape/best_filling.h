@@ -16,7 +16,21 @@ namespace deliso {
 class BestFilling {
  public:
   // Precondition: at least three corners.
-  explicit BestFilling(std::span<const Vec3> polygon);
+  explicit BestFilling(std::span<const Vec3> polygon)
+      : BestFilling(polygon, [](std::size_t, std::size_t) { return true; }) {}
+  // Of the fillings whose diagonals, from corner i to corner j > i, are all free: is_free(i, j). The quality is 0 when
+  // there is none.
+  template <class IsFree>
+  BestFilling(std::span<const Vec3> polygon, const IsFree& is_free)
+      : size_(polygon.size()), best_(size_ * size_, 1), middle_(size_ * size_, 0) {
+    for (std::size_t width = 2; width < size_; ++width) {
+      for (std::size_t i = 0; i + width < size_; ++i) {
+        find(polygon, i, i + width);
+        const bool is_diagonal = width + 1 < size_;
+        if (is_diagonal && !is_free(i, i + width)) best_[i * size_ + i + width] = 0;
+      }
+    }
+  }
 
   [[nodiscard]] double quality() const { return best_[size_ - 1]; }
   // Corners of the polygon.

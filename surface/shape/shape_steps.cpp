@@ -95,7 +95,12 @@ void ShapeSteps::remove(std::uint32_t v, std::vector<PatchStep>& steps) {
   if (!are_whole(step.removed)) return;
   std::vector<Vec3> polygon;
   for (const std::uint32_t u : link_.vertices) polygon.push_back(patch_.point(u));
-  const BestFilling filling(polygon);
+  // Around a neck of three edges two vertices of the link are neighbours already, by an edge that is not in the star. A
+  // second edge between them would not be refused before the guard, and with it all fillings.
+  const auto is_free = [&](std::size_t i, std::size_t j) {
+    return patch_.across(kNoVertex, link_.vertices[i], link_.vertices[j]) == kNoVertex;
+  };
+  const BestFilling filling(polygon, is_free);
   step.quality = filling.quality();
   for (const auto& [i, j, k] : filling.triangles()) {
     step.added.push_back({link_.vertices[i], link_.vertices[j], link_.vertices[k]});
