@@ -53,6 +53,7 @@ void PatchImprovement::refine_around(std::span<const std::uint32_t> bad, double 
     --left;
     try_refinement(t, tried);
   }
+  queue_ = {};  // of a trial that was taken back
   is_refining_ = false;
 }
 

@@ -14,8 +14,9 @@ namespace deliso {
 
 namespace {
 
-constexpr double kReach = 3;   // of the surroundings of a bad triangle, in its longest edges
-constexpr int kMostDepth = 3;  // of steps that are tried together
+constexpr double kReach = 3;         // of the surroundings of a bad triangle, in its longest edges
+constexpr int kMostDepth = 3;        // of steps that are tried together
+constexpr double kMostFreedom = 16;  // to leave the isosurface (patch_improvement.h)
 constexpr std::size_t kMostWorst = 10;
 
 std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, int threads) {
@@ -36,7 +37,22 @@ void count_left(const NumberedPatch& patch, ShapeStats& stats) {
   }
 }
 
-// Steps first; then refinements, one after the other freer to leave the isosurface.
+// Steps and a refinement in turn, with all freedom, as long as they change something. Where hundreds of bad triangles
+// are left, as in noise, it would take long.
+void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal) {
+  constexpr int kMostTurns = 10;
+  constexpr std::size_t kMostBad = 100;
+  for (int turn = 0; turn < kMostTurns && !patch.bad.empty() && patch.bad.size() <= kMostBad; ++turn) {
+    const std::size_t steps_before = patch.patch.steps();
+    improvement.run(patch.bad, kMostFreedom, kMostDepth);
+    patch.bad = patch.patch.triangles_below(goal);
+    improvement.refine_around(patch.bad, kMostFreedom, true);
+    patch.bad = patch.patch.triangles_below(goal);
+    if (patch.patch.steps() == steps_before) return;
+  }
+}
+
+// Steps first; then refinements, one after the other freer to leave the isosurface; then both by turns.
 void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
   for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
     improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
@@ -47,11 +63,12 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
     double freedom;
     bool may_be_far;
   };
-  for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {16, false}, {16, true}}) {
+  for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {kMostFreedom, false}, {kMostFreedom, true}}) {
     if (patch.bad.empty()) return;
     improvement.refine_around(patch.bad, freedom, may_be_far);
     patch.bad = patch.patch.triangles_below(goal);
   }
+  repeat_last_round(patch, improvement, goal);
 }
 
 }  // namespace
