@@ -37,18 +37,19 @@ void count_left(const NumberedPatch& patch, ShapeStats& stats) {
   }
 }
 
-// Steps and a refinement in turn, with all freedom, as long as they change something. Where hundreds of bad triangles
-// are left, as in noise, it would take long.
-void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal) {
+// Steps and a refinement in turn, with all freedom, as long as they change something; `steps_before`: how many there
+// were before the refinements so far. A neck is widened by several refinements, each of what the last one has left.
+// Where hundreds of bad triangles are left, as in noise, it would take long.
+void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal, std::size_t steps_before) {
   constexpr int kMostTurns = 10;
   constexpr std::size_t kMostBad = 100;
   for (int turn = 0; turn < kMostTurns && !patch.bad.empty() && patch.bad.size() <= kMostBad; ++turn) {
-    const std::size_t steps_before = patch.patch.steps();
+    if (patch.patch.steps() == steps_before) return;
+    steps_before = patch.patch.steps();
     improvement.run(patch.bad, kMostFreedom, kMostDepth);
     patch.bad = patch.patch.triangles_below(goal);
     improvement.refine_around(patch.bad, kMostFreedom, true);
     patch.bad = patch.patch.triangles_below(goal);
-    if (patch.patch.steps() == steps_before) return;
   }
 }
 
@@ -63,12 +64,13 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
     double freedom;
     bool may_be_far;
   };
+  const std::size_t steps_before = patch.patch.steps();
   for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {kMostFreedom, false}, {kMostFreedom, true}}) {
     if (patch.bad.empty()) return;
     improvement.refine_around(patch.bad, freedom, may_be_far);
     patch.bad = patch.patch.triangles_below(goal);
   }
-  repeat_last_round(patch, improvement, goal);
+  repeat_last_round(patch, improvement, goal, steps_before);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "surface/mesh/triangle_shape.h"
 #include "surface/verification/verification.h"
 #include "tests/support/mesh_fields.h"
+#include "volume/fields/field_slices.h"
 
 namespace deliso {
 namespace {
@@ -71,6 +72,17 @@ TEST(Shape, CountsTheTrianglesThatItLeaves) {
   EXPECT_NEAR(result.shape.worst.front().degrees(), measure_quality(result.mesh).min_angle_degrees, 1e-6);
   EXPECT_TRUE(std::is_sorted(result.shape.worst.begin(), result.shape.worst.end(),
                              [](const BadTriangle& a, const BadTriangle& b) { return a.sine < b.sine; }));
+}
+
+// A refinement leaves necks that the next one widens. Without turns the smallest angles were 26.2, 27.3 and 21.2.
+TEST(Shape, GoesOnInNecksAsLongAsItHelps) {
+  for (const std::uint64_t seed : {27U, 86U, 93U}) {
+    MeshingOptions options;
+    options.parameters.stage2.rho = 1;
+    const MeshingResult result = mesh_isosurface(generate_field("noise", 9, seed), 127.02, options);
+    EXPECT_TRUE(is_proven(result.certificate)) << seed;
+    EXPECT_GE(measure_quality(result.mesh).min_angle_degrees, 30) << seed;
+  }
 }
 
 TEST(Shape, IsTheSameForAnyNumberOfThreads) {
