@@ -56,6 +56,7 @@ std::uint32_t Patch::across(std::uint32_t t, std::uint32_t a, std::uint32_t b) c
   return kNoVertex;
 }
 
+// Stars in flat cells have hundreds of triangles, so no arc of the link searches its next one.
 bool Patch::find_link(std::uint32_t v, VertexLink& link) const {
   constexpr std::size_t kLongest = 512;
   const std::vector<std::uint32_t>& star = stars_[v];
@@ -63,33 +64,40 @@ bool Patch::find_link(std::uint32_t v, VertexLink& link) const {
   link.triangles.clear();
   if (star.empty() || star.size() > kLongest) return false;
   struct Arc {
-    std::uint32_t from, to, triangle;
+    std::uint32_t from, to, next;
+    bool is_entered;
   };
-  std::array<Arc, kLongest> arcs;  // NOLINT(cppcoreguidelines-pro-type-member-init): only as many as are used
-  const auto arcs_end = arcs.begin() + static_cast<std::ptrdiff_t>(star.size());
-  std::transform(star.begin(), star.end(), arcs.begin(), [&](std::uint32_t t) {
-    const auto& corners = triangles_[t];
-    const std::size_t i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
-    return Arc{corners[(i + 1) % 3], corners[(i + 2) % 3], t};
-  });
-  const auto is_entered = [&](const Arc& arc) {
-    return std::any_of(arcs.begin(), arcs_end, [&](const Arc& other) { return other.to == arc.from; });
-  };
-  auto at = std::find_if_not(arcs.begin(), arcs_end, is_entered);
-  link.is_closed = at == arcs_end;
-  if (link.is_closed) at = arcs.begin();
-  link.vertices.push_back(at->from);
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    link.triangles.push_back(at->triangle);
-    const bool is_last = i + 1 == star.size();
-    if (is_last && link.is_closed) return at->to == link.vertices.front() && star.size() >= 3;
-    if (std::find(link.vertices.begin(), link.vertices.end(), at->to) != link.vertices.end()) return false;
-    link.vertices.push_back(at->to);
-    if (is_last) return true;
-    at = std::find_if(arcs.begin(), arcs_end, [&](const Arc& arc) { return arc.from == link.vertices.back(); });
-    if (at == arcs_end) return false;
+  std::array<Arc, kLongest> room;  // NOLINT(cppcoreguidelines-pro-type-member-init): only as many as are used
+  const std::span arcs(room.data(), star.size());
+  arc_from_.resize(points_.size(), kNoArc);
+  bool is_repeated = false;  // a vertex of the link
+  for (std::uint32_t i = 0; i < star.size(); ++i) {
+    const auto& corners = triangles_[star[i]];
+    const std::size_t at = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+    arcs[i] = {corners[(at + 1) % 3], corners[(at + 2) % 3], kNoArc, false};
+    is_repeated = is_repeated || arc_from_[arcs[i].from] != kNoArc;
+    arc_from_[arcs[i].from] = i;
   }
-  return false;
+  for (Arc& arc : arcs) {
+    arc.next = arc_from_[arc.to];
+    if (arc.next != kNoArc) arcs[arc.next].is_entered = true;
+  }
+  for (const Arc& arc : arcs) arc_from_[arc.from] = kNoArc;
+  if (is_repeated) return false;
+
+  const auto start = std::find_if(arcs.begin(), arcs.end(), [](const Arc& arc) { return !arc.is_entered; });
+  link.is_closed = start == arcs.end();
+  const auto first = link.is_closed ? 0U : static_cast<std::uint32_t>(start - arcs.begin());
+  std::uint32_t at = first;
+  do {
+    link.vertices.push_back(arcs[at].from);
+    link.triangles.push_back(star[at]);
+    if (arcs[at].next == kNoArc) link.vertices.push_back(arcs[at].to);
+    at = arcs[at].next;
+  } while (at != kNoArc && at != first && link.triangles.size() < star.size());
+  // Whether these are all, from end to end or once around.
+  return link.triangles.size() == star.size() && at == (link.is_closed ? first : kNoArc) &&
+         (!link.is_closed || star.size() >= 3);
 }
 
 std::vector<std::uint32_t> Patch::triangles_below(double quality) const {

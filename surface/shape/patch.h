@@ -100,6 +100,8 @@ class Patch {
   std::vector<std::uint8_t> is_removed_;
   TriangleHashGrid places_;
   std::vector<Applied> journal_;
+  static constexpr std::uint32_t kNoArc = 0xFFFFFFFFU;
+  mutable std::vector<std::uint32_t> arc_from_;  // of each vertex, only while a link is searched: its arc, else kNoArc
 };
 
 }  // namespace deliso

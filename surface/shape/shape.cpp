@@ -37,16 +37,16 @@ void count_left(const NumberedPatch& patch, ShapeStats& stats) {
   }
 }
 
-// Steps and a refinement in turn, with all freedom, as long as they change something; `steps_before`: how many there
-// were before the refinements so far. A neck is widened by several refinements, each of what the last one has left.
-// Where hundreds of bad triangles are left, as in noise, it would take long.
+// Steps and a refinement in turn, with all freedom, until a refinement would begin with the mesh of the last one, of
+// `steps_before` steps. A neck is widened by several refinements, each of what the last one has left. Where hundreds of
+// bad triangles are left, as in noise, it would take long.
 void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal, std::size_t steps_before) {
   constexpr int kMostTurns = 10;
   constexpr std::size_t kMostBad = 100;
   for (int turn = 0; turn < kMostTurns && !patch.bad.empty() && patch.bad.size() <= kMostBad; ++turn) {
+    improvement.run(patch.bad, kMostFreedom, kMostDepth);
     if (patch.patch.steps() == steps_before) return;
     steps_before = patch.patch.steps();
-    improvement.run(patch.bad, kMostFreedom, kMostDepth);
     patch.bad = patch.patch.triangles_below(goal);
     improvement.refine_around(patch.bad, kMostFreedom, true);
     patch.bad = patch.patch.triangles_below(goal);
@@ -64,9 +64,10 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
     double freedom;
     bool may_be_far;
   };
-  const std::size_t steps_before = patch.patch.steps();
+  std::size_t steps_before = 0;
   for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {kMostFreedom, false}, {kMostFreedom, true}}) {
     if (patch.bad.empty()) return;
+    steps_before = patch.patch.steps();
     improvement.refine_around(patch.bad, freedom, may_be_far);
     patch.bad = patch.patch.triangles_below(goal);
   }

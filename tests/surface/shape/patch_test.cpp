@@ -1,11 +1,13 @@
-// Patches: links against a count of edges, and steps that are taken back.
+// Patches: links against a count of edges and against all orders of their arcs, and steps that are taken back.
 #include "surface/shape/patch.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "delaunay/base/rng.h"
 #include "surface/mesh/triangle_shape.h"
@@ -76,6 +78,49 @@ TEST(Patch, RefusesLinksOfVerticesThatAreNoDisk) {
   VertexLink link;
   EXPECT_FALSE(example.patch.find_link(0, link));
   EXPECT_TRUE(example.patch.find_link(1, link));
+}
+
+using Arc = std::array<std::uint32_t, 2>;
+
+// Whether arcs in this order are one path without a vertex twice, or one cycle of three or more.
+bool is_path_or_cycle(const std::vector<Arc>& arcs) {
+  std::set<std::uint32_t> seen;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (!seen.insert(arcs[i][0]).second || (i > 0 && arcs[i - 1][1] != arcs[i][0])) return false;
+  }
+  return seen.count(arcs.back()[1]) == 0 || (arcs.back()[1] == arcs.front()[0] && arcs.size() >= 3);
+}
+
+TEST(Patch, LinksAreThePathsAndCyclesAmongAllSetsOfArcs) {
+  Rng rng(5);
+  int paths = 0, cycles = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Patch patch(1);
+    for (int v = 0; v < 6; ++v) patch.add_vertex({rng.uniform(), rng.uniform(), rng.uniform()});
+    std::vector<Arc> arcs(1 + rng.below(5));
+    for (Arc& arc : arcs) {
+      arc[0] = 1 + static_cast<std::uint32_t>(rng.below(5));
+      do arc[1] = 1 + static_cast<std::uint32_t>(rng.below(5));
+      while (arc[1] == arc[0]);
+      patch.add_triangle({0, arc[0], arc[1]});
+    }
+    std::sort(arcs.begin(), arcs.end());
+    bool expected = false;
+    do expected = expected || is_path_or_cycle(arcs);
+    while (std::next_permutation(arcs.begin(), arcs.end()));
+    VertexLink link;
+    ASSERT_EQ(patch.find_link(0, link), expected) << trial;
+    if (!expected) continue;
+    ++(link.is_closed ? cycles : paths);
+    ASSERT_EQ(link.vertices.size(), arcs.size() + (link.is_closed ? 0 : 1));
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const auto& corners = patch.corners(link.triangles[i]);
+      EXPECT_EQ(corners[1], link.vertices[i]);
+      EXPECT_EQ(corners[2], link.vertices[(i + 1) % link.vertices.size()]);
+    }
+  }
+  EXPECT_GT(paths, 1000);
+  EXPECT_GT(cycles, 50);
 }
 
 TEST(Patch, StepsAreTakenBackInTurn) {
