@@ -38,11 +38,11 @@ void count_left(const NumberedPatch& patch, ShapeStats& stats) {
 }
 
 // Steps and a refinement in turn, with all freedom, until a refinement would begin with the mesh of the last one, of
-// `steps_before` steps. A neck is widened by several refinements, each of what the last one has left. Where hundreds of
+// `steps_before` steps. A neck is widened by several refinements, each of what the last one has left. Where dozens of
 // bad triangles are left, as in noise, it would take long.
 void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal, std::size_t steps_before) {
   constexpr int kMostTurns = 10;
-  constexpr std::size_t kMostBad = 100;
+  constexpr std::size_t kMostBad = 24;
   for (int turn = 0; turn < kMostTurns && !patch.bad.empty() && patch.bad.size() <= kMostBad; ++turn) {
     improvement.run(patch.bad, kMostFreedom, kMostDepth);
     if (patch.patch.steps() == steps_before) return;
