@@ -49,16 +49,19 @@ ExactPolygonization exact_polygonization(const ExactSurface& exact) {
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
   surface.mesh.triangles = std::move(cubes.triangles);
-  // Where the volume is closed there are strips of triangles in the layer outside its walls, which are folds when that
-  // is taken off.
-  if (exact.grid().walls()) {
-    const Box3 box = exact.isosurface.surface_box();
-    for (Vec3& p : surface.mesh.points) p = exact.isosurface.settled(box.clamp(p));
-    const std::vector<Vec3> places = surface.mesh.points;
-    merge_equal_vertices(places, surface.mesh, &surface.component);
-  }
   set_side_adjacency(surface.mesh);
+  take_strips_off(surface, exact.isosurface);
   return surface;
+}
+
+void take_strips_off(ExactPolygonization& surface, const Isosurface& isosurface) {
+  if (!isosurface.grid().walls()) return;
+  // Taken off, the strips are folds.
+  const Box3 box = isosurface.surface_box();
+  for (Vec3& p : surface.mesh.points) p = isosurface.settled(box.clamp(p));
+  const std::vector<Vec3> places = surface.mesh.points;
+  merge_equal_vertices(places, surface.mesh, &surface.component);
+  set_side_adjacency(surface.mesh);
 }
 
 }  // namespace deliso

@@ -17,4 +17,8 @@ struct ExactPolygonization {
 };
 ExactPolygonization exact_polygonization(const ExactSurface& exact);
 
+// Where the volume has walls there are strips of triangles in the layer outside them: puts what lies next to a wall
+// onto it, takes the strips out, and finds neighbours anew. Elsewhere nothing changes.
+void take_strips_off(ExactPolygonization& surface, const Isosurface& isosurface);
+
 }  // namespace deliso

@@ -1,7 +1,6 @@
 #include "surface/repair/repair.h"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -90,10 +89,7 @@ bool Repair::assemble() {
 // Takes the components that have no mesh from marching cubes.
 void Repair::polygonize_rest() {
   if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
-  append_cubes(cache_, is_polygonized_, result_.mesh);
-  const std::vector<std::uint32_t>& component = cache_.polygonized().component;
-  std::copy_if(component.begin(), component.end(), std::back_inserter(result_.component),
-               [&](std::uint32_t c) { return c < is_polygonized_.size() && is_polygonized_[c]; });
+  append_cubes(cache_, is_polygonized_, result_.mesh, &result_.component);
 }
 
 // Removes foreign vertices, unless the removal itself makes triangles cross. Returns whether no foreign vertex is left

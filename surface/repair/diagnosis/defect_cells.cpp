@@ -33,7 +33,13 @@ class DefectFinder {
         boxes_(context.boxes),
         threads_(context.surface.threads),
         near_boxes_(context.boxes.size()),
+        has_other_loops_(context.done.size(), false),
         has_defect_(context.done.size(), false) {
+    for (std::size_t c = 0; c < has_other_loops_.size(); ++c) {
+      const std::uint32_t piece = mesh_.match.main_piece[c];
+      has_other_loops_[c] = piece != kNoPiece &&
+                            mesh_.match.pieces[piece].topology.boundary_loops != topology_.components[c].boundary_loops;
+    }
     for (std::size_t c = 0; context.is_near_boxes && c < boxes_.size(); ++c) {
       // One layer more, for tests of cells whose points are not known yet.
       if (!boxes_[c].all.empty()) near_boxes_[c].emplace(boxes_[c].all, grid_.dims(), kNear + 1);
@@ -70,8 +76,17 @@ class DefectFinder {
   [[nodiscard]] bool is_near_boxes(const CellIndex& cell, std::uint32_t component, std::int32_t layers) const {
     return !near_boxes_[component] || (*near_boxes_[component])(cell) <= layers;
   }
+  [[nodiscard]] bool is_at_box(const CellIndex& cell) const {
+    bool is_at = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) is_at |= cell[axis] == 0 || cell[axis] == grid_.dims()[axis] - 2;
+    return is_at;
+  }
+  // Euler curves tell little of boundary curves: where the mesh has one loop of two, the surfaces that it bounds may
+  // have the same characteristic everywhere. So a component with other loops has its defects on the box, too.
   [[nodiscard]] bool matters(const Vec3& p, std::uint32_t component, DefectKind kind) const {
-    return matters(component, kind) && is_near_boxes(cells_.cell_of(p), component, kNear);
+    if (!matters(component, kind)) return false;
+    return (has_other_loops_[component] && SignedDelaunay::on_box(restricted_.isosurface().box(), p)) ||
+           is_near_boxes(cells_.cell_of(p), component, kNear);
   }
   void flag(const Vec3& p, std::uint32_t component, DefectKind kind) {
     if (!matters(p, component, kind)) return;
@@ -89,6 +104,7 @@ class DefectFinder {
   const std::vector<IndexRanges>& boxes_;  // of each exact component
   int threads_;
   std::vector<std::optional<DistanceFromRanges>> near_boxes_;  // of each exact component
+  std::vector<bool> has_other_loops_;                          // of each exact component: than its main piece
   std::vector<bool> has_defect_;                               // of each exact component
   std::vector<CellName> found_;
 };
@@ -158,8 +174,8 @@ void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<st
     } else {
       component = open_component_in(cell);
     }
-    if (!component || !matters(*component, DefectKind::kTopology) || !is_near_boxes(cell, *component, kNear + 1))
-      return;
+    if (!component || !matters(*component, DefectKind::kTopology)) return;
+    if (!(has_other_loops_[*component] && is_at_box(cell)) && !is_near_boxes(cell, *component, kNear + 1)) return;
     cells.push_back(cell);
     components.push_back(*component);
   });

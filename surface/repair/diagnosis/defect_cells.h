@@ -32,7 +32,8 @@ struct DefectContext {
 // of the other sign. If the piece of a component has the right topology, only those defects count that concern its
 // missing part, or the vertices that it shares with other components. For a component without any defect its saddles
 // are taken, and if there are none, all its crossings. For a component with boxes only defects near the boxes count (if
-// is_near_boxes); and if the likely boxes are few, all active cells very near them are added.
+// is_near_boxes), and on the volume's box where its piece has another number of boundary loops; and if the likely boxes
+// are few, all active cells very near them are added.
 std::vector<CellName> defect_cells(const DefectContext& context);
 
 }  // namespace deliso

@@ -1,18 +1,31 @@
-// Components from marching cubes on a finer grid: meshes that lie as near to the isosurface as is asked for.
+// Components from marching cubes on a finer grid: meshes that lie as near to the isosurface as is asked for, or have no
+// needles in flat cells.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "surface/base/exact_surface.h"
-#include "surface/mesh/surface_mesh.h"
+#include "surface/certificate/exact_polygonization.h"
 
 namespace deliso {
 
-// Appends the mesh of one component to `mesh`. The interpolant within a part of a voxel cell is trilinear again, so
-// samples of it on a grid that is finer by whole factors have the same isosurface. Marching cubes has the exact
-// topology there, vertices on the surface, and triangles within the diagonal of a finer cell of it: less than
-// `max_distance`. Returns false, and appends nothing, where the finer grid would be too large, or where the rounding of
-// its samples gives another topology. The mesh has neighbours, and pole heights of one voxel.
-bool append_finer_cubes(std::uint32_t component, const ExactSurface& surface, double max_distance, SurfaceMesh& mesh);
+// How many times as fine the grid is along each axis.
+using GridFactors = std::array<std::int32_t, 3>;
+
+// Those with which triangles within a finer cell lie within `max_distance` of the isosurface: the diagonal is shorter.
+GridFactors factors_within(double max_distance, const Isosurface& isosurface);
+// Those with which cells are about as long as wide (cell_pieces.h); odd, so that a sample of integers need not equal an
+// isovalue halfway between two of them. All 1 where cells are not flat.
+GridFactors factors_of_flat_cells(const Isosurface& isosurface);
+
+// The meshes of these components in mesh space, with neighbours and pole heights of one voxel. The interpolant within a
+// part of a voxel cell is trilinear again, so samples of it on a grid that is finer by whole factors have the same
+// isosurface, and marching cubes has the exact topology there. Other factors, a little larger, are taken where a sample
+// would equal the isovalue. Components are left out where the finer grid would be too large (2^25 samples), or where
+// the rounding of its samples gives another topology. Factors of one alone give nothing.
+ExactPolygonization finer_cubes(const std::vector<bool>& components, const ExactSurface& surface,
+                                const GridFactors& factors);
 
 }  // namespace deliso

@@ -58,16 +58,14 @@ void take_foreign_vertices_out(const ExactSurface& surface, SurfaceMesh& mesh) {
 // Takes the marked components from the finer cubes, as far as they have a mesh there. Returns how many.
 std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>& is_marked, double max_distance,
                             SurfaceMesh& mesh) {
-  SurfaceMesh finer;
+  const ExactPolygonization finer = finer_cubes(is_marked, surface, factors_within(max_distance, surface.isosurface));
   std::vector<bool> is_replaced(is_marked.size(), false);
-  for (std::uint32_t c = 0; c < is_marked.size(); ++c) {
-    if (is_marked[c]) is_replaced[c] = append_finer_cubes(c, surface, max_distance, finer);
-  }
+  for (const std::uint32_t component : finer.component) is_replaced[component] = true;
   const std::int64_t count = std::count(is_replaced.begin(), is_replaced.end(), true);
   if (count == 0) return 0;
   drop_pieces(mesh, piece_components(mesh, surface),
               [&](std::uint32_t component) { return component != kNoComponent && is_replaced[component]; });
-  append_pieces(finer, std::vector<std::uint32_t>(finer.points.size(), 0), {true}, mesh);
+  append_pieces(finer.mesh, finer.component, is_replaced, mesh);
   take_foreign_vertices_out(surface, mesh);
   return count;
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 
 #include "delaunay/base/check.h"
 #include "surface/certificate/component_assignment.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/intersection/self_intersection.h"
+#include "surface/repair/finish/finer_cubes.h"
 #include "surface/restricted/poles.h"
 
 namespace deliso {
@@ -44,10 +46,22 @@ void replace(const std::vector<bool>& components, const PieceComponents& pieces,
 
 }  // namespace
 
-void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh) {
+void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh,
+                  std::vector<std::uint32_t>* component_of) {
   const std::size_t first = mesh.points.size();
-  append_pieces(cache.polygonized().mesh, cache.polygonized().component, components, mesh);
-  raise_pole_heights(mesh, first, cache.surface());
+  const auto append = [&](const ExactPolygonization& cubes, const std::vector<bool>& wanted) {
+    append_pieces(cubes.mesh, cubes.component, wanted, mesh);
+    if (component_of == nullptr) return;
+    std::copy_if(cubes.component.begin(), cubes.component.end(), std::back_inserter(*component_of),
+                 [&](std::uint32_t c) { return c < wanted.size() && wanted[c]; });
+  };
+  const ExactSurface& surface = cache.surface();
+  const ExactPolygonization finer = finer_cubes(components, surface, factors_of_flat_cells(surface.isosurface));
+  append(finer, components);
+  std::vector<bool> rest = components;
+  for (const std::uint32_t c : finer.component) rest[c] = false;
+  if (std::find(rest.begin(), rest.end(), true) != rest.end()) append(cache.polygonized(), rest);
+  raise_pole_heights(mesh, first, surface);
 }
 
 bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized) {

@@ -1,6 +1,7 @@
 // Components from marching cubes, where no other mesh is right.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "surface/base/controls.h"
@@ -9,10 +10,13 @@
 
 namespace deliso {
 
-// Appends the marching-cubes mesh of some components. Its pole heights are those of the Delaunay triangulation of its
-// vertices, but one voxel at least, which is what noise needs. Where such a component is smooth, one voxel alone makes
-// RefineGeom give it four times as many triangles as others have (BABY 16.4: two million vertices instead of one).
-void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh);
+// Appends the marching-cubes mesh of some components, in flat cells that of a finer grid as far as there is one
+// (finer_cubes.h); and their numbers for its vertices, if wanted. Its pole heights are those of the Delaunay
+// triangulation of its vertices, but one voxel at least, which is what noise needs. Where such a component is smooth,
+// one voxel alone makes RefineGeom give it four times as many triangles as others have (BABY 16.4: two million vertices
+// instead of one).
+void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh,
+                  std::vector<std::uint32_t>* component_of = nullptr);
 
 // Replaces pieces that cross. Pieces may cross if they come from different Delaunay meshes, or if copies of a vertex
 // could not be moved apart. The component of a piece is the one on which most of its vertices lie. Marching cubes does

@@ -4,18 +4,17 @@
 #include <array>
 #include <cmath>
 
+#include "surface/repair/lattice/cell_pieces.h"
+
 namespace deliso {
 
 namespace {
 
-// The coordinates of lines are stored in units of 1/8 cell.
-constexpr int kFinest = 8;
-
 // A key has the kind in its highest bits (0-2: a line along that axis, 3: an arc or a saddle), then the position.
 constexpr std::uint64_t kind_bits(std::uint64_t kind) { return (kind + 1) << 61; }
 
-std::uint64_t line_key(std::size_t axis, const std::array<std::uint64_t, 3>& eighths) {
-  return kind_bits(axis) | eighths[0] | eighths[1] << 20 | eighths[2] << 40;
+std::uint64_t line_key(std::size_t axis, const std::array<std::uint64_t, 3>& coordinates) {
+  return kind_bits(axis) | coordinates[0] | coordinates[1] << kCoordinateBits | coordinates[2] << 2 * kCoordinateBits;
 }
 
 // Linear interpolation that is exact at both ends.
@@ -24,7 +23,10 @@ double mix(double from, double to, double weight) { return (1 - weight) * from +
 }  // namespace
 
 SampleLattice::SampleLattice(const ExactSurface& surface)
-    : grid_(surface.grid()), isovalue_(surface.isosurface.isovalue()), topology_(surface.topology) {}
+    : grid_(surface.grid()),
+      isovalue_(surface.isosurface.isovalue()),
+      topology_(surface.topology),
+      pieces_(cell_pieces(surface.isosurface)) {}
 
 void SampleLattice::append(const CellIndex& cell, int level, std::vector<LatticeSample>& samples) const {
   append_lines(cell, level <= 2 ? 1 : 1 << (level - 2), samples);
@@ -33,19 +35,26 @@ void SampleLattice::append(const CellIndex& cell, int level, std::vector<Lattice
   append_saddles(cell, samples);
 }
 
-// Appends the crossings of the lines at multiples of 1 / parts along each axis.
-void SampleLattice::append_lines(const CellIndex& cell, int parts, std::vector<LatticeSample>& samples) const {
+// Appends the crossings of the lines at multiples of 1 / parts_of_piece of a piece along each axis.
+void SampleLattice::append_lines(const CellIndex& cell, int parts_of_piece, std::vector<LatticeSample>& samples) const {
   const CellCorners corners = grid_.cell(cell[0], cell[1], cell[2]);
+  // A coordinate in units of the lattice's finest part.
+  const auto place = [&](std::size_t axis, std::int32_t part) {
+    const std::int64_t parts = std::int64_t{cell[axis]} * pieces_[axis] * parts_of_piece + part;
+    return static_cast<std::uint64_t>(parts * (kFinestParts / parts_of_piece));
+  };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     const auto corner = [&](std::size_t along, std::size_t iu, std::size_t iv) {
       return corners[(along << axis) | (iu << u) | (iv << v)];
     };
-    for (int iu = 0; iu <= parts; ++iu) {
-      for (int iv = 0; iv <= parts; ++iv) {
-        const double fu = static_cast<double>(iu) / parts;
-        const double fv = static_cast<double>(iv) / parts;
+    const std::int32_t parts_u = pieces_[u] * parts_of_piece;
+    const std::int32_t parts_v = pieces_[v] * parts_of_piece;
+    for (std::int32_t iu = 0; iu <= parts_u; ++iu) {
+      for (std::int32_t iv = 0; iv <= parts_v; ++iv) {
+        const double fu = static_cast<double>(iu) / parts_u;
+        const double fv = static_cast<double>(iv) / parts_v;
         std::array<double, 2> end{};
         for (std::size_t along = 0; along < 2; ++along) {
           end[along] = mix(mix(corner(along, 0, 0), corner(along, 1, 0), fu),
@@ -56,12 +65,11 @@ void SampleLattice::append_lines(const CellIndex& cell, int parts, std::vector<L
         point[axis] = cell[axis] + edge_parameter(end[0], end[1], isovalue_);
         point[u] = cell[u] + fu;
         point[v] = cell[v] + fv;
-        const std::uint64_t step = kFinest / static_cast<std::uint64_t>(parts);
-        std::array<std::uint64_t, 3> eighths{};
-        eighths[axis] = static_cast<std::uint64_t>(cell[axis]) * kFinest;
-        eighths[u] = static_cast<std::uint64_t>(cell[u]) * kFinest + static_cast<std::uint64_t>(iu) * step;
-        eighths[v] = static_cast<std::uint64_t>(cell[v]) * kFinest + static_cast<std::uint64_t>(iv) * step;
-        samples.push_back({line_key(axis, eighths), point});
+        std::array<std::uint64_t, 3> coordinates{};
+        coordinates[axis] = place(axis, 0);
+        coordinates[u] = place(u, iu);
+        coordinates[v] = place(v, iv);
+        samples.push_back({line_key(axis, coordinates), point});
       }
     }
   }

@@ -5,6 +5,7 @@
 // these points do.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,13 +30,13 @@ class SampleLattice {
   // Keeps references.
   explicit SampleLattice(const ExactSurface& surface);
 
-  // Appends the samples of one cell at a level. Level 1: the crossings of its grid edges. Level 2: also a point inside
-  // each arc on its faces, and the saddles of the surface in the cell. Levels 3, 4, 5: also the crossings of the
-  // axis-parallel lines at multiples of 1/2, 1/4, 1/8 of the cell.
+  // Appends the samples of one cell at a level. Level 1: the crossings of its grid edges, and of lines that cut it into
+  // its pieces (cell_pieces.h). Level 2: also a point inside each arc on its faces, and the saddles of the surface in
+  // the cell. Levels 3, 4, 5: also the crossings of the axis-parallel lines at multiples of 1/2, 1/4, 1/8 of a piece.
   void append(const CellIndex& cell, int level, std::vector<LatticeSample>& samples) const;
 
  private:
-  void append_lines(const CellIndex& cell, int parts, std::vector<LatticeSample>& samples) const;
+  void append_lines(const CellIndex& cell, int parts_of_piece, std::vector<LatticeSample>& samples) const;
   void append_arcs(const CellIndex& cell, std::vector<LatticeSample>& samples) const;
   void append_saddles(const CellIndex& cell, std::vector<LatticeSample>& samples) const;
   [[nodiscard]] Vec3 arc_point(const FaceArc& arc) const;
@@ -43,6 +44,7 @@ class SampleLattice {
   const ScalarGrid& grid_;
   double isovalue_;
   const IsosurfaceTopology& topology_;
+  std::array<std::int32_t, 3> pieces_;  // of a cell
 };
 
 }  // namespace deliso

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
+#include <memory>
 
+#include "surface/repair/lattice/cell_pieces.h"
 #include "tests/support/surface_fields.h"
 #include "volume/trilinear_cell.h"
 
@@ -28,6 +31,10 @@ std::vector<std::unique_ptr<Scene>> scenes() {
   all.push_back(field_scene("gyroid", 9));
   all.push_back(field_scene("marschner_lobb", 9));
   for (std::uint64_t seed = 0; seed < 4; ++seed) all.push_back(noise_scene({4, 5, 3}, seed));
+  for (const Vec3& spacing : {Vec3{1, 1, 5}, Vec3{4, 1, 0.7}}) {
+    Rng rng(9);
+    all.push_back(std::make_unique<Scene>("flat", testing::noise_grid({4, 3, 4}, spacing, rng), 127.5));
+  }
   return all;
 }
 
@@ -85,7 +92,8 @@ TEST(SampleLattice, SamplesLieOnTheSurfaceInTheirCell) {
   }
 }
 
-// The samples of a level include those of the level below; those of level 1 are the crossings of the grid edges.
+// The samples of a level include those of the level below; those of level 1 are the crossings of the grid edges, and in
+// flat cells those of lines between them.
 TEST(SampleLattice, LevelsGrow) {
   for (const auto& scene : scenes()) {
     SCOPED_TRACE(scene->name);
@@ -99,13 +107,29 @@ TEST(SampleLattice, LevelsGrow) {
         for (const LatticeSample& sample : samples) now.emplace(sample.key, sample.point);
       });
       if (level == 1) {
-        EXPECT_EQ(now.size(), scene->topology.crossings.size());
+        const bool is_flat = scene->name == "flat";
+        EXPECT_GE(now.size(), (is_flat ? 2 : 1) * scene->topology.crossings.size());
+        EXPECT_TRUE(is_flat || now.size() == scene->topology.crossings.size());
       }
       // Lines at multiples of 1/2 pass through the cell only; grid edges are among them at every level.
       for (const auto& [key, point] : before) EXPECT_EQ(now.count(key), 1u) << "level " << level;
       before = std::move(now);
     }
   }
+}
+
+TEST(CellPieces, AreAboutAsLongAsTheSmallestSpacing) {
+  const auto pieces = [](const Dims& dims, const Vec3& spacing) {
+    Rng rng(1);
+    const Scene scene("flat", testing::noise_grid(dims, spacing, rng), 127.5);
+    return cell_pieces(*scene.isosurface);
+  };
+  using Pieces = std::array<std::int32_t, 3>;
+  EXPECT_EQ(pieces({3, 3, 3}, {1, 1, 1}), (Pieces{1, 1, 1}));
+  EXPECT_EQ(pieces({3, 3, 3}, {1, 1.5, 1.6}), (Pieces{1, 1, 2}));
+  EXPECT_EQ(pieces({3, 3, 3}, {0.2, 1, 2.6}), (Pieces{1, 4, 16}));
+  EXPECT_EQ(pieces({3, 3, 3}, {1, 1, 1000}), (Pieces{1, 1, 64}));
+  EXPECT_EQ(pieces({2, 2, 20000}, {1, 1, 1000}), (Pieces{1, 1, 4}));  // coordinates of 20 bits
 }
 
 }  // namespace
