@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "surface/repair/lattice/cell_pieces.h"
 #include "volume/filters/finer_grid.h"
 
 namespace deliso {
@@ -122,12 +121,6 @@ GridFactors factors_within(double max_distance, const Isosurface& isosurface) {
     const double parts = isosurface.step()[axis] * std::sqrt(3.0) / (kDiagonal * max_distance);
     factors[axis] = static_cast<std::int32_t>(std::ceil(parts));
   }
-  return factors;
-}
-
-GridFactors factors_of_flat_cells(const Isosurface& isosurface) {
-  GridFactors factors = cell_pieces(isosurface);
-  for (std::int32_t& factor : factors) factor += factor > 1 ? 1 : 0;
   return factors;
 }
 

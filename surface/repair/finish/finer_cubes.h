@@ -16,9 +16,6 @@ using GridFactors = std::array<std::int32_t, 3>;
 
 // Those with which triangles within a finer cell lie within `max_distance` of the isosurface: the diagonal is shorter.
 GridFactors factors_within(double max_distance, const Isosurface& isosurface);
-// Those with which cells are about as long as wide (cell_pieces.h); odd, so that a sample of integers need not equal an
-// isovalue halfway between two of them. All 1 where cells are not flat.
-GridFactors factors_of_flat_cells(const Isosurface& isosurface);
 
 // The meshes of these components in mesh space, with neighbours and pole heights of one voxel. The interpolant within a
 // part of a voxel cell is trilinear again, so samples of it on a grid that is finer by whole factors have the same

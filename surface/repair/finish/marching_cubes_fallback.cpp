@@ -10,6 +10,7 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/repair/finish/finer_cubes.h"
+#include "surface/repair/lattice/cell_pieces.h"
 #include "surface/restricted/poles.h"
 
 namespace deliso {
@@ -56,7 +57,7 @@ void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& compo
                  [&](std::uint32_t c) { return c < wanted.size() && wanted[c]; });
   };
   const ExactSurface& surface = cache.surface();
-  const ExactPolygonization finer = finer_cubes(components, surface, factors_of_flat_cells(surface.isosurface));
+  const ExactPolygonization finer = finer_cubes(components, surface, cell_pieces(surface.isosurface));
   append(finer, components);
   std::vector<bool> rest = components;
   for (const std::uint32_t c : finer.component) rest[c] = false;

@@ -14,8 +14,9 @@
 
 namespace deliso {
 
-// The number of pieces along each axis: a power of two, 64 at most, so that a piece is at most 1.5 times the smallest
-// spacing; and all lines of the lattice have coordinates in `kCoordinateBits`.
+// The number of pieces along each axis, 63 at most, so that a piece is at most 1.5 times the smallest spacing and all
+// lines of the lattice have coordinates of kCoordinateBits. It is odd: halfway between two samples of a mask, or of
+// integers, the interpolant often is the isovalue.
 std::array<std::int32_t, 3> cell_pieces(const Isosurface& isosurface);
 
 inline constexpr int kCoordinateBits = 20;  // of a line, in units of the lattice's finest part

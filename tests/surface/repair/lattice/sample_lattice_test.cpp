@@ -126,10 +126,10 @@ TEST(CellPieces, AreAboutAsLongAsTheSmallestSpacing) {
   };
   using Pieces = std::array<std::int32_t, 3>;
   EXPECT_EQ(pieces({3, 3, 3}, {1, 1, 1}), (Pieces{1, 1, 1}));
-  EXPECT_EQ(pieces({3, 3, 3}, {1, 1.5, 1.6}), (Pieces{1, 1, 2}));
-  EXPECT_EQ(pieces({3, 3, 3}, {0.2, 1, 2.6}), (Pieces{1, 4, 16}));
-  EXPECT_EQ(pieces({3, 3, 3}, {1, 1, 1000}), (Pieces{1, 1, 64}));
-  EXPECT_EQ(pieces({2, 2, 20000}, {1, 1, 1000}), (Pieces{1, 1, 4}));  // coordinates of 20 bits
+  EXPECT_EQ(pieces({3, 3, 3}, {1, 1.5, 1.6}), (Pieces{1, 1, 3}));
+  EXPECT_EQ(pieces({3, 3, 3}, {0.2, 1, 2.6}), (Pieces{1, 5, 9}));
+  EXPECT_EQ(pieces({3, 3, 3}, {1, 1, 1000}), (Pieces{1, 1, 63}));
+  EXPECT_EQ(pieces({2, 2, 20000}, {1, 1, 1000}), (Pieces{1, 1, 5}));  // coordinates of 20 bits
 }
 
 }  // namespace
