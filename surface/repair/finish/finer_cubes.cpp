@@ -127,9 +127,7 @@ GridFactors factors_within(double max_distance, const Isosurface& isosurface) {
 ExactPolygonization finer_cubes(const std::vector<bool>& components, const ExactSurface& surface,
                                 const GridFactors& factors) {
   ExactPolygonization all;
-  if (factors == GridFactors{1, 1, 1} || std::find(components.begin(), components.end(), true) == components.end()) {
-    return all;
-  }
+  if (std::find(components.begin(), components.end(), true) == components.end()) return all;
   const std::vector<SamplePart> parts = parts_around(surface);
   for (std::uint32_t c = 0; c < components.size(); ++c) {
     if (components[c]) append_cubes_of(c, parts[c], surface, factors, all);

@@ -21,7 +21,7 @@ GridFactors factors_within(double max_distance, const Isosurface& isosurface);
 // part of a voxel cell is trilinear again, so samples of it on a grid that is finer by whole factors have the same
 // isosurface, and marching cubes has the exact topology there. Other factors, a little larger, are taken where a sample
 // would equal the isovalue. Components are left out where the finer grid would be too large (2^25 samples), or where
-// the rounding of its samples gives another topology. Factors of one alone give nothing.
+// the rounding of its samples gives another topology.
 ExactPolygonization finer_cubes(const std::vector<bool>& components, const ExactSurface& surface,
                                 const GridFactors& factors);
 

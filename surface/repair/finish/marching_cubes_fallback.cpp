@@ -57,10 +57,12 @@ void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& compo
                  [&](std::uint32_t c) { return c < wanted.size() && wanted[c]; });
   };
   const ExactSurface& surface = cache.surface();
-  const ExactPolygonization finer = finer_cubes(components, surface, cell_pieces(surface.isosurface));
-  append(finer, components);
   std::vector<bool> rest = components;
-  for (const std::uint32_t c : finer.component) rest[c] = false;
+  if (const GridFactors pieces = cell_pieces(surface.isosurface); pieces != GridFactors{1, 1, 1}) {
+    const ExactPolygonization finer = finer_cubes(components, surface, pieces);
+    append(finer, components);
+    for (const std::uint32_t c : finer.component) rest[c] = false;
+  }
   if (std::find(rest.begin(), rest.end(), true) != rest.end()) append(cache.polygonized(), rest);
   raise_pole_heights(mesh, first, surface);
 }

@@ -91,9 +91,12 @@ TEST(FinerCubes, HaveNoNeedlesInFlatCells) {
   }
 }
 
-TEST(FinerCubes, OfCubesAreNone) {
-  const testing::Scene cubic("cubic", testing::sampled({4, 4, 4}, [](const Vec3& p) { return p.x; }), 1.5);
-  EXPECT_TRUE(finer_cubes({true}, cubic.surface(), {1, 1, 1}).mesh.triangles.empty());
+TEST(FinerCubes, WithFactorsOfOneAreTheCubesThemselves) {
+  Rng rng(9);
+  const testing::Scene scene("noise", testing::noise_grid({6, 6, 6}, {1, 1, 1}, rng), 127.5);
+  const std::vector<bool> all(scene.topology.components.size(), true);
+  const ExactPolygonization cubes = finer_cubes(all, scene.surface(), factors_within(3, *scene.isosurface));
+  EXPECT_EQ(cubes.mesh.triangles.size(), exact_polygonization(scene.surface()).mesh.triangles.size());
 }
 
 TEST(FinerCubes, OfAMaskInFlatCellsAreAllThere) {
