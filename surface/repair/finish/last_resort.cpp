@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "surface/certificate/finer_cubes.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/repair/finish/finer_cubes.h"
 #include "surface/repair/finish/foreign_vertices.h"
 
 namespace deliso {

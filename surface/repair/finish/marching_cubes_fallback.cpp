@@ -7,9 +7,9 @@
 
 #include "delaunay/base/check.h"
 #include "surface/certificate/component_assignment.h"
+#include "surface/certificate/finer_cubes.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/intersection/self_intersection.h"
-#include "surface/repair/finish/finer_cubes.h"
 #include "surface/repair/lattice/cell_pieces.h"
 #include "surface/restricted/poles.h"
 

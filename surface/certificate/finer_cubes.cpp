@@ -1,4 +1,4 @@
-#include "surface/repair/finish/finer_cubes.h"
+#include "surface/certificate/finer_cubes.h"
 
 #include <algorithm>
 #include <cmath>
