@@ -13,7 +13,7 @@
 namespace deliso {
 namespace {
 
-constexpr std::int32_t kSide = 14;
+constexpr std::int32_t kSide = 10;
 
 std::vector<double> noise(std::uint64_t seed) {
   Rng rng(seed);
