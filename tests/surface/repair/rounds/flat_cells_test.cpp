@@ -52,6 +52,18 @@ TEST(FlatCells, OfASmoothFieldAreRepairedByTheLattice) {
     expect_proven_without_needles({{kSide, kSide, kSide}, smoothed(noise(seed), 3), {1, 1, 6}}, false);
 }
 
+// Where the mesh has a thin slit on the box in two parts, Euler curves often part elsewhere or not at all: without a
+// look at the box these fields take 3, 2 and 2 rounds.
+TEST(FlatCells, AreLookedAtOnTheBoxWhereLoopsAreWrong) {
+  std::int64_t rounds = 0;
+  for (const std::uint64_t seed : {10u, 18u, 23u}) {
+    const MeshingResult result = mesh_isosurface({{kSide, kSide, kSide}, smoothed(noise(seed), 3), {1, 1, 6}}, 0.5, {});
+    EXPECT_TRUE(is_proven(result.certificate));
+    rounds += result.repair.rounds;
+  }
+  EXPECT_LE(rounds, 4);
+}
+
 TEST(FlatCells, OfNoiseAreTakenFromFinerCubes) {
   expect_proven_without_needles({{kSide, kSide, kSide}, noise(2), {1, 1, 6}}, true);
 }
