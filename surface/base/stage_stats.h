@@ -30,7 +30,7 @@ struct RepairStats : StageStats {
   // Accepted at the end although their piece has vertices of another component.
   std::int64_t components_mixed = 0;
   std::int64_t components_stray = 0;            // right after stray pieces were dropped
-  std::int64_t components_given_up = 0;         // because they would have got too many samples (sample_budget.h)
+  std::int64_t components_given_up = 0;         // because rounds do not pay in noise (sample_budget.h)
   std::int64_t components_polygonized = 0;      // taken from marching cubes at the end
   std::int64_t foreign_vertices_removed = 0;    // vertices removed from such components (foreign_vertices.h)
   std::int64_t inverted_umbrellas_removed = 0;  // vertices removed from the mesh at the end (inverted_umbrellas.h)

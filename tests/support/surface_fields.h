@@ -64,9 +64,9 @@ inline std::unique_ptr<Scene> field_scene(const std::string& name, std::int32_t 
                                  generate_field(name, size, seed), find_analytic_field(name).isovalue);
 }
 
-inline std::unique_ptr<Scene> noise_scene(const Dims& dims, std::uint64_t seed) {
+inline std::unique_ptr<Scene> noise_scene(const Dims& dims, std::uint64_t seed, const Vec3& spacing = {1, 1, 1}) {
   Rng rng(seed);
-  return std::make_unique<Scene>("noise seed " + std::to_string(seed), noise_grid(dims, {1, 1, 1}, rng), 127.5);
+  return std::make_unique<Scene>("noise seed " + std::to_string(seed), noise_grid(dims, spacing, rng), 127.5);
 }
 
 inline std::unique_ptr<Scene> wave_scene(const Dims& dims, const Vec3& spacing, std::uint64_t seed) {

@@ -11,7 +11,6 @@
 #include "surface/extract/pinch_separation.h"
 #include "surface/repair/diagnosis/defect_cells.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
-#include "surface/repair/rounds/sample_budget.h"
 #include "surface/restricted/poles.h"
 
 namespace deliso {
@@ -34,13 +33,13 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
                            RepairStats& stats, const RoundsOptions& options)
     : surface_(cache.surface()),
       stats_(stats),
-      may_give_up_(options.may_give_up),
       lattice_(surface_),
       cell_levels_(surface_.isosurface),
       round_(std::in_place, surface_, cell_levels_, std::move(restricted)),
       samples_(round_->restricted(), options.fixed),
       kept_(surface_.topology.components.size()),
       differences_(cache) {
+  if (options.may_give_up) budget_.emplace(surface_);
   round_->take_plain_signs();
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
@@ -50,27 +49,27 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
 }
 
 bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls) {
-  while (stats_.rounds < max_rounds && !kept_.is_done() && !controls.poll()) {
+  while (stats_.rounds < max_rounds && !controls.poll()) {
+    give_up();
+    if (kept_.is_done()) break;
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds + 1;
     const std::vector<IndexRanges>& boxes =
         differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
-    std::vector<CellName> cells =
-        defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(), kept_.done(),
-                      boxes, round != kRoundOfAllDefects});
-    if (!gives_up(cells)) mend_once(std::move(cells), controls);
+    mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
+                            kept_.done(), boxes, round != kRoundOfAllDefects}),
+              controls);
   }
   return false;
 }
 
-// Gives up the components that would get too many samples if these cells were refined. Whether there are any.
-bool RepairRounds::gives_up(const std::vector<CellName>& cells) {
-  if (!may_give_up_) return false;
-  const std::vector<std::uint32_t> over = components_over_budget(surface_, cell_levels_, cells, kept_.done());
+// Gives up the components whose samples are many more than their crossings.
+void RepairRounds::give_up() {
+  if (!budget_) return;
+  const std::vector<std::uint32_t> over = budget_->spend(round_->component_of_vertex(), kept_.done());
   for (const std::uint32_t c : over) kept_.give_up(c);
   stats_.components_given_up += std::ssize(over);
-  return !over.empty();
 }
 
 // Makes a round in which these cells are refined.

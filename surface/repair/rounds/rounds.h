@@ -19,6 +19,7 @@
 #include "surface/repair/lattice/samples.h"
 #include "surface/repair/rounds/component_selection.h"
 #include "surface/repair/rounds/round.h"
+#include "surface/repair/rounds/sample_budget.h"
 
 namespace deliso {
 
@@ -58,13 +59,12 @@ class RepairRounds {
 
  private:
   void mend_once(std::vector<CellName> cells, Controls& controls);
-  bool gives_up(const std::vector<CellName>& cells);
+  void give_up();
   void resample();
   void take_mesh();
 
   const ExactSurface& surface_;
   RepairStats& stats_;
-  bool may_give_up_;
   SampleLattice lattice_;
   CellLevels cell_levels_;
   std::optional<RepairRound> round_;
@@ -72,6 +72,7 @@ class RepairRounds {
   std::shared_ptr<MatchedMesh> mesh_;  // the latest mesh
   ComponentSelection kept_;
   EulerDifferences differences_;
+  std::optional<SampleBudget> budget_;  // none if no component may be given up
 };
 
 }  // namespace deliso

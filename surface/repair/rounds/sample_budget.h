@@ -1,12 +1,13 @@
-// When repair gives a component up: the lattice samples of its refined cells would be many more than its crossings.
+// When repair gives a component up: its samples of all rounds together are many more than its crossings.
 //
-// Where a few cells are wrong, a lattice there costs little and brings the topology about. In masks and noise nearly
-// all cells of a component are, each round refines all of them, and its samples grow fourfold from level to level.
-// Marching cubes has the exact topology with a vertex for each crossing; a mesh of many more samples costs more, and
-// RefineGeom makes more and worse triangles of it. (In flat cells both have several times as many, by the same pieces:
-// cell_pieces.h.) Without this, masks of 32^3 samples go all rounds, each of which costs more than the one before, and
-// end in marching cubes all the same. Where an error is stated nothing is given up: samples are needed there, and a
-// random mask of 10^3 at 0.05 voxels takes 20 times as long from marching cubes.
+// Marching cubes has the exact topology with a vertex for each crossing. Where a surface is smooth, stage 1 needs a
+// fraction of that, and rounds, of which each costs what its samples cost, are worth it. In masks and noise it takes as
+// many samples as there are crossings, or twice as many, most cells are wrong in some way, and rounds make as much
+// wrong as they mend: eight of them may end in marching cubes all the same. RefineGeom makes no more vertices of the
+// crossings then, and better triangles. So a component of twice as many samples as crossings is given up at once, one
+// of as many after a round, and one of a fifth has all eight. (In flat cells marching cubes takes a finer grid:
+// cell_pieces.h.) Where an error is stated nothing is given up: samples are needed there, and a random mask of 10^3 at
+// 0.05 voxels takes 20 times as long from marching cubes.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,19 @@
 #include <vector>
 
 #include "surface/base/exact_surface.h"
-#include "surface/repair/lattice/cell_levels.h"
 
 namespace deliso {
 
-// The exact components, of those not done, for which one level more in these cells would take too many samples,
-// ascending. `cells` may repeat names. The samples of a cell are estimated by its level.
-std::vector<std::uint32_t> components_over_budget(const ExactSurface& surface, const CellLevels& cell_levels,
-                                                  std::vector<CellName> cells, const std::vector<bool>& done);
+class SampleBudget {
+ public:
+  explicit SampleBudget(const ExactSurface& surface);
+
+  // Spends the samples before a round, given the exact component of each, or kNoComponent. Returns the components that
+  // have spent more than they had, of those not done, ascending.
+  std::vector<std::uint32_t> spend(std::span<const std::uint32_t> component_of_sample, const std::vector<bool>& done);
+
+ private:
+  std::vector<double> left_;  // of each exact component: samples
+};
 
 }  // namespace deliso
