@@ -195,10 +195,9 @@ void Pipeline::take_back_shape(const ShapeStats& before) {
 }
 
 // Finer cubes have slivers where the isosurface passes near a sample, and strips along closed walls that are nothing
-// when written. Their faults, and those of the mesh after the steps that better its angles, if it has no more then.
+// when written. Their faults after the steps that better their angles; as they were, if they had fewer then.
 MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
   merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh);
-  MeshFaults faults = faults_of(mesh);
   const ShapeStats shape_before = result_.shape;
   SurfaceMesh shaped = mesh;
   Observer* const observer = controls_.observer();
@@ -206,13 +205,16 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
   improve(shaped, parameters_.shape.rounds);
   controls_.set_observer(observer);
   merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
-  MeshFaults then = faults_of(shaped);
-  if (then.count() > faults.count()) {
-    take_back_shape(shape_before);
-    return faults;
+  MeshFaults faults = faults_of(shaped);
+  if (faults.count() > 0) {
+    MeshFaults unshaped = faults_of(mesh);
+    if (unshaped.count() < faults.count()) {
+      take_back_shape(shape_before);
+      return unshaped;
+    }
   }
   mesh = std::move(shaped);
-  return then;
+  return faults;
 }
 
 // Cubes a little too large leave a few triangles too far: steps bring these near. Smaller ones would have many times as

@@ -47,7 +47,6 @@ double TriangleHeights::of_placed(std::uint32_t triangle) {
   const Facing facing = facing_of(corners);
   if (!(facing.length > 0)) return std::numeric_limits<double>::infinity();
   const double reach = longest_edge(corners);
-  if (known_.size() <= triangle) known_.resize(patch_.triangle_count());
   Known& known = known_[triangle];
   if (known.corners != corners) {
     known = {corners, height_along(facing, facing.normal, reach), std::nullopt, std::nullopt};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "raycast/isosurface.h"
@@ -63,7 +64,7 @@ class TriangleHeights {
     std::optional<double> down_gradient;
     std::optional<std::array<NearHit, 2>> own_hits;
   };
-  std::vector<Known> known_;  // of each triangle
+  std::unordered_map<std::uint32_t, Known> known_;  // of triangles that were asked about: few of a large patch
   std::vector<Hit> hits_;
 };
 
