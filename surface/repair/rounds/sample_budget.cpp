@@ -1,6 +1,5 @@
 #include "surface/repair/rounds/sample_budget.h"
 
-#include <algorithm>
 #include <array>
 
 #include "surface/repair/lattice/cell_pieces.h"
@@ -9,9 +8,9 @@ namespace deliso {
 
 namespace {
 
-constexpr double kSamplesPerCrossing = 1.5;
-// So many are worth a try for any component.
-constexpr double kAlways = 4096;
+constexpr double kSamplesPerCrossing = 2;
+// So many more are worth a try, for all components together.
+constexpr double kMore = 4096;
 
 }  // namespace
 
@@ -23,7 +22,6 @@ SampleBudget::SampleBudget(const ExactSurface& surface) : left_(surface.topology
   for (const EdgeCrossing& crossing : surface.topology.crossings) {
     left_[crossing.component] += kSamplesPerCrossing * edges[crossing.axis];
   }
-  for (double& left : left_) left = std::max(left, kAlways);
 }
 
 std::vector<std::uint32_t> SampleBudget::spend(std::span<const std::uint32_t> component_of_sample,
@@ -31,11 +29,15 @@ std::vector<std::uint32_t> SampleBudget::spend(std::span<const std::uint32_t> co
   for (const std::uint32_t c : component_of_sample) {
     if (c < left_.size()) left_[c] -= 1;
   }
-  std::vector<std::uint32_t> spent;
+  std::vector<std::uint32_t> overdrawn;
+  double more = 0;
   for (std::uint32_t c = 0; c < left_.size(); ++c) {
-    if (!done[c] && left_[c] < 0) spent.push_back(c);
+    if (done[c] || left_[c] >= 0) continue;
+    overdrawn.push_back(c);
+    more -= left_[c];
   }
-  return spent;
+  if (more <= kMore) overdrawn.clear();
+  return overdrawn;
 }
 
 }  // namespace deliso

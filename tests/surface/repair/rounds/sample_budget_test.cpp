@@ -31,26 +31,45 @@ std::vector<std::uint32_t> samples_of_components(const IsosurfaceTopology& topol
   return component_of_sample;
 }
 
-// The number of rounds that the large component has.
+// The number of rounds that the components have.
 int rounds_with(const testing::Scene& scene, double share) {
   SampleBudget budget(scene.surface());
   const std::vector<bool> done(scene.topology.components.size(), false);
   const std::vector<std::uint32_t> samples = samples_of_components(scene.topology, share);
   for (int rounds = 0; rounds < 20; ++rounds) {
-    const std::vector<std::uint32_t> spent = budget.spend(samples, done);
-    if (spent.empty()) continue;
-    EXPECT_EQ(spent.size(), 1u);  // the small ones have enough for all rounds
-    return rounds;
+    if (!budget.spend(samples, done).empty()) return rounds;
   }
   return 20;
 }
 
 TEST(SampleBudget, LastsLongerTheFewerSamplesThereAre) {
   const auto scene = testing::noise_scene({20, 20, 20}, 3);
-  EXPECT_EQ(rounds_with(*scene, 2), 0);
-  EXPECT_EQ(rounds_with(*scene, 1), 1);
-  EXPECT_EQ(rounds_with(*scene, 0.6), 2);
-  EXPECT_EQ(rounds_with(*scene, 0.18), 8);
+  EXPECT_EQ(rounds_with(*scene, 2.5), 0);
+  EXPECT_EQ(rounds_with(*scene, 1.25), 1);
+  EXPECT_EQ(rounds_with(*scene, 0.8), 2);
+  EXPECT_EQ(rounds_with(*scene, 0.25), 9);
+}
+
+// What is granted beyond that is for all together, so thousands of tiny components do not have it each.
+TEST(SampleBudget, GrantsMoreOnce) {
+  const auto scene = testing::noise_scene({20, 20, 20}, 3);
+  const std::size_t count = scene->topology.components.size();
+  ASSERT_GT(count, 30u);
+  const std::vector<bool> done(count, false);
+  std::vector<std::uint32_t> samples(5000, 7), of_all;
+  std::vector<std::int64_t> crossings(count, 0);
+  for (const EdgeCrossing& crossing : scene->topology.crossings) ++crossings[crossing.component];
+  ASSERT_LT(crossings[7], 100);
+  EXPECT_EQ(SampleBudget(scene->surface()).spend(samples, done), std::vector<std::uint32_t>{7});
+  samples.resize(3000);
+  EXPECT_TRUE(SampleBudget(scene->surface()).spend(samples, done).empty());
+  std::vector<std::uint32_t> tiny;  // each has two hundred samples more than it would have to itself
+  for (std::uint32_t c = 0; c < count; ++c) {
+    if (crossings[c] > 100) continue;
+    tiny.push_back(c);
+    of_all.insert(of_all.end(), static_cast<std::size_t>(3 * crossings[c] + 200), c);
+  }
+  EXPECT_EQ(SampleBudget(scene->surface()).spend(of_all, done), tiny);
 }
 
 TEST(SampleBudget, IsOfNoInterestOnceAComponentIsDone) {
@@ -65,8 +84,8 @@ TEST(SampleBudget, IsOfNoInterestOnceAComponentIsDone) {
 TEST(SampleBudget, CountsTheCrossingsOfTheFinerGridInFlatCells) {
   const auto cubes = testing::noise_scene({20, 20, 20}, 3);
   const auto flat = testing::noise_scene({20, 20, 20}, 3, {1, 1, 5});
-  EXPECT_EQ(rounds_with(*cubes, 2), 0);
-  EXPECT_GE(rounds_with(*flat, 2), 2);
+  EXPECT_EQ(rounds_with(*cubes, 2.5), 0);
+  EXPECT_GE(rounds_with(*flat, 2.5), 2);
 }
 
 // With all its rounds the large component gets a lattice of many more samples, and comes from marching cubes, too.
