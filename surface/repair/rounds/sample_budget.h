@@ -24,7 +24,8 @@ class SampleBudget {
   explicit SampleBudget(const ExactSurface& surface);
 
   // Spends the samples before a round, given the exact component of each, or kNoComponent. Returns the components to
-  // give up, of those not done, ascending: all that have spent more than they had, once that is too much.
+  // give up, of those not done, ascending: all that have spent more than they had, once that exceeds what is granted
+  // beyond. One that has a right mesh among stray pieces may still be taken from there (component_selection.h).
   std::vector<std::uint32_t> spend(std::span<const std::uint32_t> component_of_sample, const std::vector<bool>& done);
 
  private:

@@ -74,9 +74,9 @@ TEST(Shape, CountsTheTrianglesThatItLeaves) {
                              [](const BadTriangle& a, const BadTriangle& b) { return a.sine < b.sine; }));
 }
 
-// A refinement leaves necks that the next one widens. Without turns the smallest angles were 26.2, 21.2 and 29.2.
+// A refinement leaves necks that the next one widens. Without turns the smallest angles were 26.2, 27.3 and 21.2.
 TEST(Shape, GoesOnInNecksAsLongAsItHelps) {
-  for (const std::uint64_t seed : {27U, 93U, 200U}) {
+  for (const std::uint64_t seed : {27U, 86U, 93U}) {
     MeshingOptions options;
     options.parameters.stage2.rho = 1;
     const MeshingResult result = mesh_isosurface(generate_field("noise", 9, seed), 127.02, options);
