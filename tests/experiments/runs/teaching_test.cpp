@@ -45,6 +45,20 @@ void expect_lost_components(const Json& table) {
   }
 }
 
+// Seconds, and shares of seconds, are the machine's: an answer may show them, and claims nothing of them.
+void expect_no_claim_of_time(const Experiment& experiment) {
+  for (const Answer& answer : experiment.answers) {
+    for (const Claim& claim : answer.holds) {
+      const std::string name = parse_figure_reference(claim.figure, experiment, experiment.name).metric;
+      const auto metric = std::find_if(experiment.metrics.begin(), experiment.metrics.end(),
+                                       [&](const Metric& each) { return each.name == name; });
+      ASSERT_NE(metric, experiment.metrics.end()) << name;
+      EXPECT_EQ(metric->value.find("seconds"), std::string::npos) << claim.figure;
+      EXPECT_EQ(metric->value.find("share_restricted"), std::string::npos) << claim.figure;
+    }
+  }
+}
+
 TEST(Teaching, EachExperimentAsksFirstAndItsAnswerHolds) {
   const std::vector<fs::path> files = teaching_experiments();
   EXPECT_EQ(files.size(), 8u);
@@ -52,6 +66,7 @@ TEST(Teaching, EachExperimentAsksFirstAndItsAnswerHolds) {
     SCOPED_TRACE(file);
     const Experiment experiment = read_experiment(file);
     EXPECT_NE(experiment.question.find('?'), std::string::npos);
+    expect_no_claim_of_time(experiment);
     const TemporaryFolder folder;
     const ProgramResult run = run_deliso({"run", file.string(), "--out", folder / "out"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
