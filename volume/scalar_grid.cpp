@@ -154,6 +154,7 @@ ScalarGrid padded(const ScalarGrid& grid, double value) {
 }
 
 double regular_isovalue(const ScalarGrid& grid, double isovalue) {
+  const double given = isovalue;
   const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const SampleArray<Sample>&) {
     return SideTest<Sample>(isovalue).never_equal();
   });
@@ -162,6 +163,12 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   while (near.equal) {
     // Lower it by 1 % of the gap. In a gap of few doubles this may round to nothing, so also try the middle of the gap.
     const bool has_lower = near.lower > -kInfinity;
+    if (!has_lower && isovalue < given) {
+      throw InputError(
+          "a sample equals the isovalue " + shortest_text(given) +
+          ", and from there down to the lowest sample every number is a sample: expected an isovalue above "
+          "it, or samples less what they have in common");
+    }
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
     if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
     for (const double fraction : {0.01, 0.5}) {

@@ -83,7 +83,7 @@ ScalarGrid padded(const ScalarGrid& grid, double value);
 // A regular isovalue: never equal to a sample. It is `isovalue` itself unless some sample equals it. Then it is lowered
 // by 1 % of the gap to the next lower sample value. If there is no lower sample, it is lowered by 1 % of the gap to the
 // next higher one; if all samples are equal, to the next lower double. When a gap is too narrow to hold a double, the
-// next gap below is taken.
+// next gap below is taken; throws InputError when none is left.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
 // A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same

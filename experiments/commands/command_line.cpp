@@ -138,6 +138,7 @@ void crop(Volume& volume, const SampleRegion& region) {
     volume.as_read.reset();
     if (volume.not_finite.count() > 0) volume.as_read = std::move(kept);
   }
+  volume.whole_origin = volume.grid.origin();
   volume.grid = cropped(volume.grid, region);
 }
 

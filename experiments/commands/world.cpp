@@ -84,7 +84,7 @@ World world_of(const Volume& volume, const WorldOptions& options) {
   const Placement placement = in_space(volume.placement, options.space);
   World world{placement.to_world, placement.space, placement.units, std::nullopt, placement.is_sheared()};
   if (!options.local_origin) return world;
-  world.local_origin = placement.to_world(volume.grid.origin());
+  world.local_origin = placement.to_world(volume.whole_origin.value_or(volume.grid.origin()));
   world.from_grid.offset = placement.to_world.offset - *world.local_origin;
   return world;
 }

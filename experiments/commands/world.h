@@ -24,7 +24,7 @@ void add_world_options(Command& command, WorldOptions& options);
 struct World {
   Affine from_grid;                  // from the grid's own coordinates
   std::string space, units;          // empty: unknown
-  std::optional<Vec3> local_origin;  // what was taken off: the point of the first sample
+  std::optional<Vec3> local_origin;  // what was taken off: the point of the whole volume's first sample
   bool is_sheared = false;
 };
 

@@ -54,13 +54,15 @@ IsosurfaceProbe::Place IsosurfaceProbe::place(const Vec3& p) const {
     cell[axis] = std::min(static_cast<std::int32_t>(x), last);
     result.uvw[axis] = x - cell[axis];
   }
+  // The isovalue is taken off here: samples a few units in the last place apart give no interpolant to take it off.
   result.corners = grid_.cell(cell[0], cell[1], cell[2]);
+  for (double& corner : result.corners) corner -= isovalue_;
   return result;
 }
 
 double IsosurfaceProbe::value(const Vec3& p) const {
   const Place at = place(p);
-  return trilinear_value(at.corners, at.uvw) - isovalue_;
+  return trilinear_value(at.corners, at.uvw);
 }
 
 Vec3 IsosurfaceProbe::gradient(const Vec3& p) const {

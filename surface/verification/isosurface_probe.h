@@ -57,7 +57,7 @@ class IsosurfaceProbe {
 
  private:
   struct Place {
-    CellCorners corners;
+    CellCorners corners;  // less the isovalue
     Vec3 uvw;
   };
   [[nodiscard]] Place place(const Vec3& p) const;

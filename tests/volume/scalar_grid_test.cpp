@@ -194,6 +194,8 @@ TEST(RegularIsovalue, WorksInGapsOfOneDoubleAndInConstantVolumes) {
   EXPECT_EQ(regular_isovalue(loose, c), b);
   const ScalarGrid constant({2, 2, 2}, std::vector<double>(8, 4.0));
   EXPECT_EQ(regular_isovalue(constant, 4), std::nextafter(4.0, 0.0));
+  const ScalarGrid full({2, 2, 2}, std::vector<double>{a, b, c, a, b, c, a, b});
+  EXPECT_THROW((void)regular_isovalue(full, c), InputError);
 }
 
 }  // namespace

@@ -104,8 +104,10 @@ class PointLookup {
     }
     at[axis] += static_cast<std::int32_t>(outward);
     const double beyond = grid_.at(at[0], at[1], at[2]) - isovalue_;
+    // Below 0, at a crease within rounding: where the wall meets the surface within. Above 1, or without a value: where
+    // no surface passes, as of any point of a mesh that lies elsewhere.
     const double height = value / (value - beyond);
-    return height > 0 ? height : 0;  // at a crease within rounding: where the wall meets the surface within
+    return height > 0 ? std::min(height, 1.0) : 0;
   }
   [[nodiscard]] double distance_to(std::uint32_t crossing) const {
     return squared_distance(crossing_position(grid_, topology_.crossings[crossing]), point_);

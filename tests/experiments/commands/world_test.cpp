@@ -253,6 +253,18 @@ TEST_F(WorldTest, TheVerificationTakesSpaceAndLocalOriginFromTheMesh) {
   EXPECT_EQ(run_deliso({"verify", folder_ / "n.ply", folder_ / "n.nrrd", "--isovalue", kIsovalue}).exit_code, 0);
 }
 
+// Local coordinates count from the first sample of the whole volume, also where a region is meshed.
+TEST_F(WorldTest, TheLocalOriginIsThatOfTheWholeVolume) {
+  write_file(folder_ / "a.nrrd", nrrd_file(kAskew));
+  for (const std::string name : {"m.ply", "m.vtp", "m.stl"}) {
+    mesh("a.nrrd", name, {"--region", "1:9,2:8,1:7", "--local-origin"}, false);
+    std::vector<std::string> arguments = {"verify", folder_ / name, folder_ / "a.nrrd", "--isovalue", kIsovalue};
+    if (name == "m.stl") arguments.insert(arguments.end(), {"--region", "1:9,2:8,1:7", "--local-origin"});
+    const ProgramResult verified = run_deliso(arguments);
+    EXPECT_EQ(verified.exit_code, 0) << name << verified.out << verified.err;
+  }
+}
+
 TEST_F(WorldTest, LengthsMayBeOfTheWorld) {
   write_file(folder_ / "a.nrrd", nrrd_file(kAskew));  // the smallest spacing is 1.25 mm
   for (const auto& [typed, voxels] :

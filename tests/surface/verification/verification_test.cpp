@@ -62,6 +62,21 @@ TEST(Verification, ProvesATorusInAStretchedVolumeSomewhereElse) {
 }
 
 // Heights at grid corners are exact, so the graph over the grid is on the isosurface and ends on the box.
+// Few numbers lie between such samples: values of the interpolant less the isovalue have digits that it has not itself.
+TEST(Verification, ProvesASurfaceOfSamplesThatHardlyDiffer) {
+  const auto ball = ball_field(kCenter, kRadius);
+  const auto integer = [&](const Vec3& p) { return 4 * std::round(4 * ball(p)); };
+  const ScalarGrid plain = sampled({17, 17, 17}, integer);
+  const TriangleMesh mesh = on_isosurface(testing::sphere_mesh(3, kRadius, kCenter), plain, -1);
+  for (const double base : {1.0, -4096.0, 1e6, 1e200}) {
+    const double unit = std::nextafter(std::abs(base), 2 * std::abs(base)) - std::abs(base);
+    const ScalarGrid grid = sampled({17, 17, 17}, [&](const Vec3& p) { return base + unit * integer(p); });
+    const Verification v = verify_mesh(mesh, grid, base - unit);
+    EXPECT_TRUE(v.proven) << base << (v.failures.empty() ? "" : v.failures[0]);
+    EXPECT_LT(v.residual.distance.max_voxels, 1e-9) << base;
+  }
+}
+
 TEST(Verification, ProvesASurfaceCutByTheBox) {
   const auto height = [](double x, double y) { return 4.3 + std::sin(0.5 * x) * std::cos(0.4 * y); };
   const ScalarGrid grid = sampled({9, 8, 10}, [&](const Vec3& p) { return height(p.x, p.y) - p.z; });

@@ -60,6 +60,26 @@ TEST(ComponentOf, APointOnAWallLiesOnTheSurfaceJustOutside) {
   EXPECT_GT(among_several, 30);
 }
 
+// Points of a mesh that lies elsewhere: on the plane of a wall, and beyond the box or where nothing passes.
+TEST(ComponentOf, APointOnTheWallOfNoSurfaceIsLookedUpWithinTheGrid) {
+  const ScalarGrid ball = test::sampled({8, 8, 8}, [](const Vec3& p) { return 2.5 - distance(p, {3.5, 3.5, 3.5}); });
+  for (const Inside inside : {Inside::kAbove, Inside::kBelow}) {
+    const ClosedGrid closed = closed_grid(ball, 0, inside);
+    const IsosurfaceTopology topology = exact_topology(closed.grid, closed.isovalue);
+    ASSERT_GT(topology.components.size(), 0u);
+    for (const double wall : {1.0, 8.0}) {
+      for (const double y : {-40.0, 0.0, 0.5, 1.0, 4.5, 8.0, 8.7, 9.0, 12.0}) {
+        for (const double z : {0.0, 1.0, 4.25, 9.0}) {
+          for (const Vec3& p : {Vec3{wall, y, z}, Vec3{y, wall, z}, Vec3{z, y, wall}}) {
+            const auto found = component_of(closed.grid, closed.isovalue, topology, p);
+            EXPECT_TRUE(!found || *found < topology.components.size()) << p.x << ' ' << p.y << ' ' << p.z;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ComponentBlocks, TellWhatALookupFinds) {
   Rng rng(37);
   const ScalarGrid grid = test::sampled({40, 33, 25}, [](const Vec3& p) {

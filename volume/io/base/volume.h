@@ -35,6 +35,8 @@ struct Volume {
   // one stands for NaN and -infinity, and the highest for +infinity.
   NotFiniteCounts not_finite{};
   std::optional<Samples> as_read{};
+  // Where the grid is a part of what was read: the origin of the whole, from which local coordinates count.
+  std::optional<Vec3> whole_origin{};
 };
 
 // Which of several values to read where a file has more than one.
