@@ -1,6 +1,8 @@
 #include "surface/shape/patch.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "surface/mesh/triangle_shape.h"
@@ -10,6 +12,33 @@ namespace deliso {
 namespace {
 
 constexpr std::size_t kUsualStar = 8;  // triangles; few vertices have more
+constexpr std::size_t kLongest = 512;  // star whose link is searched
+constexpr std::uint32_t kNoArc = 0xFFFFFFFFU;
+
+// What a triangle of a star has of the link.
+struct Arc {
+  std::uint32_t from, to, next;
+  bool is_entered;
+};
+
+// Finds the arc that follows each; false when two begin at the same vertex.
+bool join_arcs(std::span<Arc> arcs) {
+  using Start = std::pair<std::uint32_t, std::uint32_t>;  // vertex, arc
+  std::array<Start, kLongest> room;                       // NOLINT(cppcoreguidelines-pro-type-member-init)
+  const std::span starts(room.data(), arcs.size());
+  for (std::uint32_t i = 0; i < arcs.size(); ++i) starts[i] = {arcs[i].from, i};
+  std::sort(starts.begin(), starts.end());
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    if (starts[i].first == starts[i - 1].first) return false;
+  }
+  for (Arc& arc : arcs) {
+    const auto next = std::lower_bound(starts.begin(), starts.end(), Start{arc.to, 0});
+    if (next == starts.end() || next->first != arc.to) continue;
+    arc.next = next->second;
+    arcs[arc.next].is_entered = true;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -56,34 +85,21 @@ std::uint32_t Patch::across(std::uint32_t t, std::uint32_t a, std::uint32_t b) c
   return kNoVertex;
 }
 
-// Stars in flat cells have hundreds of triangles, so no arc of the link searches its next one.
+// Stars in flat cells have hundreds of triangles, so the arcs of the link are sorted by where they begin. All of it
+// lies on the stack: decimation has several threads search one patch.
 bool Patch::find_link(std::uint32_t v, VertexLink& link) const {
-  constexpr std::size_t kLongest = 512;
   const std::vector<std::uint32_t>& star = stars_[v];
   link.vertices.clear();
   link.triangles.clear();
   if (star.empty() || star.size() > kLongest) return false;
-  struct Arc {
-    std::uint32_t from, to, next;
-    bool is_entered;
-  };
   std::array<Arc, kLongest> room;  // NOLINT(cppcoreguidelines-pro-type-member-init): only as many as are used
   const std::span arcs(room.data(), star.size());
-  arc_from_.resize(points_.size(), kNoArc);
-  bool is_repeated = false;  // a vertex of the link
   for (std::uint32_t i = 0; i < star.size(); ++i) {
     const auto& corners = triangles_[star[i]];
     const std::size_t at = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
     arcs[i] = {corners[(at + 1) % 3], corners[(at + 2) % 3], kNoArc, false};
-    is_repeated = is_repeated || arc_from_[arcs[i].from] != kNoArc;
-    arc_from_[arcs[i].from] = i;
   }
-  for (Arc& arc : arcs) {
-    arc.next = arc_from_[arc.to];
-    if (arc.next != kNoArc) arcs[arc.next].is_entered = true;
-  }
-  for (const Arc& arc : arcs) arc_from_[arc.from] = kNoArc;
-  if (is_repeated) return false;
+  if (!join_arcs(arcs)) return false;
 
   const auto start = std::find_if(arcs.begin(), arcs.end(), [](const Arc& arc) { return !arc.is_entered; });
   link.is_closed = start == arcs.end();

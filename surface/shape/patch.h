@@ -68,7 +68,8 @@ class Patch {
 
   // The triangle across the edge from a to b of triangle t, if there is one.
   [[nodiscard]] std::uint32_t across(std::uint32_t t, std::uint32_t a, std::uint32_t b) const;
-  // The link of a vertex; false when its triangles are no single fan, or repeat a vertex.
+  // The link of a vertex; false when its triangles are no single fan, or repeat a vertex. Several threads may ask at the
+  // same time (but not is_whole()).
   bool find_link(std::uint32_t v, VertexLink& link) const;
 
   // The triangles of a quality below a bound.
@@ -100,8 +101,6 @@ class Patch {
   std::vector<std::uint8_t> is_removed_;
   TriangleHashGrid places_;
   std::vector<Applied> journal_;
-  static constexpr std::uint32_t kNoArc = 0xFFFFFFFFU;
-  mutable std::vector<std::uint32_t> arc_from_;  // of each vertex, only while a link is searched: its arc, else kNoArc
 };
 
 }  // namespace deliso

@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "delaunay/base/parallel.h"
 #include "delaunay/base/rng.h"
 #include "surface/mesh/triangle_shape.h"
 #include "tests/support/mesh_examples.h"
@@ -121,6 +122,27 @@ TEST(Patch, LinksAreThePathsAndCyclesAmongAllSetsOfArcs) {
   }
   EXPECT_GT(paths, 1000);
   EXPECT_GT(cycles, 50);
+}
+
+// As decimation asks, of neighbours at the same time.
+TEST(Patch, SeveralThreadsMaySearchLinks) {
+  const Example example(testing::sphere_mesh(1));
+  const auto vertices = static_cast<std::uint32_t>(example.patch.vertex_count());
+  std::vector<VertexLink> links(vertices);
+  for (std::uint32_t v = 0; v < vertices; ++v) ASSERT_TRUE(example.patch.find_link(v, links[v]));
+  std::array<int, 4> wrong{};
+  run_tasks(wrong.size(), static_cast<int>(wrong.size()), [&](std::size_t task) {
+    VertexLink link;
+    for (int turn = 0; turn < 3000; ++turn) {
+      for (std::uint32_t i = 0; i < vertices; ++i) {
+        const std::uint32_t v = task % 2 == 0 ? i : vertices - 1 - i;
+        const bool is_same = example.patch.find_link(v, link) && link.is_closed && link.vertices == links[v].vertices &&
+                             link.triangles == links[v].triangles;
+        wrong[task] += is_same ? 0 : 1;
+      }
+    }
+  });
+  for (const int count : wrong) EXPECT_EQ(count, 0);
 }
 
 TEST(Patch, StepsAreTakenBackInTurn) {
