@@ -73,6 +73,8 @@ void Pipeline::drop_components(SurfaceMesh& mesh) {
       const auto component = most_frequent(components_at(mesh, vertices_of(mesh, gone[piece]), *surface_));
       if (component) surface_->is_dropped[*component] = 1;
     }
+    const auto& is_dropped = surface_->is_dropped;
+    result_.dropped_components = std::count(is_dropped.begin(), is_dropped.end(), std::uint8_t{1});
     drop_triangles(mesh, is_gone);
     if (mesh.triangles.empty()) {
       throw InputError("components: all " + std::to_string(causes.size()) +

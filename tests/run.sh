@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every quick test. From any folder: tests/run.sh [PRESET ...]
 # Presets: release (default), and with every warning an error dev (the same), asan (address and undefined-behaviour
-# sanitizers), clang (clang++), tidy (clang++ and clang-tidy).
+# sanitizers), tsan (thread sanitizer, tests with several threads), clang (clang++), tidy (clang++ and clang-tidy).
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -114,7 +114,8 @@ void apply_size_options(const SizeOptions& options, const Volume* volume, Parame
 
 std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result) {
   std::vector<std::string> lines;
-  if (!result.dropped.empty()) lines.push_back(std::string(kDropped) + std::to_string(result.dropped.size()));
+  const std::int64_t dropped = result.dropped_components;
+  if (dropped > 0) lines.push_back(std::string(kDropped) + std::to_string(dropped));
   const SampleRegion region = region_of(parameters.region);
   if (!region.is_all()) lines.push_back(std::string(kRegion) + region_text(region));
   return lines;

@@ -88,6 +88,18 @@ TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
   EXPECT_EQ(verify({"--dropped", "1"}, "m.stl").exit_code, 0);
 }
 
+// Without repair a component may be in several pieces: the file tells of components, which verify counts.
+TEST_F(SizeOptionsTest, PiecesLeftOutAreToldAsTheComponentsThatTheyLieOn) {
+  const std::string volume = std::string(DELISO_SOURCE_DIR) + "/tests/regression/dropped_pieces.nrrd";
+  const ProgramResult made =
+      run_deliso({"mesh", volume, "--isovalue=-0.05", "--set", "repair.max_rounds=0", "--keep-largest", "1", "-o",
+                  folder_ / "p.off", "--report", folder_ / "p.json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_GT(json("p.json")["dropped"].size(), 36u);
+  const ProgramResult verified = run_deliso({"verify", folder_ / "p.off", volume, "--isovalue=-0.05"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+}
+
 TEST_F(SizeOptionsTest, RegionsKeepTheirPlaceInEveryCommand) {
   EXPECT_EQ(mesh({"--region", "14:,:,:"}).exit_code, 0);
   EXPECT_EQ(json("r.json")["components"], 1);
