@@ -56,9 +56,8 @@ struct MeshingResult {
   RefineStats refine;
   ShapeStats shape;
   DecimationStats decimation;
-  std::vector<DroppedPiece> dropped;  // pieces left out, the largest first; their places are in the world
-  std::int64_t dropped_components =
-      0;  // components of the isosurface that they lie on: fewer, where some are in pieces
+  std::vector<DroppedPiece> dropped;    // pieces left out, the largest first; their places are in the world
+  std::int64_t dropped_components = 0;  // of the isosurface, on which they lie; fewer where one is in several pieces
   Certificate certificate;
   double longest_edge = 0;       // of the mesh, in smallest spacings
   double promised_distance = 1;  // of mesh and isosurface, in smallest spacings: that of the parameters, or a larger
