@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
+#include <limits>
 #include <utility>
 
-#include "delaunay/base/disjoint_sets.h"
 #include "surface/base/parallel_blocks.h"
 
 namespace deliso {
 
 namespace {
-
-// A tiny triangle may be between larger ones (mesh-space units).
-constexpr double kLeastReach = 2;
 
 struct PatchTriangle {
   std::uint32_t patch, triangle;
@@ -24,52 +19,8 @@ struct PatchCrossing {
   Vec3 position;
 };
 
-// The boxes around bad triangles, and which patch each belongs to. Bad triangles of one small cube share a box: where
-// they crowd, as in masks of noise, boxes of their own would be as many as triangles, all over each other.
-struct Surroundings {
-  BoxSet boxes;
-  std::vector<std::uint32_t> box_of;    // of each bad triangle
-  std::vector<std::uint32_t> patch_of;  // of each box
-
-  Surroundings(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) {
-    for (const Box3& box : shared_boxes(mesh, bad, reach)) boxes.add(box);
-    const auto count = static_cast<std::uint32_t>(boxes.boxes().size());
-    DisjointSets groups(count);
-    std::vector<std::uint32_t> near;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      boxes.for_each_meeting(boxes.boxes()[i], near, [&](std::uint32_t j) { groups.unite(i, j); });
-    }
-    std::uint32_t patches = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t first = groups.find(i);  // not above i
-      patch_of.push_back(first == i ? patches++ : patch_of[first]);
-    }
-  }
-
- private:
-  std::vector<Box3> shared_boxes(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach) {
-    constexpr double kCube = 1;  // mesh-space units
-    std::map<std::array<double, 3>, std::uint32_t> box_at;
-    std::vector<Box3> shared;
-    for (const std::uint32_t t : bad) {
-      const double beyond = std::max(kLeastReach, reach * std::sqrt(squared_longest_edge(mesh, t)));
-      const Vec3 margin{beyond, beyond, beyond};
-      Box3 box = deliso::box_of(mesh, t);
-      const Vec3 cube = box.low / kCube;
-      box = {box.low - margin, box.high + margin};
-      const auto [at, is_new] = box_at.try_emplace({std::floor(cube.x), std::floor(cube.y), std::floor(cube.z)},
-                                                   static_cast<std::uint32_t>(shared.size()));
-      box_of.push_back(at->second);
-      if (is_new) shared.emplace_back();
-      shared[at->second].extend(box.low);
-      shared[at->second].extend(box.high);
-    }
-    return shared;
-  }
-};
-
-std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const Surroundings& around, const BoxMap& map,
-                                                int threads) {
+std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const PatchBoxes::Pass& around,
+                                                const BoxMap& map, int threads) {
   const auto append = [&](std::size_t t, std::vector<PatchTriangle>& found) {
     const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
     const Vec3 size = box.size();
@@ -91,7 +42,7 @@ std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const S
   return collect_in_blocks<PatchTriangle>(mesh.triangles.size(), threads, append);
 }
 
-std::vector<PatchCrossing> crossings_of_patches(const ExactSurface& surface, const Surroundings& around,
+std::vector<PatchCrossing> crossings_of_patches(const ExactSurface& surface, const PatchBoxes::Pass& around,
                                                 const BoxMap& map) {
   const auto append = [&](std::size_t c, std::vector<PatchCrossing>& found) {
     const Vec3 p = surface.position(surface.topology.crossings[c]);
@@ -106,9 +57,9 @@ std::vector<PatchCrossing> crossings_of_patches(const ExactSurface& surface, con
 
 }  // namespace
 
-std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
-                                    const ExactSurface& surface) {
-  const Surroundings around(mesh, bad, reach);
+std::vector<PatchPlan> plan_pass(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, const PatchBoxes& boxes,
+                                 std::size_t pass, const ExactSurface& surface) {
+  const PatchBoxes::Pass& around = boxes.passes()[pass];
   const BoxMap map(around.boxes.boxes());
   std::vector<PatchPlan> plans;
   for (std::uint32_t i = 0; i < around.patch_of.size(); ++i) {
@@ -116,12 +67,21 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
     if (patch == plans.size()) plans.emplace_back();
     plans[patch].room.add(around.boxes.boxes()[i]);
   }
-  for (std::size_t i = 0; i < bad.size(); ++i) plans[around.patch_of[around.box_of[i]]].bad.push_back(bad[i]);
+  for (const std::uint32_t t : bad) {
+    if (const auto box = boxes.box_of(mesh, t, pass)) plans[around.patch_of[*box]].bad.push_back(t);
+  }
   for (const auto& [patch, t] : triangles_of_patches(mesh, around, map, surface.threads)) {
     plans[patch].triangles.push_back(t);
   }
   for (const auto& [patch, p] : crossings_of_patches(surface, around, map)) plans[patch].crossings.push_back(p);
   return plans;
+}
+
+std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
+                                    const ExactSurface& surface) {
+  if (bad.empty()) return {};
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+  return plan_pass(mesh, bad, PatchBoxes(mesh, bad, reach, kAny), 0, surface);
 }
 
 double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {

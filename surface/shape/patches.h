@@ -12,6 +12,7 @@
 #include "surface/mesh/surface_mesh.h"
 #include "surface/shape/box_set.h"
 #include "surface/shape/patch.h"
+#include "surface/shape/patch_boxes.h"
 #include "surface/shape/shape_options.h"
 
 namespace deliso {
@@ -23,8 +24,11 @@ struct PatchPlan {
   std::vector<Vec3> crossings;           // of the isosurface with edges of the grid, in the boxes
 };
 
-// One patch for all bad triangles whose boxes overlap one after the other. A box reaches `reach` longest edges beyond
-// its triangles, those that begin in one voxel, and at least two voxels. The same for any number of threads.
+// The patches of a pass: `bad` are the bad triangles of the mesh as earlier passes have left it. The same for any
+// number of threads.
+std::vector<PatchPlan> plan_pass(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, const PatchBoxes& boxes,
+                                 std::size_t pass, const ExactSurface& surface);
+// One patch for all bad triangles whose boxes, with this reach, overlap one after the other, however many.
 std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach,
                                     const ExactSurface& surface);
 

@@ -1,6 +1,7 @@
 #include "surface/shape/shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -18,6 +19,7 @@ constexpr double kReach = 3;         // of the surroundings of a bad triangle, i
 constexpr int kMostDepth = 3;        // of steps that are tried together
 constexpr double kMostFreedom = 16;  // to leave the isosurface (patch_improvement.h)
 constexpr std::size_t kMostWorst = 10;
+constexpr std::size_t kMostBoxes = 1000;  // of a patch that is worked on as a whole
 
 std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, int threads) {
   return collect_in_blocks<std::uint32_t>(
@@ -29,12 +31,16 @@ std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, i
       });
 }
 
-void count_left(const NumberedPatch& patch, ShapeStats& stats) {
-  for (const std::uint32_t t : patch.bad) {
-    const auto [a, b, c] = patch.patch.corner_points(t);
-    ++stats.bad_after;
-    stats.worst.push_back({patch.patch.quality(t), (a + b + c) / 3});
+void count_left(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, ShapeStats& stats) {
+  stats.bad_after = static_cast<std::int64_t>(bad.size());
+  stats.worst.clear();
+  for (const std::uint32_t t : bad) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    stats.worst.push_back(
+        {sine_of_least_angle(corners[0], corners[1], corners[2]), (corners[0] + corners[1] + corners[2]) / 3});
   }
+  stats.keep_worst(kMostWorst);
 }
 
 // Steps and a refinement in turn, with all freedom, until a refinement would begin with the mesh of the last one, of
@@ -79,21 +85,20 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats) {
   const double goal = std::sin(options.min_angle);
-  const std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
+  std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
   stats.bad_before += static_cast<std::int64_t>(bad.size());
-  stats.bad_after = 0;
-  stats.worst.clear();
-  if (bad.empty() || controls.poll()) return;
-  controls.report("shape", mesh.points.size(), bad.size());
-  const std::vector<PatchPlan> plans = plan_patches(mesh, bad, kReach, surface);
-  work_in_patches(mesh, plans, surface.threads, stats,
-                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
-                    PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
-                                                 controls.for_part(1, mesh.points.size()), part);
-                    improve_patch(patch, improvement, goal, options.rounds);
-                    count_left(patch, part);
-                  });
-  stats.keep_worst(kMostWorst);
+  const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
+  for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
+    controls.report("shape", mesh.points.size(), bad.size());
+    work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats,
+                    [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                      PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
+                                                   controls.for_part(1, mesh.points.size()), part);
+                      improve_patch(patch, improvement, goal, options.rounds);
+                    });
+    bad = bad_triangles(mesh, goal, surface.threads);
+  }
+  count_left(mesh, bad, stats);
   controls.poll();
 }
 

@@ -53,10 +53,8 @@ struct ShapeStats : StageStats {
   std::int64_t pairs = 0;  // of steps that only together were an improvement
   SearchCounters search;
 
-  // Adds the counters of a patch.
+  // Adds the counters of steps and searches of a patch.
   void add(const ShapeStats& part) {
-    bad_after += part.bad_after;
-    worst.insert(worst.end(), part.worst.begin(), part.worst.end());
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += part.steps[i];
     pairs += part.pairs;
     search += part.search;

@@ -95,6 +95,24 @@ TEST(Shape, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Where bad triangles crowd in more than a thousand voxels, they are worked on in several passes, by blocks.
+TEST(Shape, IsTheSameForAnyNumberOfThreadsInSeveralPasses) {
+  Rng rng(15);
+  const ScalarGrid grid = testing::sampled({110, 8, 5}, [&](const Vec3&) { return std::floor(256 * rng.uniform()); });
+  MeshingOptions options;
+  options.parameters.shape.min_angle = 25;
+  options.parameters.shape.rounds = 1;
+  options.threads = 1;
+  const MeshingResult one = mesh_isosurface(grid, 127.5, options);
+  EXPECT_GT(one.shape.bad_before, 2500);
+  EXPECT_LT(one.shape.bad_after, one.shape.bad_before * 2 / 3);
+  EXPECT_TRUE(is_proven(one.certificate));
+  options.threads = 3;
+  const MeshingResult several = mesh_isosurface(grid, 127.5, options);
+  EXPECT_EQ(one.mesh.points, several.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, several.mesh.triangles);
+}
+
 // A smooth ball has no triangle to improve: the stage must leave it alone.
 TEST(Shape, LeavesGoodMeshesAlone) {
   const ScalarGrid grid = testing::sampled({20, 20, 20}, testing::ball_field({9.3, 9.6, 9.4}, 6));
