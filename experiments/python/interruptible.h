@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -41,6 +42,12 @@ inline std::optional<py::error_already_set> look_for_signals(int& interrupts, st
   stop = true;
   if (raised.matches(PyExc_KeyboardInterrupt) && ++interrupts == 1) return std::nullopt;
   return raised;
+}
+
+// False of Python or of numpy; None is not.
+inline bool is_false(const py::object& answer) {
+  const std::string_view type = Py_TYPE(answer.ptr())->tp_name;
+  return (type == "bool" || type == "numpy.bool_" || type == "numpy.bool") && PyObject_IsTrue(answer.ptr()) == 0;
 }
 
 // Calls work(progress, stop) and returns what it returns. After a first Ctrl-C it is asked to stop. A second one leaves
@@ -87,7 +94,7 @@ Result run_interruptible(Work work, const py::object& progress, const py::object
     }
     if (progress.is_none() || !news || raised || run->stop) continue;
     try {
-      if (progress(news->first, news->second).is(py::bool_(false))) run->stop = true;
+      if (is_false(progress(news->first, news->second))) run->stop = true;
     } catch (py::error_already_set& error) {
       run->stop = true;
       // Ctrl-C within the callback is a Ctrl-C, too.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -46,6 +47,14 @@ VolumeView view_of_array(const py::array& array, const Rows& affine) {
   return view;
 }
 
+// A number too large for any parameter as its digits, which the parameter refuses.
+ParameterInput whole_number(const py::int_& value) {
+  int overflow = 0;
+  const std::int64_t number = PyLong_AsLongLongAndOverflow(value.ptr(), &overflow);
+  if (overflow == 0) return number;
+  return py::repr(value).cast<std::string>();
+}
+
 ParameterSet parameter_set(const py::dict& named) {
   ParameterSet set;
   for (const auto& [name, value] : named) {
@@ -58,7 +67,7 @@ ParameterSet parameter_set(const py::dict& named) {
     } else if (py::isinstance<py::str>(value)) {
       input = value.cast<std::string>();
     } else if (PyIndex_Check(value.ptr()) != 0) {
-      input = py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>();
+      input = whole_number(py::int_(py::reinterpret_borrow<py::object>(value)));
     } else if (PyNumber_Check(value.ptr()) != 0) {
       input = py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
     } else {
@@ -130,15 +139,15 @@ template <class Report, class Call>
 std::string report_of(Call call, const py::object& progress, const py::object& kept) {
   int interrupts = 0;
   try {
-    return run_interruptible<Report>([call = std::move(call)](const ProgressCallback& tell,
-                                                              std::atomic<bool>& /*stop*/) { return call(tell); },
-                                     progress, kept, interrupts)
-        .json;
+    const Report report = run_interruptible<Report>(
+        [call = std::move(call)](const ProgressCallback& tell, std::atomic<bool>& /*stop*/) { return call(tell); },
+        progress, kept, interrupts);
+    if (interrupts == 0) return report.json;  // else Ctrl-C came too late to stop anything
   } catch (const Error& error) {
     if (error.kind() != Error::Kind::kStopped || interrupts == 0) throw;
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw py::error_already_set();
   }
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
 }
 
 std::string verify_array(const Vertices& vertices, const Triangles& triangles, const py::array& array, double isovalue,
@@ -182,10 +191,10 @@ std::string info_of_array(const py::array& array) {
 }
 
 // The file's samples, which the array keeps, and the rows of the affine map.
-py::tuple read_volume_file(const std::string& path) {
+py::tuple read_volume_file(const std::string& path, std::optional<std::uint64_t> channel, const std::string& name) {
   const LoadedVolume volume = [&] {
     const py::gil_scoped_release unlocked;
-    return load_volume(path);
+    return load_volume(path, channel, name);
   }();
   const std::map<ScalarType, const char*> names = {
       {ScalarType::kUint8, "u1"}, {ScalarType::kInt8, "i1"},    {ScalarType::kUint16, "u2"}, {ScalarType::kInt16, "i2"},

@@ -1,6 +1,7 @@
 #include "surface/library/call.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <type_traits>
 #include <variant>
@@ -9,6 +10,7 @@
 #include "surface/base/parameter_value.h"
 #include "surface/base/progress_share.h"
 #include "surface/library/json_tree.h"
+#include "surface/mesh/mesh_topology.h"
 
 namespace deliso {
 namespace {
@@ -20,8 +22,11 @@ template <class Value>
 std::string value_text(const Value& value) {
   return std::visit(
       [](const auto& held) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, std::monostate>) {
           return JsonTree().text();
+        } else if constexpr (std::is_same_v<Held, double>) {
+          return std::isfinite(held) ? JsonTree(held).text() : shortest_text(held);  // JSON has no such numbers
         } else {
           return JsonTree(held).text();
         }
@@ -106,6 +111,7 @@ TriangleMesh engine_mesh(const Mesh& mesh) {
                      shortest_text(y) + ", " + shortest_text(z) + "), expected finite numbers");
   }
   own.triangles = mesh.triangles;
+  check_triangles(own);
   return own;
 }
 

@@ -104,6 +104,10 @@ VerifyReport verify(const Mesh& mesh, const VolumeView& volume, double isovalue,
     const MeshedField field =
         field_of(grid_to_judge(placed, parameters), isovalue, parameters, thread_count(options.threads));
     if (!(options.max_distance >= 0)) throw InputError("max_distance: expected a number >= 0");
+    if (options.dropped_components < 0) {
+      throw InputError("dropped_components: expected a number >= 0, found " +
+                       std::to_string(options.dropped_components));
+    }
     const Promise promise{
         .max_distance = options.max_distance > 0 ? options.max_distance : promised_distance(parameters),
         .dropped_components = options.dropped_components};

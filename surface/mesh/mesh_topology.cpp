@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 
 #include "delaunay/base/check.h"
@@ -237,6 +238,13 @@ std::size_t first_bad_triangle(const TriangleMesh& mesh) {
   const auto bad = [&](const auto& t) { return std::max({t[0], t[1], t[2]}) >= mesh.points.size(); };
   return static_cast<std::size_t>(std::find_if(mesh.triangles.begin(), mesh.triangles.end(), bad) -
                                   mesh.triangles.begin());
+}
+
+void check_triangles(const TriangleMesh& mesh) {
+  const std::size_t bad = first_bad_triangle(mesh);
+  if (bad == mesh.triangles.size()) return;
+  throw InputError("triangle " + std::to_string(bad) + " of the mesh names a vertex that is not there; it has " +
+                   std::to_string(mesh.points.size()) + " vertices");
 }
 
 }  // namespace deliso

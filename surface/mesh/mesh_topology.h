@@ -57,5 +57,7 @@ MeshTopology mesh_topology(std::size_t vertices, std::span<const std::array<std:
 
 // The first triangle that names a vertex out of range; mesh.triangles.size() when there is none.
 std::size_t first_bad_triangle(const TriangleMesh& mesh);
+// Throws InputError when there is one.
+void check_triangles(const TriangleMesh& mesh);
 
 }  // namespace deliso

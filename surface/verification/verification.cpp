@@ -189,10 +189,7 @@ PromiseFigures figures_of(const Verification& v, const DistanceCounts& counts) {
 }
 
 void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue) {
-  if (const std::size_t bad = first_bad_triangle(mesh); bad < mesh.triangles.size()) {
-    throw InputError("triangle " + std::to_string(bad) + " of the mesh names a vertex that is not there; it has " +
-                     std::to_string(mesh.points.size()) + " vertices");
-  }
+  check_triangles(mesh);
   const auto [lowest, highest] = grid.range();
   if (!(lowest <= isovalue && isovalue <= highest)) {
     throw InputError("the isovalue is " + std::to_string(isovalue) +

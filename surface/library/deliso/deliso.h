@@ -170,7 +170,9 @@ class ParameterSet {
     } else if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, ParameterInput>) {
       set_value(name, value);
     } else if constexpr (std::is_integral_v<Value>) {
-      set_value(name, static_cast<std::int64_t>(value));
+      const auto number = static_cast<std::int64_t>(value);
+      const bool is_too_large = std::is_unsigned_v<Value> && number < 0;
+      set_value(name, is_too_large ? ParameterInput(static_cast<double>(value)) : ParameterInput(number));
     } else if constexpr (std::is_floating_point_v<Value>) {
       set_value(name, static_cast<double>(value));
     } else {

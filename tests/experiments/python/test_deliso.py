@@ -50,7 +50,9 @@ class Meshes(unittest.TestCase):
             self.assertTrue(deliso.verify(vertices, triangles, reference, ISOVALUE)["proven"])
             for axis in range(3):
                 self.assertGreater(vertices[:, axis].min(), low[axis])
-        self.assertTrue(deliso.mesh(two_balls()[:, :, :17], ISOVALUE).report["volume"]["copied_samples"])
+        foreign = two_balls().astype(two_balls().dtype.newbyteorder())
+        for copied in (two_balls()[:, :, :17], foreign, two_balls().tolist()):
+            self.assertTrue(deliso.mesh(copied, ISOVALUE).report["volume"]["copied_samples"])
 
     def test_every_dtype(self):
         expected = deliso.mesh(two_balls(), ISOVALUE)
@@ -121,6 +123,19 @@ class SecondOpinions(unittest.TestCase):
         found = deliso.topology(two_balls(), ISOVALUE)
         self.assertEqual((found["components"], found["euler_characteristic"], found["boundary_loops"]), (1, 2, 0))
 
+    def test_topology_is_that_of_the_field_with_its_spacing(self):
+        # Smoothing by 1.2 of the smallest spacing reaches less far along a coarse axis.
+        array = numpy.zeros((12, 12, 12))
+        array[5, 5, 2:10:2] = 1
+        found = []
+        for spacing in ((1, 1, 1), (1, 1, 4)):
+            exact = deliso.topology(array, 0.06, spacing=spacing, field_smooth=0.8)
+            made = deliso.mesh(array, 0.06, spacing=spacing, field_smooth=0.8).report
+            self.assertEqual(made["verdict"], "proven")
+            self.assertEqual(exact["components"], made["components"])
+            found.append(exact["components"])
+        self.assertEqual(found, [1, 4])
+
     def test_info(self):
         array = two_balls()
         array[3, 2, 1] = numpy.nan
@@ -151,6 +166,19 @@ class Mistakes(unittest.TestCase):
         self.expect("names the vertex 9", lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1, 9]], array, 1))
         self.expect("shape (n, 3)", lambda: deliso.verify(numpy.zeros((3, 2)), [[0, 1, 2]], array, 1))
         self.expect("whole numbers", lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1.5, 2]], array, 1))
+        for wrong in (-1, 1.5, "one", None, 2**64):
+            self.expect("seed: expected a whole number", lambda: deliso.mesh(array, 1, seed=wrong))
+            self.expect("threads: expected a whole number", lambda: deliso.topology(array, 1, threads=wrong))
+            self.expect("dropped_components: expected a whole number",
+                        lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1, 2]], array, 1, dropped_components=wrong))
+        for wrong in (None, [1], 10**400):
+            self.expect("isovalue: expected a number", lambda: deliso.mesh(array, wrong))
+        self.expect("found \"1180591620717411303424\"", lambda: deliso.mesh(array, 1, shape_rounds=2**70))
+        self.expect("found nan", lambda: deliso.mesh(array, 1, stage2_rho=numpy.nan))
+        self.expect("three lengths", lambda: deliso.mesh(array, 1, spacing=[[1], [1], [1]]))
+        self.expect("masked", lambda: deliso.mesh(numpy.ma.masked_greater(array, 50), 1))
+        # One number for all samples; its memory holds no others.
+        self.expect("the data's range is 7 to 7", lambda: deliso.mesh(numpy.broadcast_to(numpy.float64(7), (9, 9, 9)), 7))
         array[3, 2, 1] = numpy.nan
         self.expect("sample (3, 2, 1) is NaN", lambda: deliso.mesh(array, 1))
         self.expect("none.nrrd", lambda: deliso.load_volume("none.nrrd"))
@@ -170,6 +198,8 @@ class Interruptions(unittest.TestCase):
         self.assertEqual(fractions, sorted(fractions))
         vertices, triangles, report = self.long_run(lambda stage, fraction: stage != "refine")
         self.assertEqual((report["verdict"], report["stopped_early"]), ("stopped", True))
+        report = self.long_run(lambda stage, fraction: numpy.bool_(stage != "refine")).report
+        self.assertEqual(report["verdict"], "stopped")
         self.assertGreater(len(triangles), 0)
         self.assertLess(triangles.max(), len(vertices))
 

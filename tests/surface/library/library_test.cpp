@@ -328,6 +328,15 @@ TEST(Library, FilesKeepVolumesAndMeshes) {
   const Mesh made = mesh(volume.view, kIsovalue).mesh;
   save_mesh(made, folder / "mesh.ply");
   expect_equal(load_mesh(folder / "mesh.ply"), made);
+  Mesh cut = made;
+  cut.vertices.resize(3);
+  cut.triangles = {{0, 1, 2}, {0, 1, 3}};
+  for (const char* ending : {".glb", ".mesh", ".msh", ".stl", ".ply", ".off", ".obj", ".vtk", ".vtp", ".smesh"}) {
+    const std::filesystem::path path = folder / (std::string("cut") + ending);
+    EXPECT_NE(error_of([&] { save_mesh(cut, path); }).find("triangle 1 of the mesh names a vertex that is not there"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
   EXPECT_NE(error_of([&] { save_mesh(made, folder / "mesh.txt"); }).find("mesh.txt"), std::string::npos);
   EXPECT_NE(error_of([&] { load_volume(folder / "none.nrrd"); }).find("none.nrrd"), std::string::npos);
 }

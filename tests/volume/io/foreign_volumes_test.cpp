@@ -51,6 +51,23 @@ void expect_as_written(const std::filesystem::path& folder) {
 
 TEST(ForeignVolumes, AreReadAsTheirToolsReadThem) { expect_as_written(kForeign); }
 
+// Some programs write a sign into a voxel's size. It turned the axis round.
+TEST(ForeignVolumes, ASignInANiftiVoxelSizeMirrorsNothing) {
+  constexpr std::size_t kSizes = 76;  // pixdim: floats, beginning with that of the mirrored axis
+  for (const std::string name : {"nifti_qform.nii", "nifti1_i2.nii"}) {
+    std::string bytes = read_text(kForeign / name);
+    const Volume plain = read_placed_volume(kForeign / name);
+    for (const std::size_t axis : {1, 3}) bytes[kSizes + 4 * axis + 3] ^= '\x80';
+    const TemporaryFolder folder;
+    write_text(folder / name, bytes);
+    const Volume with_sign = read_placed_volume(folder / name);
+    EXPECT_EQ(with_sign.grid.spacing(), plain.grid.spacing());
+    EXPECT_EQ(with_sign.grid.origin(), plain.grid.origin());
+    EXPECT_EQ(sample_sha256(with_sign.grid), sample_sha256(plain.grid));
+    EXPECT_EQ(with_sign.placement.to_world, plain.placement.to_world);
+  }
+}
+
 TEST(ForeignVolumes, WrittenAnewAreReadAsTheirToolsReadThem) {
   const std::string python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
   if (std::system((python + " -c 'import mrcfile, nibabel, numpy, vtk' 2>/dev/null").c_str()) != 0)

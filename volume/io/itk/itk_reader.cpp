@@ -156,6 +156,7 @@ Volume read_series(const std::filesystem::path& path, const ChannelChoice& choic
   auto reader = itk::ImageSeriesReader<Image>::New();
   reader->SetImageIO(itk::GDCMImageIO::New());
   reader->SetFileNames(files);
+  reader->ForceOrthogonalDirectionOff();  // slices of a tilted gantry are sheared
   reader->Update();
   const Image& image = *reader->GetOutput();
   check_distances_of_slices(file, image);

@@ -151,6 +151,11 @@ void take_scale(const ByteStream& file, const NiftiHeader& header, SampleLayout&
     layout.scale = {header.slope, header.intercept};
 }
 
+// The standard wants them above 0; some programs write a sign there. What mirrors the volume is pixdim[0] or the sform.
+Vec3 voxel_sizes(const NiftiHeader& header) {
+  return {std::abs(header.pixdim[1]), std::abs(header.pixdim[2]), std::abs(header.pixdim[3])};
+}
+
 // The rotation of a unit quaternion whose first part is left out (nifti1.h, method 2).
 Affine quaternion_map(const NiftiHeader& header) {
   const auto& [b, c, d] = header.quaternion;
@@ -165,10 +170,10 @@ Affine quaternion_map(const NiftiHeader& header) {
   const double x = v.x, y = v.y, z = v.z;
   const double handed = header.pixdim[0] < 0 ? -1 : 1;
   Affine map;
-  map.columns[0] = header.pixdim[1] * Vec3{a * a + x * x - y * y - z * z, 2 * (x * y + a * z), 2 * (x * z - a * y)};
-  map.columns[1] = header.pixdim[2] * Vec3{2 * (x * y - a * z), a * a + y * y - x * x - z * z, 2 * (y * z + a * x)};
-  map.columns[2] =
-      handed * header.pixdim[3] * Vec3{2 * (x * z + a * y), 2 * (y * z - a * x), a * a + z * z - y * y - x * x};
+  const Vec3 sizes = voxel_sizes(header);
+  map.columns[0] = sizes.x * Vec3{a * a + x * x - y * y - z * z, 2 * (x * y + a * z), 2 * (x * z - a * y)};
+  map.columns[1] = sizes.y * Vec3{2 * (x * y - a * z), a * a + y * y - x * x - z * z, 2 * (y * z + a * x)};
+  map.columns[2] = handed * sizes.z * Vec3{2 * (x * z + a * y), 2 * (y * z - a * x), a * a + z * z - y * y - x * x};
   map.offset = header.quaternion_offset;
   return map;
 }
@@ -178,7 +183,7 @@ void take_geometry(const NiftiHeader& header, VolumeDescription& volume) {
   const auto unit = static_cast<std::uint32_t>(header.units) & 7u;
   if (unit < kUnits.size()) volume.units = kUnits.at(unit);
   if (header.sform <= 0 && header.qform <= 0) {
-    volume.index_to_world = affine_of({header.pixdim[1], header.pixdim[2], header.pixdim[3]}, {});
+    volume.index_to_world = affine_of(voxel_sizes(header), {});
     return;
   }
   volume.space = space_name("RAS");

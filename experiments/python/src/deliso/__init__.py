@@ -20,6 +20,7 @@ of threads. Mistakes are ValueError with one sentence.
 from __future__ import annotations
 
 import json
+import operator
 from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
@@ -30,6 +31,9 @@ __all__ = ["mesh", "verify", "topology", "info", "parameters", "load_volume", "l
            "Volume", "__version__"]
 
 __version__: str = _deliso.version
+
+_MOST_SEED = 2**64 - 1
+_MOST_THREADS = 2**31 - 1
 
 ProgressCallback = Callable[[str, float], Optional[bool]]
 
@@ -76,8 +80,10 @@ def mesh(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[flo
     """
     own = _array(array)
     vertices, triangles, text = _deliso.mesh(own, _isovalue(own, isovalue), _rows(spacing, affine), _named(parameters, spacing),
-                                             seed, threads, progress)
+                                             _count(seed, "seed", _MOST_SEED), _count(threads, "threads", _MOST_THREADS),
+                                             progress)
     report = json.loads(text)
+    report["volume"]["copied_samples"] |= own is not array and not numpy.may_share_memory(own, array)
     proven = report["certificate"]["proven"]
     report["verdict"] = ("stopped" if report["stopped_early"] else "not checked" if proven is None
                          else "proven" if proven else "not proven")
@@ -102,25 +108,27 @@ def verify(vertices: Any, triangles: Any, array: Any, isovalue: Union[float, str
     count); "quality". Distances are in voxels. Ctrl-C raises KeyboardInterrupt.
     """
     own = _array(array)
-    if max_distance is not None and not max_distance > 0:
+    if max_distance is not None and not _number(max_distance, "max_distance") > 0:
         raise ValueError(f"max_distance: expected a number > 0, found {max_distance}")
     return json.loads(_deliso.verify(_numbers(vertices, "vertices"), _whole(triangles), own, _isovalue(own, isovalue),
-                                     _rows(spacing, affine), _named(parameters, spacing), max_distance or 0.0, dropped_components,
-                                     threads, progress))
+                                     _rows(spacing, affine), _named(parameters, spacing), max_distance or 0.0,
+                                     _count(dropped_components, "dropped_components", _MOST_THREADS),
+                                     _count(threads, "threads", _MOST_THREADS), progress))
 
 
-def topology(array: Any, isovalue: Union[float, str], *, threads: int = 1,
-             progress: Optional[ProgressCallback] = None, **parameters: Any) -> dict:
+def topology(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[float], str, None] = None,
+             affine: Any = None, threads: int = 1, progress: Optional[ProgressCallback] = None, **parameters: Any) -> dict:
     """The exact topology of an isosurface, without a mesh.
 
-    array, isovalue, threads, progress, parameters: as in mesh(); of the parameters field, region and boundary count.
+    array, isovalue, spacing, affine, threads, progress, parameters: as in mesh(); of the parameters field, region,
+    boundary and spacing count. Lengths between samples matter only where field.smooth is given.
 
     Returns a dict: "components", "euler_characteristic", "boundary_loops" of the whole, and "isosurface", a list of
     {"euler_characteristic", "boundary_loops", "count"} of components that are alike.
     """
     own = _array(array)
-    return json.loads(_deliso.topology(own, _isovalue(own, isovalue), _rows(None, None), _named(parameters, None), threads,
-                                       progress))
+    return json.loads(_deliso.topology(own, _isovalue(own, isovalue), _rows(spacing, affine),
+                                       _named(parameters, spacing), _count(threads, "threads", _MOST_THREADS), progress))
 
 
 def info(array: Any) -> dict:
@@ -138,9 +146,14 @@ def parameters() -> dict:
             for name, default, allowed, unit, effect in _deliso.parameters()}
 
 
-def load_volume(path: Any) -> Volume:
-    """Reads NRRD, NIfTI, MetaImage, VTK, NumPy, MRC, INR, PVM or .raw files, packed or not: (array, affine, space, units)."""
-    array, rows, space, units = _deliso.load_volume(str(path))
+def load_volume(path: Any, *, channel: Optional[int] = None, name: str = "") -> Volume:
+    """Reads NRRD, NIfTI, MetaImage, VTK, NumPy, MRC, INR, PVM or .raw files, packed or not: (array, affine, space, units).
+
+    channel   of a file with several values a voxel, or several volumes: which one, counted from 0
+    name      of a .vtk or .vti file with several arrays: which one
+    """
+    number = None if channel is None else _count(channel, "channel", _MOST_SEED)
+    array, rows, space, units = _deliso.load_volume(str(path), number, name)
     return Volume(array, numpy.array(rows + [[0, 0, 0, 1]]), space, units)
 
 
@@ -155,8 +168,22 @@ def save_mesh(path: Any, vertices: Any, triangles: Any) -> None:
 
 
 def _array(array: Any) -> numpy.ndarray:
+    if numpy.ma.is_masked(array):
+        raise ValueError("array: some samples are masked; give them a value, as array.filled(value) does")
     own = numpy.asarray(array)
+    if own.size > 1 and not any(own.strides):
+        return own.copy()  # one number for all samples, which no strides can tell
     return own if own.dtype.isnative else own.astype(own.dtype.newbyteorder("="))
+
+
+def _count(value: Any, name: str, most: int) -> int:
+    try:
+        count = operator.index(value)
+    except TypeError:
+        count = -1
+    if not 0 <= count <= most:
+        raise ValueError(f"{name}: expected a whole number, 0 to {most}, found {value!r}")
+    return count
 
 
 def _numbers(values: Any, name: str) -> numpy.ndarray:
@@ -173,9 +200,16 @@ def _whole(triangles: Any) -> numpy.ndarray:
     return numpy.ascontiguousarray(own, dtype=numpy.int64)
 
 
+def _number(value: Any, name: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name}: expected a number, found {value!r}") from None
+
+
 def _isovalue(array: numpy.ndarray, isovalue: Union[float, str]) -> float:
     if not isinstance(isovalue, str):
-        return float(isovalue)
+        return _number(isovalue, "isovalue")
     found = info(array)
     if isovalue in found["named_isovalues"]:
         return found["named_isovalues"][isovalue]
@@ -193,9 +227,10 @@ def _rows(spacing: Union[Sequence[float], str, None], affine: Any) -> list:
     if isinstance(spacing, str):
         spacing = None  # the parameter of this name
     if affine is None:
-        lengths = [1.0, 1.0, 1.0] if spacing is None else _numbers(spacing, "spacing").tolist()
-        if not isinstance(lengths, list) or len(lengths) != 3:
+        own = numpy.ones(3) if spacing is None else _numbers(spacing, "spacing")
+        if own.shape != (3,):
             raise ValueError(f"spacing: expected three lengths, found {spacing}")
+        lengths = own.tolist()
         return [[lengths[row] if row == column else 0.0 for column in range(4)] for row in range(3)]
     if spacing is not None:
         raise ValueError("expected spacing or affine, found both: an affine map has the spacing in it")

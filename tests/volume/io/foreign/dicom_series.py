@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Writes a series of DICOM files with pydicom, and what is in it.
 
-Usage: dicom_series.py FOLDER [uneven]. Debian has it as python3-pydicom. FOLDER/series gets an oblique scan of signed
+Usage: dicom_series.py FOLDER [uneven | tilted]. Debian has it as python3-pydicom. FOLDER/series gets an oblique scan of signed
 16-bit samples with slope and intercept, its slices in files whose names do not tell their order, and beside it a
 shorter series of the same patient. FOLDER/expected.json gets dimensions, the SHA-256 of the samples as doubles (x
 fastest), and the map from index to world in three rows, computed as the standard says. With `uneven` the last slice is
-farther off than the others.
+farther off than the others, with `tilted` each slice is shifted within its plane, as of a CT with a tilted gantry.
 """
 import hashlib
 import json
@@ -17,7 +17,7 @@ from pydicom.dataset import FileDataset, FileMetaDataset
 from pydicom.uid import ExplicitVRLittleEndian
 
 FOLDER = sys.argv[1]
-UNEVEN = sys.argv[2:] == ["uneven"]
+UNEVEN, TILTED = sys.argv[2:] == ["uneven"], sys.argv[2:] == ["tilted"]
 ROOT = "1.2.826.0.1.3680043.8.498."  # pydicom's, for examples
 MR = "1.2.840.10008.5.1.4.1.1.4"
 RANDOM = numpy.random.RandomState(1)
@@ -28,6 +28,7 @@ ORIGIN = numpy.array([-90.5, 20.25, 133.0])
 ALONG_ROW = numpy.array([0.6, 0.8, 0.0])  # the direction in which the column grows
 ALONG_COLUMN = numpy.array([0.48, -0.36, -0.8])
 NORMAL = numpy.cross(ALONG_ROW, ALONG_COLUMN)
+STEP = SLICE_STEP * NORMAL + (0.6 if TILTED else 0) * ALONG_COLUMN  # from slice to slice
 
 
 def write_slice(path, stored, series, number, origin):
@@ -61,11 +62,11 @@ def main():
     names = RANDOM.permutation(SLICES)
     for k in range(SLICES):
         step = k + (0.5 if UNEVEN and k == SLICES - 1 else 0)
-        write_slice(os.path.join(FOLDER, "series", "I%d" % names[k]), stored[k], 1, k, ORIGIN + step * SLICE_STEP * NORMAL)
+        write_slice(os.path.join(FOLDER, "series", "I%d" % names[k]), stored[k], 1, k, ORIGIN + step * STEP)
     for k in range(2):
-        write_slice(os.path.join(FOLDER, "series", "A%d.dcm" % k), stored[k] // 2, 2, k, ORIGIN + k * SLICE_STEP * NORMAL)
+        write_slice(os.path.join(FOLDER, "series", "A%d.dcm" % k), stored[k] // 2, 2, k, ORIGIN + k * STEP)
     samples = (stored * SLOPE + INTERCEPT).astype("<f8")
-    affine = numpy.stack([COLUMN_STEP * ALONG_ROW, ROW_STEP * ALONG_COLUMN, SLICE_STEP * NORMAL, ORIGIN], axis=1)
+    affine = numpy.stack([COLUMN_STEP * ALONG_ROW, ROW_STEP * ALONG_COLUMN, STEP, ORIGIN], axis=1)
     with open(os.path.join(FOLDER, "expected.json"), "w") as out:
         json.dump({"dims": [COLUMNS, ROWS, SLICES], "sha256": hashlib.sha256(samples.tobytes()).hexdigest(),
                    "index_to_world": affine.tolist()}, out)
