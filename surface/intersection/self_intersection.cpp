@@ -241,9 +241,15 @@ void scale_positions(std::vector<TrianglePair>& pairs, double scale) {
 SelfIntersections self_intersections(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t keep,
                                      int threads) {
-  const double scale = scale_to_exact_range(points);
-  if (scale == 1) return examined(OrderedTriangles(points, triangles, threads), triangles.size(), {}, keep, threads);
-  std::vector<Vec3> scaled_points(points.begin(), points.end());
+  if (scale_to_exact_range(points) == 1) {
+    return examined(OrderedTriangles(points, triangles, threads), triangles.size(), {}, keep, threads);
+  }
+  // Points of no triangle do not count: scaled by a huge one, all others would vanish.
+  std::vector<Vec3> scaled_points(points.size());
+  for (const auto& triangle : triangles) {
+    for (const std::uint32_t v : triangle) scaled_points[v] = points[v];
+  }
+  const double scale = scale_to_exact_range(scaled_points);
   for (Vec3& p : scaled_points) p = scale * p;
   SelfIntersections found =
       examined(OrderedTriangles(scaled_points, triangles, threads), triangles.size(), {}, keep, threads);

@@ -79,7 +79,8 @@ Parameters engine_parameters(const ParameterSet& set) {
 
 int thread_count(int asked) {
   if (asked < 0) throw InputError("threads: expected a number >= 0, found " + std::to_string(asked));
-  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  constexpr int kMost = 1024;  // so that multiples of it are numbers; more would have nothing to do
+  return asked > 0 ? std::min(asked, kMost) : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 void Watcher::show(const Progress& progress) {

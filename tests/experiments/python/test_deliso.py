@@ -165,6 +165,7 @@ class Mistakes(unittest.TestCase):
         self.expect("'P%'", lambda: deliso.mesh(array, "most"))
         self.expect("names the vertex 9", lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1, 9]], array, 1))
         self.expect("shape (n, 3)", lambda: deliso.verify(numpy.zeros((3, 2)), [[0, 1, 2]], array, 1))
+        self.expect("vertices: expected real numbers", lambda: deliso.verify(1j * numpy.ones((3, 3)), [[0, 1, 2]], array, 1))
         self.expect("whole numbers", lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1.5, 2]], array, 1))
         for wrong in (-1, 1.5, "one", None, 2**64):
             self.expect("seed: expected a whole number", lambda: deliso.mesh(array, 1, seed=wrong))

@@ -144,6 +144,17 @@ TEST(SelfIntersections, DoNotDependOnTheScale) {
   }
 }
 
+// Everything was scaled until the far point fitted, and what was left of the triangles crossed.
+TEST(SelfIntersections, DoNotDependOnPointsOfNoTriangle) {
+  const TriangleMesh mesh = testing::sphere_mesh(2);
+  for (const double far : {1e60, 1e150, 1e200, 1e300}) {
+    TriangleMesh with_far = mesh;
+    with_far.points.push_back({far, 0, -far});
+    const SelfIntersections found = self_intersections(with_far);
+    EXPECT_EQ(found.crossing_pairs + found.touching_pairs + found.zero_area_triangles, 0) << far;
+  }
+}
+
 TEST(SelfIntersections, OfMarkedTrianglesAreAllPairsWithOne) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);

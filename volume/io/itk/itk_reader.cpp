@@ -53,6 +53,7 @@ void register_formats() {
     // What they have to say comes as errors, or is none of the user's business.
     itk::Object::GlobalWarningDisplayOff();
     gdcm::Trace::WarningOff();
+    gdcm::Trace::ErrorOff();
     itk::GDCMImageIOFactory::RegisterOneFactory();
     itk::TIFFImageIOFactory::RegisterOneFactory();
     itk::HDF5ImageIOFactory::RegisterOneFactory();

@@ -187,6 +187,8 @@ def _count(value: Any, name: str, most: int) -> int:
 
 
 def _numbers(values: Any, name: str) -> numpy.ndarray:
+    if numpy.iscomplexobj(values):
+        raise ValueError(f"{name}: expected real numbers, found complex ones")
     try:
         return numpy.ascontiguousarray(values, dtype=numpy.float64)
     except (TypeError, ValueError) as error:
