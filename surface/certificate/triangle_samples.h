@@ -10,9 +10,11 @@
 
 namespace deliso {
 
-// Into how many parts the lattice of samples divides the edges of a triangle.
+// Into how many parts the lattice of samples divides the edges of a triangle. Edges may be as long as some voxels but
+// for rounding, which must not decide where samples lie: else what has been written has others.
 inline int sample_order(double longest_edge) {
-  return static_cast<int>(std::clamp(std::ceil(longest_edge), 2.0, double(kMostSamplesPerEdge)));
+  constexpr double kRounding = 1e-9;
+  return static_cast<int>(std::clamp(std::ceil((1 - kRounding) * longest_edge), 2.0, double(kMostSamplesPerEdge)));
 }
 
 // Calls visit(point) for points about a voxel apart on a triangle, the corners left out. `longest`: its longest edge.

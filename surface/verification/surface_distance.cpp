@@ -85,7 +85,10 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
     const Vec3 &a = mesh.points[ia], &b = mesh.points[ib], &c = mesh.points[ic];
     const double longest =
         std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-    const int order = static_cast<int>(std::clamp(std::ceil(longest), 2.0, double(kMostSamplesPerEdge)));
+    // An edge as long as some voxels may be a hair longer in the world and back.
+    constexpr double kRounding = 1e-9;
+    const int order =
+        static_cast<int>(std::clamp(std::ceil((1 - kRounding) * longest), 2.0, double(kMostSamplesPerEdge)));
     // The points of a lattice except the corners, and the centroid.
     samples.clear();
     samples.push_back((a + b + c) / 3);

@@ -100,6 +100,17 @@ TEST_F(SizeOptionsTest, PiecesLeftOutAreToldAsTheComponentsThatTheyLieOn) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
 
+// Edges two voxels long but for rounding: in the file, sheared, they were a hair longer, and verify looked at other
+// points of their triangles than the mesher had.
+TEST_F(SizeOptionsTest, EdgesOfWholeVoxelsAreSampledAtTheSamePlacesByBoth) {
+  const std::string volume = std::string(DELISO_SOURCE_DIR) + "/tests/regression/whole_edges.nrrd";
+  const ProgramResult made = run_deliso(
+      {"mesh", volume, "--label", "2", "--set", "boundary=closed", "--max-error", "0.1", "-o", folder_ / "w.ply"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramResult verified = run_deliso({"verify", folder_ / "w.ply", volume, "--label", "2", "--closed"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+}
+
 TEST_F(SizeOptionsTest, RegionsKeepTheirPlaceInEveryCommand) {
   EXPECT_EQ(mesh({"--region", "14:,:,:"}).exit_code, 0);
   EXPECT_EQ(json("r.json")["components"], 1);

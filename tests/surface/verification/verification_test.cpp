@@ -137,6 +137,18 @@ TEST(Verification, AMeshTooCoarseIsNotProven) {
       verify_mesh(on_isosurface(testing::sphere_mesh(1, 7, kCenter), grid, 0), grid, 0, {.max_distance = 2}).proven);
 }
 
+// A mesh as far off as promised is a hair farther in other coordinates.
+TEST(Verification, RoundingRefutesNoDistance) {
+  const ScalarGrid grid = ball_grid();
+  const TriangleMesh mesh = ball_mesh(grid);
+  const Verification loose = verify_mesh(mesh, grid, 0);
+  const double most =
+      std::max(loose.distance.mesh_to_isosurface.max_voxels, loose.distance.isosurface_to_mesh.max_voxels);
+  ASSERT_GT(most, 0.001);
+  EXPECT_TRUE(verify_mesh(mesh, grid, 0, Promise{.max_distance = most * (1 - 1e-12)}).distance.pass);
+  EXPECT_FALSE(verify_mesh(mesh, grid, 0, Promise{.max_distance = most * (1 - 1e-6)}).distance.pass);
+}
+
 // The topology is right and all of the isosurface has a triangle near, but a flap of the mesh stands off it.
 TEST(Verification, AMeshThatLeavesTheIsosurfaceIsNotProven) {
   const ScalarGrid grid = ball_grid();
