@@ -179,7 +179,9 @@ class Mistakes(unittest.TestCase):
         self.expect("three lengths", lambda: deliso.mesh(array, 1, spacing=[[1], [1], [1]]))
         self.expect("masked", lambda: deliso.mesh(numpy.ma.masked_greater(array, 50), 1))
         # One number for all samples; its memory holds no others.
-        self.expect("the data's range is 7 to 7", lambda: deliso.mesh(numpy.broadcast_to(numpy.float64(7), (9, 9, 9)), 7))
+        for order in "<>":
+            seven = numpy.broadcast_to(numpy.array(7, dtype=order + "f8"), (9, 9, 9))
+            self.expect("the data's range is 7 to 7", lambda: deliso.mesh(seven, 7))
         array[3, 2, 1] = numpy.nan
         self.expect("sample (3, 2, 1) is NaN", lambda: deliso.mesh(array, 1))
         self.expect("none.nrrd", lambda: deliso.load_volume("none.nrrd"))

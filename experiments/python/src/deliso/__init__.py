@@ -171,9 +171,10 @@ def _array(array: Any) -> numpy.ndarray:
     if numpy.ma.is_masked(array):
         raise ValueError("array: some samples are masked; give them a value, as array.filled(value) does")
     own = numpy.asarray(array)
-    if own.size > 1 and not any(own.strides):
-        return own.copy()  # one number for all samples, which no strides can tell
-    return own if own.dtype.isnative else own.astype(own.dtype.newbyteorder("="))
+    if not own.dtype.isnative:
+        own = own.astype(own.dtype.newbyteorder("="))
+    # Strides of 0 alone would be taken for none: one number for all samples is copied.
+    return own.copy() if own.size > 1 and not any(own.strides) else own
 
 
 def _count(value: Any, name: str, most: int) -> int:
