@@ -29,6 +29,14 @@ std::size_t first_pass_with(const Box3& box) {
   return kShifts;
 }
 
+// Numbers the passes that there are from 0 on.
+void close_gaps(std::vector<std::size_t>& pass_of) {
+  std::array<std::size_t, kShifts + 2> number{};  // of a pass; first whether a box belongs to the one before it
+  for (const std::size_t pass : pass_of) number[pass + 1] = 1;
+  for (std::size_t pass = 1; pass < number.size(); ++pass) number[pass] += number[pass - 1];
+  for (std::size_t& pass : pass_of) pass = number[pass];
+}
+
 // Unites boxes that meet and that `may_join`.
 template <class MayJoin>
 DisjointSets joined(const BoxSet& boxes, const MayJoin& may_join) {
@@ -90,6 +98,7 @@ void PatchBoxes::divide(const BoxSet& all, std::size_t most_boxes) {
   for (std::uint32_t i = 0; i < count; ++i) {
     if (sizes[crowds.find(i)] > most_boxes) pass_of[i] = first_pass_with(all.boxes()[i]);
   }
+  close_gaps(pass_of);
   // Boxes of different blocks of one pass do not meet, so those that do belong together.
   DisjointSets groups = joined(all, [&](std::uint32_t i, std::uint32_t j) { return pass_of[i] == pass_of[j]; });
   std::vector<std::uint32_t> patch_of(count), patches(kShifts + 1, 0);

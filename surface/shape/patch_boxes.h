@@ -1,9 +1,9 @@
 // The boxes around badly shaped triangles, and which patch of which pass each belongs to.
 //
 // Boxes that overlap one after the other are one patch, which one thread works on. In noise most of the surface would
-// be one: BABY at 16.4 has a patch of two million triangles. Such a crowd of boxes is worked on in several passes, in
-// each by blocks of space that are apart: a pass's blocks fill space, those of the next pass are shifted, and a box
-// belongs to the first pass of which one block holds it.
+// be one. Such a crowd of boxes is worked on in several passes, in each by blocks of space that are apart: a pass's
+// blocks fill space, those of the next pass are shifted, and a box belongs to the first pass of which one block holds
+// it.
 #pragma once
 
 #include <array>
@@ -32,6 +32,7 @@ class PatchBoxes {
   // Patches of more than `most_boxes` are divided.
   PatchBoxes(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double reach, std::size_t most_boxes);
 
+  // Each has boxes.
   [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
   // The box of the pass for a triangle, of the mesh then or of one changed since; none where there was no bad triangle
   // or it belongs to another pass.

@@ -72,7 +72,13 @@ TEST(PatchBoxes, ASmallCrowdIsOnePatchAndLargeBoxesHaveALastPass) {
   // Boxes of 13 and more do not fit into a quarter of a block.
   const SurfaceMesh large = crowd(60, 2);
   const PatchBoxes divided(large, all_of(large), 3, 1000);
-  EXPECT_EQ(divided.passes().size(), 5u);
+  EXPECT_EQ(divided.passes().size(), 3u);
+  for (const PatchBoxes::Pass& pass : divided.passes()) EXPECT_GT(patches_of(pass), 0u);
+  // None of these fits into a block: the passes by blocks would be empty.
+  const SurfaceMesh huge = crowd(40, 20);
+  const PatchBoxes together(huge, all_of(huge), 3, 1000);
+  ASSERT_EQ(together.passes().size(), 1u);
+  EXPECT_EQ(patches_of(together.passes()[0]), 1u);
 }
 
 }  // namespace
