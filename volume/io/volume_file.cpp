@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "delaunay/base/check.h"
@@ -107,7 +108,8 @@ Volume read_any(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string extension = options.format.empty() ? lower_case_extension(path) : "." + options.format;
   std::optional<VolumeFormat> format = format_of_extension(extension);
   if (!format && reads_by_itk(path)) return read_by_itk(path, {options.channel});
-  if (format || std::filesystem::is_regular_file(path)) {
+  std::error_code unreadable;
+  if (format || std::filesystem::is_regular_file(path) || !std::filesystem::exists(path, unreadable)) {
     UnpackedFile file(path);
     if (!format) format = format_of_content(file);
     if (format) return read_as(*format, file, options);

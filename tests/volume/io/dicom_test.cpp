@@ -65,6 +65,28 @@ TEST_F(Dicom, SlicesAtUnevenDistancesAreRefused) {
                      "series");
 }
 
+// GDCM fills up what is missing: the slice became a wall, and the mesh of it was proven.
+TEST_F(Dicom, ASliceThatIsCutOffIsRefused) {
+  for (const char* how : {"", "compressed"}) {
+    std::filesystem::remove_all(folder_ / "series");
+    write(how);
+    expect_as_written();
+    const std::filesystem::path slice = folder_ / "series/I2";
+    const std::string whole = read_text(slice);
+    // Also in the last byte of the pixels, or of the item that closes compressed ones.
+    for (const std::size_t missing : {std::size_t{1}, std::size_t{9}, std::size_t{40}}) {
+      write_text(slice, whole.substr(0, whole.size() - missing));
+      expect_input_error([&] { read_placed_volume(folder_ / "series"); }, {"I2", "ends before its last pixel"}, "I2");
+    }
+  }
+}
+
+TEST_F(Dicom, ASeriesOfTwoThicknessesIsRefused) {
+  write("divided");
+  expect_input_error([&] { read_placed_volume(folder_ / "series"); }, {"series", "5 slices", "only 3", "thickness"},
+                     "series");
+}
+
 TEST_F(Dicom, OneSliceIsNoVolume) {
   write();
   expect_input_error([&] { read_placed_volume(folder_ / "series/I0"); }, {"I0", "one slice", "folder"}, "I0");

@@ -63,6 +63,23 @@ TEST(Itk, RefusesInOneSentence) {
     expect_input_error([&] { read_by_itk(directory / name, {}); }, {}, name);
 }
 
+// A header of 256 bytes, numbers in big endian: sizes, type of the samples, at the end a mark.
+TEST(Itk, GiplFilesThatAreCutOffAreRefused) {
+  const TemporaryFolder directory;
+  std::string header(256, '\0');
+  header.replace(0, 10, std::string("\0\2\0\3\0\4\0\1\0\10", 10));
+  header.replace(10, 12, std::string("\x3f\x80\0\0\x3f\x80\0\0\x3f\x80\0\0", 12));
+  header.replace(252, 4, std::string("\x2a\xe3\x89\xb8", 4));
+  const std::string samples = "abcdefghijklmnopqrstuvwx";
+  write_text(directory / "a.gipl", header + samples);
+  const Volume volume = read_placed_volume(directory / "a.gipl");
+  EXPECT_EQ(volume.grid.dims(), (Dims{2, 3, 4}));
+  EXPECT_EQ(volume.grid.at(1, 2, 3), 'x');
+  write_text(directory / "b.gipl", header + samples.substr(1));
+  expect_input_error([&] { read_placed_volume(directory / "b.gipl"); }, {"data end", "the end of the samples"},
+                     "b.gipl");
+}
+
 }  // namespace
 }  // namespace deliso
 

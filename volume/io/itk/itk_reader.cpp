@@ -20,6 +20,7 @@
 #include <itkTIFFImageIOFactory.h>
 #include <itkVTKImageIOFactory.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -30,6 +31,8 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "volume/io/base/gzip_stream.h"
+#include "volume/io/itk/dicom_pixels.h"
 
 namespace deliso {
 
@@ -65,10 +68,14 @@ void register_formats() {
   });
 }
 
-// One sentence of ITK's many lines.
+// One sentence of ITK's many lines, without the places of its objects in memory.
 std::string sentence_of(const itk::ExceptionObject& error) {
   std::string text = error.GetDescription();
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
+  for (std::size_t place = text.find("(0x"); place != std::string::npos; place = text.find("(0x", place)) {
+    const std::size_t end = text.find(')', place);
+    text.erase(place, end == std::string::npos ? end : end - place + 1);
+  }
   return text;
 }
 
@@ -123,6 +130,20 @@ VolumeDescription description_of(const ByteStream& file, const itk::ImageIOBase&
   return volume;
 }
 
+void check_pixels(const NamedFile& dicom) {
+  if (!holds_all_pixels(dicom.name())) dicom.fail("the file ends before its last pixel");
+}
+
+// ITK's readers of these formats take what is missing for zeros.
+void check_length(const NamedFile& file, const itk::ImageIOBase& io) {
+  constexpr std::uint64_t kGiplHeader = 256;
+  const std::string format = io.GetNameOfClass();
+  if (format == "GDCMImageIO") check_pixels(file);
+  if (format != "GiplImageIO") return;
+  UnpackedFile unpacked(file.name());
+  unpacked.bytes().skip(kGiplHeader + static_cast<std::uint64_t>(io.GetImageSizeInBytes()), "the end of the samples");
+}
+
 std::string millimetres(double length) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g mm", length);
@@ -141,19 +162,38 @@ void check_distances_of_slices(const NamedFile& file, const itk::Image<double, 3
               ", expected even distances: a slice may be missing or double, dcm2niix makes even ones");
 }
 
-// A folder of DICOM files: its largest series, as doubles.
+// The files of each series of a folder. With `by_details` slices of another size, thickness, number or name are a
+// series of their own.
+std::vector<std::vector<std::string>> all_series(const std::filesystem::path& path, bool by_details) {
+  auto names = itk::GDCMSeriesFileNames::New();
+  names->SetUseSeriesDetails(by_details);
+  names->SetDirectory(path.string());
+  std::vector<std::vector<std::string>> files;
+  for (const std::string& series : names->GetSeriesUIDs()) files.push_back(names->GetFileNames(series));
+  return files;
+}
+
+// The files of the longest series in `all`. A series of which only a part would make a volume is refused.
+std::vector<std::string> longest_series(const NamedFile& folder, const std::vector<std::vector<std::string>>& all) {
+  const auto is_shorter = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  const std::vector<std::string>& files = *std::max_element(all.begin(), all.end(), is_shorter);
+  for (const std::vector<std::string>& whole : all_series(folder.name(), false)) {
+    if (std::find(whole.begin(), whole.end(), files.front()) == whole.end() || whole.size() == files.size()) continue;
+    folder.fail("of the " + std::to_string(whole.size()) + " slices of the longest series only " +
+                std::to_string(files.size()) +
+                " have the same size, thickness, series number and sequence name, expected all: copy those of one kind "
+                "to a folder of their own");
+  }
+  for (const std::string& slice : files) check_pixels(NamedFile(slice));
+  return files;
+}
+
+// A folder of DICOM files: its longest series, as doubles.
 Volume read_series(const std::filesystem::path& path, const ChannelChoice& choice) {
   const NamedFile file(path.string());
   using Image = itk::Image<double, 3>;
-  auto names = itk::GDCMSeriesFileNames::New();
-  names->SetUseSeriesDetails(true);
-  names->SetDirectory(path.string());
-  std::vector<std::string> files;
-  const std::vector<std::string> all = names->GetSeriesUIDs();
-  for (const std::string& series : all) {
-    std::vector<std::string> found = names->GetFileNames(series);
-    if (found.size() > files.size()) files = std::move(found);
-  }
+  const std::vector<std::vector<std::string>> all = all_series(path, true);
+  const std::vector<std::string> files = longest_series(file, all);
   auto reader = itk::ImageSeriesReader<Image>::New();
   reader->SetImageIO(itk::GDCMImageIO::New());
   reader->SetFileNames(files);
@@ -204,6 +244,7 @@ Volume read_by_itk(const std::filesystem::path& path, const ChannelChoice& choic
     if (io.IsNull()) file.fail("ITK does not read this file");
     io->SetFileName(path.string());
     io->ReadImageInformation();
+    check_length(file, *io);
     const VolumeDescription volume = description_of(file, *io);
     itk::ImageIORegion region(io->GetNumberOfDimensions());
     for (unsigned n = 0; n < io->GetNumberOfDimensions(); ++n) region.SetSize(n, io->GetDimensions(n));

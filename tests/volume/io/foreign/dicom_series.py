@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Writes a series of DICOM files with pydicom, and what is in it.
 
-Usage: dicom_series.py FOLDER [uneven | tilted]. Debian has it as python3-pydicom. FOLDER/series gets an oblique scan of signed
+Usage: dicom_series.py FOLDER [uneven | tilted | divided | compressed]. Debian has it as python3-pydicom. FOLDER/series gets an oblique scan of signed
 16-bit samples with slope and intercept, its slices in files whose names do not tell their order, and beside it a
 shorter series of the same patient. FOLDER/expected.json gets dimensions, the SHA-256 of the samples as doubles (x
 fastest), and the map from index to world in three rows, computed as the standard says. With `uneven` the last slice is
-farther off than the others, with `tilted` each slice is shifted within its plane, as of a CT with a tilted gantry.
+farther off than the others, with `tilted` each slice is shifted within its plane, as of a CT with a tilted gantry; with `divided` two slices state another thickness; with `compressed` the
+pixels are encoded by run lengths.
 """
 import hashlib
 import json
@@ -14,10 +15,11 @@ import sys
 
 import numpy
 from pydicom.dataset import FileDataset, FileMetaDataset
-from pydicom.uid import ExplicitVRLittleEndian
+from pydicom.uid import ExplicitVRLittleEndian, RLELossless
 
 FOLDER = sys.argv[1]
-UNEVEN, TILTED = sys.argv[2:] == ["uneven"], sys.argv[2:] == ["tilted"]
+HOW = sys.argv[2] if len(sys.argv) > 2 else ""
+UNEVEN, TILTED, DIVIDED, COMPRESSED = (HOW == kind for kind in ("uneven", "tilted", "divided", "compressed"))
 ROOT = "1.2.826.0.1.3680043.8.498."  # pydicom's, for examples
 MR = "1.2.840.10008.5.1.4.1.1.4"
 RANDOM = numpy.random.RandomState(1)
@@ -46,13 +48,15 @@ def write_slice(path, stored, series, number, origin):
     data.SeriesNumber, data.InstanceNumber = series, number + 1
     data.Rows, data.Columns = stored.shape
     data.PixelSpacing = [ROW_STEP, COLUMN_STEP]
-    data.SliceThickness = SLICE_STEP
+    data.SliceThickness = SLICE_STEP * (2 if DIVIDED and number < 2 else 1)
     data.ImageOrientationPatient = [*map(float, ALONG_ROW), *map(float, ALONG_COLUMN)]
     data.ImagePositionPatient = [round(float(v), 6) for v in origin]
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
     data.BitsAllocated, data.BitsStored, data.HighBit, data.PixelRepresentation = 16, 16, 15, 1
     data.RescaleSlope, data.RescaleIntercept = SLOPE, INTERCEPT
     data.PixelData = stored.astype("<i2").tobytes()
+    if COMPRESSED:
+        data.compress(RLELossless)
     data.save_as(path, write_like_original=False)
 
 
