@@ -31,7 +31,8 @@ struct MeshingOptions {
   // Called once before stage 2, with about how many vertices it is going to make, and how many edges of the grid the
   // isosurface crosses; may be empty.
   std::function<void(double expected, double crossings)> before_refine;
-  const std::atomic<bool>* stop = nullptr;  // set to true from outside: finish early with a valid partial mesh
+  const std::atomic<bool>* stop = nullptr;   // set to true from outside: finish early with a valid partial mesh
+  std::string_view stop_cause = "a signal";  // who sets it, for the report
   bool keep_stage1_mesh = false;
   Observer* observer = nullptr;  // told of every step, see there
 };

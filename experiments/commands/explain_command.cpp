@@ -26,6 +26,7 @@
 #include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
 #include "volume/fields/field_slices.h"
+#include "volume/io/base/input_file.h"
 
 namespace deliso {
 namespace {
@@ -90,6 +91,15 @@ std::string trace_text(const LessonRun& run) {
   return text;
 }
 
+// A name says what is in a file: a page is HTML, a figure SVG. A name without an extension says nothing.
+void check_extension(const ExplainCommandOptions& options) {
+  const std::string found = lower_case_extension(options.output);
+  const std::string expected = options.figure.empty() ? ".html" : ".svg";
+  if (found.empty() || found == expected || (options.figure.empty() && found == ".htm")) return;
+  throw InputError("-o " + options.output + ": the " + (options.figure.empty() ? "lesson" : "figure") +
+                   " is written as " + expected.substr(1) + ", expected a name that ends in " + expected);
+}
+
 ExitCode run_explain(const ExplainCommandOptions& options) {
   if (options.output.empty() && options.trace.empty() && !options.text)
     throw InputError("explain: -o LESSON (a page such as lesson.html), --trace or --text is required");
@@ -99,6 +109,7 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
     throw InputError("explain: --isovalue is required with a volume");
   if (options.volume.empty() && !options.isovalue.empty())
     throw InputError("explain: --isovalue needs a volume; without one the built-in torus is shown");
+  check_extension(options);
   LessonOptions lesson;
   lesson.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   lesson.shows_answers = options.answers;

@@ -1,7 +1,11 @@
 #include "experiments/config/config.h"
 
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -118,6 +122,21 @@ Json parameters_to_json(const Parameters& parameters) {
   return document;
 }
 
+namespace {
+
+// A number as other options take it, also where JSON has none: .5, 5., +2.
+std::optional<Json> number_of_option(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  constexpr double kLargestInteger = 0x1p53;
+  const bool is_whole = number == std::floor(number) && std::abs(number) <= kLargestInteger;
+  return is_whole ? Json(static_cast<std::int64_t>(number)) : Json(number);
+}
+
+}  // namespace
+
 void set_parameter(std::string_view assignment, Parameters& parameters) {
   const std::string source = "--set " + std::string(assignment);
   const std::size_t equals = assignment.find('=');
@@ -126,7 +145,7 @@ void set_parameter(std::string_view assignment, Parameters& parameters) {
   const std::string text(assignment.substr(equals + 1));
   // Text that is not JSON is taken as a string, so that a choice needs no quotes.
   Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = text;
+  if (value.is_discarded()) value = number_of_option(text).value_or(Json(text));
   set_parameter(path, value, source, parameters);
 }
 

@@ -57,6 +57,7 @@ MeshReport report_of(const MeshingOptions& options, const MeshingResult& result,
   report.components = topology.components;
   report.euler_characteristic = topology.euler_characteristic;
   report.boundary_loops = topology.boundary_loops;
+  report.dropped_components = result.dropped_components;
   report.promised_distance = result.promised_distance;
   report.min_angle_degrees = quality.min_angle_degrees;
   report.max_angle_degrees = quality.max_angle_degrees;
@@ -72,6 +73,7 @@ MeshResult mesh_watched(const VolumeView& volume, double isovalue, const MeshOpt
   meshing.threads = thread_count(options.threads);
   meshing.progress = [&watcher](const Progress& progress) { watcher.show(progress); };
   meshing.stop = watcher.stop();
+  meshing.stop_cause = "the caller";
   meshing.keep_stage1_mesh = options.keep_stage1;
   const PlacedGrid placed = placed_grid(volume, region_of(meshing.parameters.region));
   MeshingOptions of_region = meshing;

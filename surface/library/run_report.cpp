@@ -213,7 +213,7 @@ std::vector<std::string> unmet_goals(const MeshingOptions& options, const Meshin
   const BudgetParameters& budget = options.parameters.budget;
   std::string cause = "the budget";
   if (options.stop != nullptr && options.stop->load()) {
-    cause = "a signal";
+    cause = options.stop_cause;
   } else if (budget.max_vertices && static_cast<std::int64_t>(result.mesh.points.size()) >= *budget.max_vertices) {
     cause = "budget.max_vertices = " + std::to_string(*budget.max_vertices);
   } else if (budget.seconds) {
@@ -269,6 +269,7 @@ JsonTree run_report(double isovalue, const MeshingOptions& options, const Meshin
                   {"promised_distance_voxels", result.promised_distance},
                   {"longest_edge_voxels", result.longest_edge},
                   {"dropped", dropped_json(result.dropped)},
+                  {"dropped_components", result.dropped_components},
                   {"total_seconds", result.total_seconds},
                   {"stages", stages_json(result)},
                   {"certificate", certificate_tree(result.certificate)},

@@ -256,6 +256,7 @@ struct MeshReport {
   std::vector<std::string> unmet;        // what a run that stopped has left undone
   double isovalue_used = 0;              // differs from the isovalue only where a sample or a saddle has that value
   std::int64_t components = 0, euler_characteristic = 0, boundary_loops = 0;  // of the mesh
+  std::int64_t dropped_components = 0;  // left out as asked (`components.*`); verify() wants to know their number
   double promised_distance = 0;
   double min_angle_degrees = 0, max_angle_degrees = 0;
   bool copied_samples = false;

@@ -189,6 +189,13 @@ TEST(Config, SetTakesPathsAndValues) {
   EXPECT_EQ(parameters.queue_order, QueueOrder::kFirstInFirstOut);
   EXPECT_EQ(parameters.budget.seconds, 1.5);
   EXPECT_EQ(parameters.stage1.rho, 3);
+  // As other options take numbers, and JSON does not.
+  set_parameter("budget.seconds=.25", parameters);
+  set_parameter("stage1.rho=+4", parameters);
+  set_parameter("shape.rounds=02.", parameters);
+  EXPECT_EQ(parameters.budget.seconds, 0.25);
+  EXPECT_EQ(parameters.stage1.rho, 4);
+  EXPECT_EQ(parameters.shape.rounds, 2);
   set_parameter("budget.seconds=null", parameters);
   EXPECT_FALSE(parameters.budget.seconds.has_value());
 }

@@ -144,6 +144,8 @@ TEST(ExplainCommand, RefusesInOneSentence) {
       {{"explain", "-o", folder / "a.html", "--seed", "-1"}, "--seed"},
       {{"explain", "-o", folder / "a.html", "--seed", "x"}, "--seed"},
       {{"explain", "-o", folder / "none/a.html"}, "-o"},
+      {{"explain", "-o", folder / "a.txt"}, "a.txt: the lesson is written as html, expected a name that ends in .html"},
+      {{"explain", "--figure", "recover/3", "-o", folder / "a.png"}, "a.png: the figure is written as svg"},
       {{"explain", "-o", folder / "a.html", "--sede", "1"}, "the nearest is '--seed'"},
   };
   for (const auto& [arguments, message] : cases) {

@@ -246,7 +246,10 @@ TEST(Library, TheCallbackIsToldAndCanStop) {
   std::atomic<bool> stop = true;
   options.progress = {};
   options.stop = &stop;
-  EXPECT_TRUE(mesh(volume.view, kIsovalue, options).report.stopped);
+  const MeshReport stopped = mesh(volume.view, kIsovalue, options).report;
+  EXPECT_TRUE(stopped.stopped);
+  ASSERT_FALSE(stopped.unmet.empty());
+  EXPECT_NE(stopped.unmet[0].find("was stopped by the caller"), std::string::npos);
 
   VerifyOptions never;
   never.progress = [](const StageProgress&) { return false; };
@@ -309,6 +312,21 @@ TEST(Library, TheTopologyIsThatOfTheMesh) {
   TopologyOptions closed;
   closed.parameters.set("boundary", "closed").set("field.invert", true);
   EXPECT_EQ(topology(volume.view, kIsovalue, closed).components, exact.components + 1);
+}
+
+TEST(Library, VerifyAcceptsTheNumberOfComponentsThatWereLeftOut) {
+  auto volume = x_fastest<float>();
+  volume.memory[2 + 14 * (2 + 16 * 15)] = 100;  // a grain apart from the balls
+  MeshOptions options;
+  options.parameters.set("components.keep_largest", 1);
+  const MeshResult result = mesh(volume.view, kIsovalue, options);
+  EXPECT_TRUE(result.report.proven);
+  EXPECT_EQ(result.report.dropped_components, 1);
+  EXPECT_NE(result.report.json.find("\"dropped_components\": 1"), std::string::npos);
+  VerifyOptions verified;
+  EXPECT_FALSE(verify(result.mesh, volume.view, kIsovalue, verified).proven);
+  verified.dropped_components = result.report.dropped_components;
+  EXPECT_TRUE(verify(result.mesh, volume.view, kIsovalue, verified).proven);
 }
 
 TEST(Library, ParametersAreThoseOfTheTable) {

@@ -37,6 +37,11 @@ TEST_F(BadVolume, FilesThatAreNotThereOrNoFiles) {
   expect_input_error([&] { read_volume(directory_ / "dir.nrrd"); }, {"dir.nrrd", "not a regular file"});
   ASSERT_EQ(::mkfifo((directory_ / "pipe.nrrd").c_str(), 0600), 0);
   expect_input_error([&] { read_volume(directory_ / "pipe.nrrd"); }, {"pipe.nrrd", "not a regular file"});
+  // What is missing is called missing, whatever its name; what is there and no volume by its name.
+  for (const char* name : {"v.tiff", "v"}) {
+    expect_input_error([&] { read_volume(directory_ / name); }, {name, "no such file"});
+    write_text(directory_ / name, "no volume");
+  }
   expect_input_error([&] { read_volume(directory_ / "v.tiff"); }, {"v.tiff", "\".tiff\"", ".nrrd"});
   expect_input_error([&] { read_volume(directory_ / "v"); }, {"v: has no extension", ".nrrd"});
   write_text(directory_ / "file", "");
