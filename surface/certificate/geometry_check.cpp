@@ -227,16 +227,19 @@ std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Ve
   const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3;
   const bool is_close = changes_side(isosurface, centroid, isosurface.is_above(centroid), normal, kClose * most);
   const double squared_free = is_close ? (1 - kClose) * (1 - kClose) * most * most : -1;
-  // With so few samples all but the centroid are on edges, within a part of one from a corner.
-  const int order = sample_order(std::sqrt(squared_longest));
-  if (is_close && order <= 3 && squared_longest <= order * order * most * most) return 0;
+  // Then every point of a triangle with shorter edges is near it or a corner. (With edges of 2.46 times `most` the
+  // shape for which that is tightest just is.)
+  constexpr double kShort = 2.4;
+  if (is_close && squared_longest <= kShort * kShort * most * most) return 0;
   std::int64_t count = 0;
-  for_each_sample(corners, std::sqrt(squared_longest), [&](const Vec3& p) {
+  const auto measure = [&](const Vec3& p) {
     if (count >= enough) return;
     const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= most * most; };
     if (squared_distance(p, centroid) <= squared_free || std::any_of(corners.begin(), corners.end(), is_beside)) return;
     if (!is_near(isosurface, p, normal, most)) ++count;
-  });
+  };
+  for_each_sample(corners, std::sqrt(squared_longest), measure);
+  for_each_crease_sample(corners, isosurface.step(), measure);
   return count;
 }
 

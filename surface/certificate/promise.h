@@ -21,8 +21,10 @@ struct Promise {
   std::int64_t dropped_components = 0;
 };
 
-// Distances are sampled at the same points of a triangle by both: at its centroid, and at the points of a lattice about
-// a voxel apart, with at most so many along an edge.
+// Distances are sampled at the same points of a triangle by both: at its centroid, at the points of a lattice about a
+// voxel apart, with at most so many along an edge, and, where its corners do not tell that all of it is near, where the
+// faces between voxel cells cut it: at its edges and in the middle between two such points. Those of the isosurface are
+// its crossings with the edges of the grid.
 inline constexpr int kMostSamplesPerEdge = 64;
 
 // What was found of a mesh. A count of 0 is right.

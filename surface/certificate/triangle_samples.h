@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "delaunay/base/vec3.h"
 #include "surface/certificate/promise.h"
@@ -15,6 +16,35 @@ namespace deliso {
 inline int sample_order(double longest_edge) {
   constexpr double kRounding = 1e-9;
   return static_cast<int>(std::clamp(std::ceil((1 - kRounding) * longest_edge), 2.0, double(kMostSamplesPerEdge)));
+}
+
+// Calls visit(point) where the faces between voxel cells cut a triangle: on its edges, and in the middle between two of
+// these points. There the isosurface has its creases, so there a small triangle is farthest from it. `step`: a cell.
+template <class Visit>
+void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step, const Visit& visit) {
+  // An edge that is all but parallel to a face has no place where it crosses it. Where both points are corners, as of
+  // an edge in a face, rounding would decide whether there are two.
+  constexpr double kParallel = 1e-3;  // cells
+  constexpr double kAtCorner = 1e-6;  // of an edge
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::array<double, 3> at = {corners[0][axis] / step[axis], corners[1][axis] / step[axis],
+                                      corners[2][axis] / step[axis]};
+    const double last = std::floor(std::max({at[0], at[1], at[2]}));
+    for (double face = std::ceil(std::min({at[0], at[1], at[2]})); face <= last; ++face) {
+      std::array<Vec3, 2> ends;
+      std::size_t count = 0, at_corners = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t next = (i + 1) % 3;
+        if ((at[i] < face) == (at[next] < face) || std::abs(at[next] - at[i]) < kParallel) continue;
+        const double along = (face - at[i]) / (at[next] - at[i]);
+        ends.at(count) = (1 - along) * corners[i] + along * corners[next];
+        visit(ends.at(count));
+        ++count;
+        at_corners += along < kAtCorner || along > 1 - kAtCorner ? 1 : 0;
+      }
+      if (count == 2 && at_corners < 2) visit(0.5 * (ends[0] + ends[1]));
+    }
+  }
 }
 
 // Calls visit(point) for points about a voxel apart on a triangle, the corners left out. `longest`: its longest edge.

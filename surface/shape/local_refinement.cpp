@@ -46,7 +46,7 @@ void PatchImprovement::refine_around(std::span<const std::uint32_t> bad, double 
   std::stable_sort(worst_first.begin(), worst_first.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return patch_.quality(a) < patch_.quality(b); });
   std::vector<std::uint32_t> tried;
-  std::size_t left = several_left_ = kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral;
+  std::size_t left = kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral;
   for (const std::uint32_t t : worst_first) {
     if (left == 0 || controls_.poll()) break;
     if (!patch_.has(t) || std::find(tried.begin(), tried.end(), t) != tried.end()) continue;

@@ -19,6 +19,7 @@ PatchImprovement::PatchImprovement(Patch& patch, const PatchPlan& plan, const Is
                                    const ShapeOptions& options, Controls controls, ShapeStats& stats)
     : patch_(patch),
       room_(plan.room),
+      several_in_all_(kSeveralRounds * kMostSeveral + patch.triangle_count() / kTrianglesPerSeveral),
       goal_(std::sin(options.min_angle)),
       guard_(patch, plan.crossings, isosurface, options, stats.search),
       controls_(std::move(controls)),
@@ -28,7 +29,9 @@ PatchImprovement::PatchImprovement(Patch& patch, const PatchPlan& plan, const Is
 void PatchImprovement::run(std::span<const std::uint32_t> bad, double freedom, int depth) {
   guard_.set_freedom(freedom);
   depth_ = depth;
-  several_left_ = kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral;
+  const std::size_t most_several =
+      std::min(several_in_all_, kMostSeveral + patch_.triangle_count() / kTrianglesPerSeveral);
+  several_left_ = most_several;
   steps_.set_thorough(depth > 1);
   for (const std::uint32_t t : bad) {
     if (patch_.has(t)) queue_.push({patch_.quality(t), t});
@@ -39,6 +42,7 @@ void PatchImprovement::run(std::span<const std::uint32_t> bad, double freedom, i
     queue_.pop();
     if (patch_.has(t)) improve(t);
   }
+  several_in_all_ -= most_several - several_left_;
   queue_ = {};
 }
 
@@ -114,7 +118,8 @@ bool PatchImprovement::improve(std::uint32_t triangle) {
   }
   if (depth_ == 1 || several_left_ == 0) return false;
   --several_left_;
-  return improve_on_the_way() || improve_by_several(triangle, depth_);
+  const std::vector<PatchStep> steps = candidates_;  // their points are moved on the way
+  return improve_on_the_way() || improve_by_several(steps);
 }
 
 bool PatchImprovement::improves(const PatchStep& step) const {
@@ -145,18 +150,19 @@ std::vector<PatchStep> PatchImprovement::all_steps(std::uint32_t triangle) {
 
 // Several steps that only together are an improvement: after each, one that replaces the worst of what was added. The
 // steps of a trial are taken back unless it ends well.
-bool PatchImprovement::improve_by_several(std::uint32_t triangle, int depth) {
+bool PatchImprovement::improve_by_several(std::span<const PatchStep> steps) {
   const std::size_t first_added = patch_.triangle_count();
-  if (!try_several(triangle, {1, 0}, first_added, depth)) return false;
+  if (!try_several(steps, {1, 0}, first_added, depth_)) return false;
   queue_added(first_added);
   return true;
 }
 
-// `old`: what the trial has replaced, of the triangles from before it.
-bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth) {
+// `steps`: for its worst triangle, the best first. `old`: what the trial has replaced, of the triangles from before it.
+bool PatchImprovement::try_several(std::span<const PatchStep> steps, const Replaced& old, std::size_t first_added,
+                                   int depth) {
   constexpr std::size_t kMostTried = 6;
   std::size_t tried = 0;
-  for (const PatchStep& step : all_steps(triangle)) {
+  for (const PatchStep& step : steps) {
     if (tried == kMostTried) return false;
     Replaced all = old;
     for (const std::uint32_t t : step.removed) {
@@ -170,7 +176,7 @@ bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, 
     const std::uint32_t worst = worst_added(first_added);
     const bool is_better =
         worst == kNoVertex || (patch_.quality(worst) > wanted && bad_added(first_added) <= all.bad + 1);
-    if (is_better || (depth > 1 && try_several(worst, all, first_added, depth - 1))) {
+    if (is_better || (depth > 1 && try_several(all_steps(worst), all, first_added, depth - 1))) {
       ++stats_.steps[static_cast<std::size_t>(step.kind)];
       return true;
     }

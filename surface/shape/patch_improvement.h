@@ -46,8 +46,9 @@ class PatchImprovement {
   static constexpr double kEnough = 1.15;
   // In one round, for so many triangles, the worst ones, several steps are tried together, and for one more of each so
   // many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes
-  // have thousands of bad triangles that stay.
-  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100;
+  // have thousands of bad triangles that stay. In all rounds: so many times the former, and as many of the latter as in
+  // one. (Level sets after advection, saturated scans and orbitals at 1e-12 spent nine tenths of the run here.)
+  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100, kSeveralRounds = 10;
   // So many triangles are tried in one round, and one more of each so many triangles of the patch.
   static constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
 
@@ -55,12 +56,12 @@ class PatchImprovement {
   bool improve_on_the_way();
   [[nodiscard]] bool improves(const PatchStep& step) const;
   std::vector<PatchStep> all_steps(std::uint32_t triangle);
-  bool improve_by_several(std::uint32_t triangle, int depth);
+  bool improve_by_several(std::span<const PatchStep> steps);
   struct Replaced {
     double least = 1;     // quality
     std::size_t bad = 0;  // triangles below the goal
   };
-  bool try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth);
+  bool try_several(std::span<const PatchStep> steps, const Replaced& old, std::size_t first_added, int depth);
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
@@ -79,7 +80,7 @@ class PatchImprovement {
   const BoxSet& room_;
   bool is_refining_ = false, may_be_far_ = false;
   int depth_ = 1;
-  std::size_t several_left_ = 0;
+  std::size_t several_in_all_, several_left_ = 0;
   double goal_;  // the sine of min_angle
   StepGuard guard_;
   Controls controls_;  // of this patch

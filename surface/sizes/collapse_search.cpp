@@ -9,8 +9,8 @@
 #include "delaunay/triangle_contact.h"
 #include "surface/certificate/triangle_samples.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/shape/place_search.h"
 #include "surface/mesh/triangle_shape.h"
+#include "surface/shape/place_search.h"
 
 namespace deliso {
 
@@ -203,7 +203,10 @@ double CollapseSearch::distance_of_mesh(double limit) {
     samples_.clear();
     const double longest =
         std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-    for_each_sample(points, longest, [&](const Vec3& p) { samples_.push_back(p); });
+    const auto take = [&](const Vec3& p) { samples_.push_back(p); };
+    for_each_sample(points, longest, take);
+    // Where corners do not tell that all of the triangle is near.
+    if (longest * longest > 3 * limit * limit) for_each_crease_sample(points, isosurface_.step(), take);
     for (std::size_t first = 0; first < samples_.size(); first += kLanes) {
       const std::size_t count = std::min(kLanes, samples_.size() - first);
       LineLanes lines;

@@ -32,13 +32,15 @@ std::vector<Vec3> error_targets(const SurfaceMesh& mesh, const ExactSurface& sur
     if (!(length > 0)) continue;
     double farthest = 0;
     Vec3 point;
-    for_each_sample(corners, longest, [&](const Vec3& p) {
+    const auto measure = [&](const Vec3& p) {
       const Line line{p, normal / length};
       const auto hit = isosurface.nearest_falling_hit(line, longest, counters);
       if (!hit || std::abs(*hit) <= farthest || !isosurface.box().contains(line.at(*hit))) return;
       farthest = std::abs(*hit);
       point = line.at(*hit);
-    });
+    };
+    for_each_sample(corners, longest, measure);
+    for_each_crease_sample(corners, isosurface.step(), measure);
     if (farthest > 0) targets.push_back(point);
   }
   return targets;

@@ -55,6 +55,41 @@ double squared_distance_to(const Vec3& p, const Vec3& a, const Vec3& b, const Ve
   return least;
 }
 
+// Appends the points at which edges of a triangle pass from one voxel cell to the next, and for each face between cells
+// that cuts two edges, not both at corners, the point in the middle. Edges that hardly change in an axis pass no face
+// across it. A mesh may
+// lie anywhere, but cells are within the box alone.
+void append_cuts_by_cell_faces(const std::array<Vec3, 3>& corners, const IsosurfaceProbe& probe,
+                               std::vector<Vec3>& samples) {
+  constexpr double kLeastChange = 1e-3;   // cells
+  constexpr double kBesideCorner = 1e-6;  // of an edge
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double cell = probe.step()[axis];
+    double from = corners[0][axis], to = from;
+    for (const Vec3& p : corners) {
+      from = std::min(from, p[axis]);
+      to = std::max(to, p[axis]);
+    }
+    const double first = std::ceil(std::max(from, probe.box().low[axis]) / cell);
+    const double last = std::floor(std::min(to, probe.box().high[axis]) / cell);
+    for (double number = first; number <= last; ++number) {
+      const double face = number * cell;
+      std::vector<Vec3> cuts;
+      bool is_inside = false;  // of an edge, one of them
+      for (const auto& [p, q] :
+           {std::pair(corners[0], corners[1]), std::pair(corners[1], corners[2]), std::pair(corners[2], corners[0])}) {
+        const double change = q[axis] - p[axis];
+        if (std::abs(change) < kLeastChange * cell || (p[axis] < face) == (q[axis] < face)) continue;
+        const double share = (face - p[axis]) / change;
+        cuts.push_back(p + share * (q - p));
+        is_inside = is_inside || (kBesideCorner < share && share < 1 - kBesideCorner);
+      }
+      samples.insert(samples.end(), cuts.begin(), cuts.end());
+      if (cuts.size() == 2 && is_inside) samples.push_back((cuts[0] + cuts[1]) / 2);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most) {
@@ -98,10 +133,14 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
         samples.push_back((double(i) * a + double(j) * b + double(order - i - j) * c) / double(order));
       }
     }
-    const double weight = 0.5 * norm(cross(b - a, c - a)) / static_cast<double>(samples.size());
-    for (const Vec3& p : samples) {
-      const double distance = probe.foot_point(p, most).distance;
-      builder.add(distance, weight, p);
+    // The mean is over points that are spread evenly.
+    const std::size_t even = samples.size();
+    const double weight = 0.5 * norm(cross(b - a, c - a)) / static_cast<double>(even);
+    // Every point of a triangle is within its longest edge over the square root of 3 of a corner.
+    if (longest * longest > 3 * most * most) append_cuts_by_cell_faces({a, b, c}, probe, samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double distance = probe.foot_point(samples[i], most).distance;
+      builder.add(distance, i < even ? weight : 0, samples[i]);
       if (beyond != nullptr && distance > most) ++*beyond;
     }
   }

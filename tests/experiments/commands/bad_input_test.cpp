@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -78,6 +79,10 @@ TEST_F(BadInput, EmptyNamesOfInputs) {
 }
 
 TEST_F(BadInput, NamesThatTellNoFormat) {
+  for (const char* name : {"volume", "volume.png"}) {
+    expect_refusal({"info", "@/" + std::string(name)}, {name, "there is no such file"});
+    std::ofstream(folder_ / name) << "no volume";
+  }
   expect_refusal({"info", "@/volume"}, {"/volume: has no extension, a volume is read from .nrrd, .nhdr, .nii"});
   expect_refusal({"info", "@/volume.png"}, {"/volume.png: has the extension \".png\", a volume is read from"});
 }

@@ -44,7 +44,11 @@ TEST(GeometryCheck, AgreesWithTheVerificationOnMovedVertices) {
     const GeometryCheck check = check_geometry(mesh, scene->surface(), promise);
     const Verification verification = verified(mesh, *scene, promise);
     EXPECT_EQ(check.vertices_off > 0, !verification.residual.pass);
-    EXPECT_EQ(check.mesh_off > 0, verification.distance.mesh_to_isosurface.max_voxels > 0.5);
+    // The mesher takes corners for points of the isosurface, and what is within the distance of one for near. Around a
+    // corner that is off, which is told anyway, only the verification finds samples too far.
+    const bool is_farther = verification.distance.mesh_to_isosurface.max_voxels > 0.5;
+    EXPECT_EQ(check.mesh_off > 0 || check.vertices_off > 0, is_farther || !verification.residual.pass);
+    EXPECT_TRUE(check.mesh_off == 0 || is_farther);
     EXPECT_EQ(!check.missed_crossings.empty(), verification.distance.isosurface_to_mesh.max_voxels > 0.5);
     (check.is_near() ? near : off) += 1;
   }

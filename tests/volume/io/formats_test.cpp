@@ -282,7 +282,7 @@ TEST_F(Formats, NumpyHeadersThatAreNone) {
 }
 
 TEST_F(Formats, OthersAreNamedWithAProgramThatConvertsThem) {
-  expect_input_error([&] { read_volume(directory_ / "scan.dcm"); }, {"dcm2niix"});
+  refuse("scan.dcm", std::string(128, '\0') + "DICM", {"dcm2niix"});
   std::filesystem::create_directory(directory_ / "series");
   expect_input_error([&] { read_volume(directory_ / "series"); }, {"series", "dcm2niix"});
   refuse("stack.tif", "II*", {"3D Slicer", ".tif"});
