@@ -27,12 +27,21 @@ std::string too_large(const nlohmann::json::out_of_range& error, const std::stri
   return "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": the number " + number + " is too large";
 }
 
-// Refuses a key that the object at the same depth already has. (The parser itself would keep the last one.)
-class DuplicateKeyCheck {
- public:
-  explicit DuplicateKeyCheck(std::string source) : source_(std::move(source)) {}
+// More levels than any document of ours has. What walks through a document calls itself for each level, and its stack
+// holds some ten thousand.
+constexpr int kDeepest = 500;
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+// Refuses what is nested too deeply, and a key that the object at the same depth already has. (The parser itself would
+// keep the last one.)
+class StructureCheck {
+ public:
+  explicit StructureCheck(std::string source) : source_(std::move(source)) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > kDeepest) {
+      throw InputError(source_ + ": nested too deeply, expected at most " + std::to_string(kDeepest) +
+                       " objects and arrays within each other");
+    }
     if (event == Json::parse_event_t::object_start) keys_.emplace_back();
     if (event == Json::parse_event_t::object_end) keys_.pop_back();
     if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second) {
@@ -49,7 +58,7 @@ class DuplicateKeyCheck {
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& source) {
-  DuplicateKeyCheck check(source);
+  StructureCheck check(source);
   try {
     return Json::parse(text, [&check](int depth, Json::parse_event_t event, const Json& parsed) {
       return check(depth, event, parsed);

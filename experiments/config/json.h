@@ -11,8 +11,8 @@ namespace deliso {
 // Keys keep the order they were written in.
 using Json = nlohmann::ordered_json;
 
-// Strict JSON: no comments, no trailing text, no duplicate key in an object, no number that overflows a double. Throws
-// InputError naming `source` (a file, say) with line and column.
+// Strict JSON: no comments, no trailing text, no duplicate key in an object, no number that overflows a double, at
+// most 500 objects and arrays within each other. Throws InputError naming `source` (a file, say) with line and column.
 Json parse_json(const std::string& text, const std::string& source);
 
 // Throws InputError also when the file cannot be read.

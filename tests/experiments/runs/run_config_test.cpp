@@ -47,6 +47,26 @@ TEST(RunConfig, SmallExperimentIsTaken) {
   EXPECT_EQ(planned_runs(experiment).size(), 12u);
 }
 
+// What walks through a document calls itself for each level: the stack would end before the document.
+TEST(RunConfig, WhatIsNestedTooDeeplyIsRefusedInOneSentence) {
+  const TemporaryFolder folder;
+  const auto nested = [](const std::string& open, const std::string& close, int levels) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += open;
+    text += "1";
+    for (int i = 0; i < levels; ++i) text += close;
+    return text;
+  };
+  for (const std::string& text : {nested("{\"a\": ", "}", 60000), nested("[", "]", 60000), nested("[", "]", 501)}) {
+    write_file(folder / "deep.json", text);
+    const ProgramResult result = run_deliso({"run", folder / "deep.json"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, "deliso: " + (folder / "deep.json") +
+                              ": nested too deeply, expected at most 500 objects and arrays within each other\n");
+  }
+  EXPECT_NO_THROW(parse_json(nested("[", "]", 500), "p.json"));
+}
+
 // The name is that of a folder for results: it must not lead out of the one it is put into.
 TEST(RunConfig, NamesThatLeadElsewhereAreRefused) {
   for (const std::string name : {"../../zz", "..", "/tmp/zz", "a/b", ".hidden"}) {
