@@ -51,6 +51,7 @@ struct MeshCommandOptions {
   std::string report;
   std::string stage1_output;
   std::string threads = "1";
+  bool closed = false;
   bool quiet = false;
   bool ascii = false;
 };
@@ -61,6 +62,7 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   if (!options.config.empty()) parameters = read_parameters(options.config);
   for (const std::string& assignment : options.assignments)
     set_parameter(with_length_in_voxels(assignment, volume), parameters);
+  if (options.closed) parameters.boundary = Boundary::kClosed;
   apply_field_options(options.field, volume, parameters.field);
   apply_size_options(options.sizes, volume, parameters);
   return parameters;
@@ -255,6 +257,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("--set", options->assignments, "One parameter, key.path=value (repeatable; after --config)")
       .type_name("KEY=VALUE")
       .repeatable();
+  command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");
   command.add_option("--seed", options->seed, "Seed of the random choices").type_name("N").show_default();
   command.add_option("--report", options->report, "Write a JSON report of the run")
       .type_name("FILE")

@@ -206,6 +206,10 @@ TEST_F(Fields, ClosedIsNotedInTheFileOfTheMesh) {
   const Json report = expect_proven({"--isovalue", "0", "--invert", "--set", "boundary=closed"}, {"--isovalue", "0"});
   EXPECT_EQ(report["boundary_loops"], 0);
   EXPECT_EQ(report["parameters"]["field"]["invert"], true);
+  // The short form, with the same note in the file.
+  const std::string closed = read_file(mesh_);
+  expect_proven({"--isovalue", "0", "--invert", "--closed"}, {"--isovalue", "0"});
+  EXPECT_EQ(read_file(mesh_), closed);
   // All inside: the box.
   EXPECT_EQ(expect_proven({"--isovalue", "-50", "--set", "boundary=closed"}, {"--isovalue", "-50"})["components"], 1);
 }
