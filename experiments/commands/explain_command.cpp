@@ -100,6 +100,16 @@ void check_extension(const ExplainCommandOptions& options) {
                    " is written as " + expected.substr(1) + ", expected a name that ends in " + expected);
 }
 
+// Finds everything that could prevent the results from being written before the work starts.
+void check_outputs(const ExplainCommandOptions& options) {
+  check_extension(options);
+  if (!options.output.empty()) check_writable(options.output, "-o");
+  if (!options.trace.empty()) check_writable(options.trace, "--trace");
+  check_distinct({{"VOLUME", options.volume}, {"--config", options.config}},
+                 {{"-o", options.output}, {"--trace", options.trace}});
+  check_one_standard_output({{"--text", options.text ? "-" : ""}, {"-o", options.output}, {"--trace", options.trace}});
+}
+
 ExitCode run_explain(const ExplainCommandOptions& options) {
   if (options.output.empty() && options.trace.empty() && !options.text)
     throw InputError("explain: -o LESSON (a page such as lesson.html), --trace or --text is required");
@@ -109,14 +119,10 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
     throw InputError("explain: --isovalue is required with a volume");
   if (options.volume.empty() && !options.isovalue.empty())
     throw InputError("explain: --isovalue needs a volume; without one the built-in torus is shown");
-  check_extension(options);
+  check_outputs(options);
   LessonOptions lesson;
   lesson.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   lesson.shows_answers = options.answers;
-  if (!options.output.empty()) check_writable(options.output, "-o");
-  if (!options.trace.empty()) check_writable(options.trace, "--trace");
-  check_distinct({{"VOLUME", options.volume}, {"--config", options.config}},
-                 {{"-o", options.output}, {"--trace", options.trace}});
 
   const std::vector<LessonRun> runs = observed_runs(options);
   if (!options.trace.empty()) write_text(trace_text(runs.front()), options.trace);
@@ -133,12 +139,14 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   const std::string page = options.figure.empty() ? lesson_page(lesson) : lesson_figure(lesson, options.figure);
   write_text(page, options.output);
   if (options.text) return ExitCode::kDone;
+  // Where a result goes to standard output, nothing else does.
+  const bool is_taken = is_standard_stream(options.output) || is_standard_stream(options.trace);
   TextTable()
       .row({options.figure.empty() ? "lesson" : "figure", options.output})
       .row({"bytes", std::to_string(page.size())})
       .row({"events", std::to_string(runs.front().events.size())})
       .row({"seed", std::to_string(lesson.seed)})
-      .print(std::cout);
+      .print(is_taken ? std::cerr : std::cout);
   return ExitCode::kDone;
 }
 

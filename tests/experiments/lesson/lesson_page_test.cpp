@@ -108,6 +108,10 @@ TEST(ExplainCommand, WritesThePage) {
   EXPECT_NE(result.out.find("lesson.html"), std::string::npos);
   EXPECT_LE(read_file(folder / "lesson.html").size(), 2'000'000u);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"lesson.html"});
+  // Nothing stands beside the page where it goes to standard output.
+  const ProgramResult piped =
+      run_deliso({"explain", "-o", "-", "--without-experiments", "--seed", "18446744073709551615"});
+  EXPECT_EQ(piped.out, read_file(folder / "lesson.html"));
 }
 
 TEST(ExplainCommand, WritesTraceAndTranscriptOfAVolume) {
@@ -147,6 +151,9 @@ TEST(ExplainCommand, RefusesInOneSentence) {
       {{"explain", "-o", folder / "a.txt"}, "a.txt: the lesson is written as html, expected a name that ends in .html"},
       {{"explain", "--figure", "recover/3", "-o", folder / "a.png"}, "a.png: the figure is written as svg"},
       {{"explain", "-o", folder / "a.html", "--sede", "1"}, "the nearest is '--seed'"},
+      {{"explain", "--text", "-o", "-"}, "-o: standard output is that of --text already"},
+      {{"explain", "--text", "--trace", "-"}, "--trace: standard output is that of --text already"},
+      {{"explain", "-o", "-", "--trace", "-"}, "--trace: standard output is that of -o already"},
   };
   for (const auto& [arguments, message] : cases) {
     const ProgramResult result = run_deliso(arguments);
