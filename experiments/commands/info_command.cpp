@@ -207,9 +207,10 @@ ExitCode run_info(const InfoCommandOptions& options) {
   const Looked looked = look_at(volume, options);
   const Json report = info_report(options, volume, looked);
   if (!options.report.empty()) write_text(json_text(report), options.report);
+  if (is_standard_stream(options.report)) return ExitCode::kDone;  // the JSON stands there already
   if (options.json) {
     std::cout << json_text(report);
-  } else if (!is_standard_stream(options.report)) {
+  } else {
     print_info(report, looked);
   }
   return ExitCode::kDone;

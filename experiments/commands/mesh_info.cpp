@@ -138,9 +138,10 @@ ExitCode run_mesh_info(const std::string& path, const MeshFormatOptions& format,
                        bool json) {
   const Json report = mesh_info_report(path, load_mesh(path, format));
   if (!report_path.empty()) write_text(json_text(report), report_path);
+  if (is_standard_stream(report_path)) return ExitCode::kDone;  // the JSON stands there already
   if (json) {
     std::cout << json_text(report);
-  } else if (!is_standard_stream(report_path)) {
+  } else {
     print_mesh_info(report);
   }
   return ExitCode::kDone;

@@ -133,6 +133,12 @@ TEST(Usage, InfoTellsWhatTheFileHolds) {
   EXPECT_GT(isovalue, 10);
   EXPECT_LT(isovalue, 100);
   EXPECT_TRUE(contains(run_deliso({"info", folder / "v.nrrd"}).out, "suggested isovalue"));
+  // One object, though two options ask for it; of meshes, too.
+  EXPECT_EQ(run_deliso({"info", folder / "v.nrrd", "--json", "--report", "-"}).out, result.out);
+  write_file(folder / "m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string of_mesh = run_deliso({"info", folder / "m.off", "--json"}).out;
+  EXPECT_TRUE(contains(of_mesh, "deliso-mesh-info-1"));
+  EXPECT_EQ(run_deliso({"info", folder / "m.off", "--json", "--report", "-"}).out, of_mesh);
 }
 
 // A row of the histogram for each value there can be, no row twice, and no table without a row.
