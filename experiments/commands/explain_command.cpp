@@ -25,6 +25,7 @@
 #include "experiments/system/parse_number.h"
 #include "experiments/system/stop_signal.h"
 #include "experiments/system/text_table.h"
+#include "surface/library/run_report.h"
 #include "volume/fields/field_slices.h"
 #include "volume/io/base/input_file.h"
 
@@ -57,10 +58,9 @@ MeshingOptions meshing_options(const ExplainCommandOptions& options) {
 }
 
 // The runs of the page: that of the volume, or of the built-in torus; and noise, which shows every refusal.
-std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options) {
+std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options, const MeshingOptions& meshing) {
   constexpr std::int32_t kTorusSize = 16, kNoiseSize = 8;
   constexpr double kTorusIsovalue = 0.7, kNoiseIsovalue = 127.5;
-  const MeshingOptions meshing = meshing_options(options);
   std::vector<LessonRun> runs;
   if (options.volume.empty()) {
     runs.push_back(run_observed("torus", generate_field("torus", kTorusSize), kTorusIsovalue, meshing));
@@ -110,6 +110,17 @@ void check_outputs(const ExplainCommandOptions& options) {
   check_one_standard_output({{"--text", options.text ? "-" : ""}, {"-o", options.output}, {"--trace", options.trace}});
 }
 
+// A line for each run that did not reach its end, whose steps are shown all the same.
+ExitCode tell_what_stopped(const std::vector<LessonRun>& runs, const MeshingOptions& meshing) {
+  ExitCode exit_code = ExitCode::kDone;
+  for (const LessonRun& run : runs) {
+    if (!run.result.stopped_early()) continue;
+    std::cerr << "deliso: " << run.name << ": " << unmet_goals(meshing, run.result).front() << '\n';
+    exit_code = ExitCode::kStopped;
+  }
+  return exit_code;
+}
+
 ExitCode run_explain(const ExplainCommandOptions& options) {
   if (options.output.empty() && options.trace.empty() && !options.text)
     throw InputError("explain: -o LESSON (a page such as lesson.html), --trace or --text is required");
@@ -124,12 +135,14 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   lesson.seed = parse_count(options.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
   lesson.shows_answers = options.answers;
 
-  const std::vector<LessonRun> runs = observed_runs(options);
+  const MeshingOptions meshing = meshing_options(options);
+  const std::vector<LessonRun> runs = observed_runs(options, meshing);
+  const ExitCode exit_code = tell_what_stopped(runs, meshing);
   if (!options.trace.empty()) write_text(trace_text(runs.front()), options.trace);
   if (options.text) {
     for (const Json& event : runs.front().events) std::cout << sentence_of(event) << '\n';
   }
-  if (options.output.empty()) return ExitCode::kDone;
+  if (options.output.empty()) return exit_code;
   lesson.runs = &runs;
   Json experiments;
   if (options.figure.empty() && !options.without_experiments) {
@@ -138,7 +151,7 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
   }
   const std::string page = options.figure.empty() ? lesson_page(lesson) : lesson_figure(lesson, options.figure);
   write_text(page, options.output);
-  if (options.text) return ExitCode::kDone;
+  if (options.text) return exit_code;
   // Where a result goes to standard output, nothing else does.
   const bool is_taken = is_standard_stream(options.output) || is_standard_stream(options.trace);
   TextTable()
@@ -147,7 +160,7 @@ ExitCode run_explain(const ExplainCommandOptions& options) {
       .row({"events", std::to_string(runs.front().events.size())})
       .row({"seed", std::to_string(lesson.seed)})
       .print(is_taken ? std::cerr : std::cout);
-  return ExitCode::kDone;
+  return exit_code;
 }
 
 }  // namespace

@@ -138,6 +138,17 @@ TEST(ExplainCommand, WritesTraceAndTranscriptOfAVolume) {
       << counts;
 }
 
+TEST(ExplainCommand, SaysWhatStoppedItsRun) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_deliso({"explain", "--set", "budget.max_vertices=16", "--text", "--trace", folder / "t.jsonl"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(result.err.starts_with("deliso: torus: stage ")) << result.err;
+  EXPECT_NE(result.err.find("was stopped by budget.max_vertices = 16"), std::string::npos) << result.err;
+  EXPECT_TRUE(lines_of(result.out).back().starts_with("The end: ")) << result.out;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"t.jsonl"});
+}
+
 TEST(ExplainCommand, RefusesInOneSentence) {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
