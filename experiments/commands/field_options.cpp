@@ -36,8 +36,19 @@ std::optional<NamedIsovalue> name_of_isovalue(const std::string& text) {
   }
 }
 
+// An isovalue beside a label says nothing of its own: only the one that the surface has anyway is taken.
+void check_isovalue_of_label(const std::string& isovalue) {
+  const bool is_other = name_of_isovalue(isovalue) || parse_number(isovalue, "--isovalue") != kLabelIsovalue;
+  if (!is_other) return;
+  throw InputError("--isovalue: the surface of a label lies half-way between it and all others, at 0.5; found '" +
+                   isovalue + "', leave it out");
+}
+
 double isovalue_in(const Volume& volume, const FieldOptions& options, const FieldParameters& parameters) {
-  if (parameters.label) return kLabelIsovalue;
+  if (parameters.label) {
+    if (!options.isovalue.empty()) check_isovalue_of_label(options.isovalue);
+    return kLabelIsovalue;
+  }
   if (options.isovalue.empty()) throw InputError("--isovalue is required (or --label N for the surface of a label)");
   const std::optional<NamedIsovalue> name = name_of_isovalue(options.isovalue);
   if (!name) return parse_number(options.isovalue, "--isovalue");
@@ -115,18 +126,16 @@ void check_field_options(const FieldOptions& options) {
   if (options.nan != "refuse" && options.nan != "outside" && options.nan != "inside") {
     throw InputError("--nan: expected refuse, outside or inside, found '" + options.nan + "'");
   }
-  if (options.isovalue.empty() || name_of_isovalue(options.isovalue)) return;
-  double value = 0;
-  try {
-    value = parse_number(options.isovalue, "--isovalue");
-  } catch (const InputError&) {
-    throw InputError("--isovalue: expected a finite number, otsu, mean, median or P%, found '" + options.isovalue +
-                     "'");
+  if (options.isovalue.empty()) return;
+  if (!name_of_isovalue(options.isovalue)) {
+    try {
+      parse_number(options.isovalue, "--isovalue");
+    } catch (const InputError&) {
+      throw InputError("--isovalue: expected a finite number, otsu, mean, median or P%, found '" + options.isovalue +
+                       "'");
+    }
   }
-  if (!options.label.empty() && value != kLabelIsovalue) {
-    throw InputError("--isovalue: the surface of a label lies half-way between it and all others, at 0.5; found '" +
-                     options.isovalue + "', leave it out");
-  }
+  if (!options.label.empty()) check_isovalue_of_label(options.isovalue);
 }
 
 void apply_field_options(const FieldOptions& options, const Volume* volume, FieldParameters& parameters) {

@@ -220,6 +220,9 @@ TEST_F(Fields, AreRefusedInOneSentenceWhereTheyMakeNoSense) {
   expect_refused({"mesh", volume_, "-o", mesh_, "--isovalue", "auto"}, "otsu, mean, median or P%");
   expect_refused({"mesh", volume_, "-o", mesh_, "--isovalue", "200%"}, "found '200%'");
   expect_refused({"mesh", volume_, "-o", mesh_, "--isovalue", "0.4", "--label", "1"}, "at 0.5");
+  expect_refused({"mesh", volume_, "-o", mesh_, "--isovalue", "otsu", "--label", "1"}, "found 'otsu', leave it out");
+  expect_refused({"mesh", volume_, "-o", mesh_, "--isovalue", "70", "--set", "field.label=1"}, "at 0.5");
+  expect_refused({"topology", volume_, "--isovalue", "50%", "--label", "1"}, "found '50%'");
   expect_refused({"mesh", volume_, "-o", mesh_, "--label", "7"}, "no sample has the label 7");
   expect_refused({"mesh", volume_, "-o", mesh_, "--label", "1,x"}, "found 'x'");
   expect_refused({"mesh", volume_, "-o", folder_ / "m.stl", "--label", "0,1"}, "{label}");
