@@ -171,8 +171,12 @@ void add_explain_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("VOLUME", options->volume, "A small volume to mesh step by step (default: the built-in torus)")
       .type_name("")
       .check(refuse_empty_name);
-  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed").type_name("K");
-  command.add_option("-o,--output", options->output, "The page: .html, to be opened from disk").type_name("LESSON");
+  command.add_option("--isovalue", options->isovalue, "The value whose isosurface is meshed")
+      .type_name("K")
+      .check(refuse_empty_value);
+  command.add_option("-o,--output", options->output, "The page: .html, to be opened from disk")
+      .type_name("LESSON")
+      .check(refuse_empty_name);
   command.add_option("--figure", options->figure, "One picture of the page as SVG, such as recover/3 (needs Chromium)")
       .type_name("CHAPTER/STEP")
       .check(refuse_empty_value);

@@ -97,7 +97,9 @@ void add_generate_command(CommandLine& line, ExitCode& exit_code) {
   command.add_option("NAME", options->name, "Which one").type_name("");
   command.add_option("-o,--output", options->output, "The volume: .nrrd or .raw; - is standard output (NRRD)")
       .type_name("VOLUME");
-  command.add_option("--size", options->size, "Samples along each axis (default: the field's own)").type_name("N");
+  command.add_option("--size", options->size, "Samples along each axis (default: the field's own)")
+      .type_name("N")
+      .check(refuse_empty_value);
   command.add_option("--seed", options->seed, "Seed of the fields that are random").type_name("N").show_default();
   command.add_option("--encoding", options->encoding, "Of .nrrd: gzip, or raw, which need not be read to be used")
       .type_name("gzip|raw")

@@ -5,6 +5,7 @@
 
 #include "delaunay/base/check.h"
 #include "experiments/system/files.h"
+#include "experiments/system/parse_number.h"
 #include "experiments/system/standard_input.h"
 #include "surface/mesh/component_measures.h"
 #include "surface/mesh/mesh_topology.h"
@@ -40,7 +41,8 @@ void add_mesh_output_options(Command& command, MeshFormatOptions& options) {
       .add_option(
           "--format", options.format,
           "Format of the mesh: " + std::string(kFormatNames) + " (default: by the extension; to standard output: ply)")
-      .type_name("F");
+      .type_name("F")
+      .check(refuse_empty_value);
   command.add_option("--msh-version", options.gmsh_version, "Version of Gmsh's format: 4.1 or 2.2")
       .type_name("V")
       .show_default();
@@ -50,7 +52,8 @@ void add_mesh_input_option(Command& command, MeshFormatOptions& options) {
   command
       .add_option("--format", options.format,
                   "Format of the mesh: " + std::string(kReadFormatNames) + " (default: by extension or content)")
-      .type_name("F");
+      .type_name("F")
+      .check(refuse_empty_value);
 }
 
 MeshFormat output_format(const std::string& path, const std::string& option, const MeshFormatOptions& options) {

@@ -220,7 +220,7 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
   add_volume_options(command, options->volume);
   add_region_option(command, options->volume);
   const auto add = [&command](const std::string& name, auto& value, const std::string& help, const std::string& type) {
-    return command.add_option(name, value, help).type_name(type);
+    return command.add_option(name, value, help).type_name(type).check(refuse_empty_value);
   };
   const auto add_many = [&add](const std::string& name, auto& values, const std::string& help,
                                const std::string& type) { add(name, values, help, type).repeatable(); };

@@ -54,7 +54,8 @@ void add_world_options(Command& command, WorldOptions& options) {
       command
           .add_option("--space", options.space,
                       "World coordinates of the mesh: native (as in the volume's file), LPS or RAS" + by_default)
-          .type_name("SPACE");
+          .type_name("SPACE")
+          .check(refuse_empty_value);
   if (by_default.empty()) option.show_default();
   command.add_flag("--local-origin", options.local_origin,
                    "Coordinates of the mesh count from the first sample (for STL far from the origin)");

@@ -65,6 +65,14 @@ TEST(Usage, AnOptionWithoutItsValueIsNamed) {
             "deliso: -o: expected a value, found the option '--isovalue'\n");
   EXPECT_EQ(refusal({"mesh", "v.nrrd", "-o", "x.ply", "--isovalue"}),
             "deliso: --isovalue: expected a value, found the end of the command line\n");
+  // As from a script whose variable is not set.
+  const std::string empty = ": expected a value, found an empty one (deliso --help tells more)\n";
+  EXPECT_EQ(refusal({"generate", "sphere", "--size", "", "-o", "x.nrrd"}), "deliso: --size" + empty);
+  EXPECT_EQ(refusal({"mesh", "v.nrrd", "--isovalue", "3", "-o", "x.ply", "--format", ""}), "deliso: --format" + empty);
+  EXPECT_EQ(refusal({"verify", "x.ply", "v.nrrd", "--isovalue", "3", "--space", ""}), "deliso: --space" + empty);
+  EXPECT_EQ(refusal({"info", "x.ply", "--format", ""}), "deliso: --format" + empty);
+  EXPECT_EQ(refusal({"render", "v.nrrd", "--isovalue", "3", "-o", "x.png", "--size", ""}), "deliso: --size" + empty);
+  EXPECT_EQ(refusal({"explain", "--isovalue", "", "-o", "x.html"}), "deliso: --isovalue" + empty);
   // A negative number and a lone dash are values.
   EXPECT_TRUE(contains(refusal({"mesh", "no.nrrd", "--isovalue", "-3", "-o", "-"}), "no.nrrd"));
 }
