@@ -132,6 +132,24 @@ std::vector<Variant> swept(const std::vector<Variant>& variants, const std::stri
   return all;
 }
 
+// Parameters that contradict each other would end every run of their variant. Other meshers, and runs that find the
+// topology alone, do not read them.
+void check_consistent(const StrictObject& experiment, const std::vector<Variant>& variants, Mistakes& mistakes) {
+  if (experiment.get<std::string>("task", "mesh") == "topology") return;
+  const std::string place = experiment.place_of(experiment.has("variants") ? "variants"
+                                                : experiment.has("sweep")  ? "sweep"
+                                                                           : "base");
+  for (const Variant& variant : variants) {
+    if (variant.mesher != Mesher::kDelIso) continue;
+    try {
+      check_parameters(variant.parameters);
+    } catch (const InputError& error) {
+      mistakes.add(InputError(std::string(place).append(": the parameters of '").append(variant.name) +
+                              "' contradict each other: " + error.what()));
+    }
+  }
+}
+
 }  // namespace
 
 // The variant of this name.
@@ -166,11 +184,13 @@ Variant parse_base(const StrictObject& experiment, const fs::path& folder, Mista
 std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Variant& base, const fs::path& folder,
                                         Mistakes& mistakes) {
   std::vector<Variant> variants = parse_variants(experiment, base, folder, mistakes);
-  if (!experiment.has("sweep")) return variants;
-  for (const auto& item : experiment.at("sweep").items()) {
-    const std::string place = experiment.place_of("sweep").append("/").append(item.key());
-    mistakes.gather([&] { variants = swept(variants, item.key(), item.value(), place, mistakes); });
+  if (experiment.has("sweep")) {
+    for (const auto& item : experiment.at("sweep").items()) {
+      const std::string place = experiment.place_of("sweep").append("/").append(item.key());
+      mistakes.gather([&] { variants = swept(variants, item.key(), item.value(), place, mistakes); });
+    }
   }
+  check_consistent(experiment, variants, mistakes);
   return variants;
 }
 

@@ -67,6 +67,19 @@ TEST(RunConfig, WhatIsNestedTooDeeplyIsRefusedInOneSentence) {
   EXPECT_NO_THROW(parse_json(nested("[", "]", 500), "p.json"));
 }
 
+TEST(RunConfig, ParametersThatContradictEachOtherAreFoundBeforeTheFirstRun) {
+  const std::string contradict = "contradict each other: stage2.pole_height: repair takes the nearer pole";
+  const Json set = Json{{"stage2.pole_height", "mean"}};
+  EXPECT_MESSAGE(refusal_with("/variants/1/set", set),
+                 "small.json#/variants: the parameters of 'coarse' " + contradict);
+  EXPECT_MESSAGE(refusal_with("/sweep", Json{{"stage2.pole_height", {"nearer", "mean"}}}),
+                 "small.json#/variants: the parameters of 'coarse stage2.pole_height=mean' " + contradict);
+  Json document = small_document();
+  document["variants"][1]["set"] = set;
+  document["variants"][1]["mesher"] = "marching_cubes";  // which does not read them
+  EXPECT_EQ(refusal(document), "");
+}
+
 // The name is that of a folder for results: it must not lead out of the one it is put into.
 TEST(RunConfig, NamesThatLeadElsewhereAreRefused) {
   for (const std::string name : {"../../zz", "..", "/tmp/zz", "a/b", ".hidden"}) {
