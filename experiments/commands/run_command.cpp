@@ -7,6 +7,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/commands/commands.h"
 #include "experiments/results/results.h"
+#include "experiments/runs/answer_config.h"
 #include "experiments/runs/experiment_config.h"
 #include "experiments/runs/experiment_datasets.h"
 #include "experiments/runs/run_progress.h"
@@ -95,6 +96,8 @@ ExitCode run_run(const RunCommandOptions& options) {
 
   // A question that has an answer is to be thought about while the runs are made.
   if (!experiment.answers.empty() && !options.quiet) std::cerr << "deliso: question: " << experiment.question << '\n';
+  const std::string left_out = unknown_variants_remark(experiment.answers);
+  if (!left_out.empty()) std::cerr << "deliso: " << left_out << '\n';
 
   // Do the runs, with progress on a terminal.
   using Style = RunProgress::Style;

@@ -26,6 +26,7 @@ class FigureFinder {
   // The figure of a reference without braces; empty where its runs are not finished.
   [[nodiscard]] Figure find(const std::string& text) const {
     const FigureReference reference = parse_figure_reference(text, experiment_, experiment_.name + "#/answers");
+    if (reference.unknown_variant) return {};
     Figure figure = cell_figure(reference, reference.variant);
     if (!reference.over.empty()) {
       const Figure over = cell_figure(reference, reference.over);
@@ -42,6 +43,15 @@ class FigureFinder {
     const Figure figure = find(reference);
     const bool is_quotient = !parse_figure_reference(reference, experiment_, "").over.empty();
     return is_quotient && !figure.numbers.empty() ? quotient_text(figure.numbers.front()) : spread_text(figure);
+  }
+
+  // Whether the experiment has the variants of a claim.
+  [[nodiscard]] bool knows(const Claim& claim) const {
+    const auto is_known = [this](const std::string& text) {
+      return !parse_figure_reference(text, experiment_, "").unknown_variant;
+    };
+    const std::string than = claim.than.is_string() ? claim.than.get<std::string>() : "";
+    return is_known(claim.figure) && (!than.starts_with('{') || is_known(than.substr(1, than.size() - 2)));
   }
 
  private:
@@ -124,6 +134,7 @@ AnswerText answer_text(const Experiment& experiment, const Table& table) {
     }
     answer.markdown += '\n';
     for (const Claim& claim : paragraph.holds) {
+      if (!finder.knows(claim)) continue;
       const Figure figure = finder.find(claim.figure);
       const Figure other = other_side(claim.than, finder);
       ++claims;
@@ -132,6 +143,8 @@ AnswerText answer_text(const Experiment& experiment, const Table& table) {
   }
   answer.markdown += "\nCompared with the records: " + std::to_string(claims - answer.untrue.size()) + " of " +
                      std::to_string(claims) + " statements of this answer hold.\n";
+  const std::string left_out = unknown_variants_remark(experiment.answers);
+  if (!left_out.empty()) answer.markdown += "- " + left_out + "\n";
   for (const std::string& untrue : answer.untrue) answer.markdown += "- not so: " + untrue + "\n";
   return answer;
 }

@@ -38,8 +38,7 @@ bool is_variant(const std::string& name, const Experiment& experiment) {
 }
 
 // "A", "A over B", or nothing where there is only one variant.
-void parse_variant(const std::string& text, const Experiment& experiment, const std::string& place,
-                   FigureReference& reference) {
+void parse_variant(const std::string& text, const Experiment& experiment, FigureReference& reference) {
   if (text.empty() && experiment.variants.size() == 1) {
     reference.variant = experiment.variants.front().name;
     return;
@@ -50,9 +49,16 @@ void parse_variant(const std::string& text, const Experiment& experiment, const 
   } else {
     reference.variant = text.substr(0, over);
     reference.over = text.substr(over + kOver.size());
-    check_name(reference.over, experiment.variants, "variant", place);
+    if (!is_variant(reference.over, experiment)) reference.unknown_variant = reference.over;
   }
-  check_name(reference.variant, experiment.variants, "variant", place);
+  if (!is_variant(reference.variant, experiment)) reference.unknown_variant = reference.variant;
+}
+
+// The same, for an answer that keeps what it names in vain.
+void parse_for(Answer& answer, const std::string& text, const Experiment& experiment, const std::string& place) {
+  const std::optional<std::string> unknown = parse_figure_reference(text, experiment, place).unknown_variant;
+  std::vector<std::string>& all = answer.unknown_variants;
+  if (unknown && std::find(all.begin(), all.end(), *unknown) == all.end()) all.push_back(*unknown);
 }
 
 // A reference in braces and nothing else.
@@ -60,7 +66,7 @@ bool is_in_braces(const std::string& text) {
   return text.size() > 2 && text.front() == '{' && text.find('}') == text.size() - 1;
 }
 
-void check_than(const StrictObject& object, const Experiment& experiment) {
+void check_than(const StrictObject& object, const Experiment& experiment, Answer& answer) {
   const Json& than = object.at("than");
   const bool is_text = than.is_string() && !than.get_ref<const std::string&>().empty();
   if (!than.is_number() && !is_text) {
@@ -69,28 +75,27 @@ void check_than(const StrictObject& object, const Experiment& experiment) {
   if (!is_text) return;
   const auto text = than.get<std::string>();
   if (is_in_braces(text)) {
-    parse_figure_reference(text.substr(1, text.size() - 2), experiment, object.place_of("than"));
+    parse_for(answer, text.substr(1, text.size() - 2), experiment, object.place_of("than"));
   } else if (object.at("is") != kRelationNames.front()) {
     object.fail("is", "can only be 'equal' where 'than' is a text");
   }
 }
 
-std::vector<Claim> parse_claims(const StrictObject& answer, const Experiment& experiment) {
-  std::vector<Claim> claims;
-  if (!answer.has("holds")) return claims;
-  for (const Json& item : answer.at("holds")) {
-    const StrictObject object(item, answer.place_of("holds") + "/" + std::to_string(claims.size()), kClaimKeys);
+void parse_claims(const StrictObject& paragraph, const Experiment& experiment, Answer& answer) {
+  if (!paragraph.has("holds")) return;
+  for (const Json& item : paragraph.at("holds")) {
+    const StrictObject object(item, paragraph.place_of("holds") + "/" + std::to_string(answer.holds.size()),
+                              kClaimKeys);
     Claim claim;
     claim.figure = object.get<std::string>("figure", "");
-    parse_figure_reference(claim.figure, experiment, object.place_of("figure"));
+    parse_for(answer, claim.figure, experiment, object.place_of("figure"));
     const auto name = object.get<std::string>("is", "");
     const auto* const relation = std::find(kRelationNames.begin(), kRelationNames.end(), name);
     claim.relation = static_cast<Relation>(relation - kRelationNames.begin());
-    check_than(object, experiment);
+    check_than(object, experiment, answer);
     claim.than = object.at("than");
-    claims.push_back(std::move(claim));
+    answer.holds.push_back(std::move(claim));
   }
-  return claims;
 }
 
 }  // namespace
@@ -104,7 +109,7 @@ FigureReference parse_figure_reference(const std::string& text, const Experiment
   FigureReference reference;
   reference.dataset = parts[0];
   check_name(reference.dataset, experiment.datasets, "data set", place);
-  parse_variant(parts[1], experiment, place, reference);
+  parse_variant(parts[1], experiment, reference);
   reference.metric = parts[2];
   check_name(reference.metric, experiment.metrics, "metric", place);
   if (parts.size() == 4) {
@@ -143,12 +148,25 @@ std::vector<Answer> parse_answers(const StrictObject& object, const Experiment& 
       const StrictObject paragraph(item, place, kAnswerKeys);
       answer.text = paragraph.get<std::string>("text", "");
       for (const TextPart& part : parts_of(answer.text)) {
-        if (part.is_figure) parse_figure_reference(part.text, experiment, paragraph.place_of("text"));
+        if (part.is_figure) parse_for(answer, part.text, experiment, paragraph.place_of("text"));
       }
-      answer.holds = parse_claims(paragraph, experiment);
+      parse_claims(paragraph, experiment, answer);
     });
   }
   return answers;
+}
+
+std::string unknown_variants_remark(const std::vector<Answer>& answers) {
+  std::vector<std::string> names;
+  for (const Answer& answer : answers) {
+    for (const std::string& name : answer.unknown_variants) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  if (names.empty()) return "";
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return "what the answers say of " + list + " is left out: the experiment has no such variant";
 }
 
 Json answers_to_json(const std::vector<Answer>& answers) {

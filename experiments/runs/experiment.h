@@ -99,6 +99,8 @@ struct Claim {
 struct Answer {
   std::string text;
   std::vector<Claim> holds;
+  // What its figures name and the experiment has not, as after a change of its parameters.
+  std::vector<std::string> unknown_variants;
 };
 
 // What a run does: mesh the isosurface, or find its exact topology alone.

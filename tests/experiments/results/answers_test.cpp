@@ -97,8 +97,6 @@ TEST(Answers, WhatRefersToNothingIsRefusedWithItsPlace) {
             "small.json#/answers/0/text names no metric: 'vertexes'; the nearest known name is \"vertices\"");
   EXPECT_EQ(refusal(R"([{"text": "{bal|fine|vertices}"}])"),
             "small.json#/answers/0/text names no data set: 'bal'; the nearest known name is \"ball\"");
-  EXPECT_MESSAGE(refusal(R"([{"text": "{ball||vertices}"}])"), "names no variant: ''");
-  EXPECT_MESSAGE(refusal(R"([{"text": "{ball|fine over coars|vertices}"}])"), "names no variant: 'coars'");
   EXPECT_MESSAGE(refusal(R"([{"text": "{fine}"}])"), "refers to a figure as DATASET|VARIANT|METRIC, not as 'fine'");
   EXPECT_MESSAGE(refusal(R"([{"text": "{ball|fine|vertices|least}"}])"),
                  "none of smallest, median and largest: 'least'");
@@ -108,11 +106,31 @@ TEST(Answers, WhatRefersToNothingIsRefusedWithItsPlace) {
   EXPECT_MESSAGE(claim(R"("is": "greater", "than": 1)"), "#/answers/0/holds/0/is must be one of 'equal', 'below'");
   EXPECT_MESSAGE(claim(R"("is": "above", "than": "many")"),
                  "#/answers/0/holds/0/is can only be 'equal' where 'than' is a text");
-  EXPECT_MESSAGE(claim(R"("is": "above", "than": "{ball|thin|vertices}")"), "holds/0/than names no variant: 'thin'");
+  EXPECT_MESSAGE(claim(R"("is": "above", "than": "{bal|fine|vertices}")"), "holds/0/than names no data set: 'bal'");
   EXPECT_MESSAGE(claim(R"("is": "above", "than": null)"), "holds/0/than must be a number or a string");
   Json document = document_with(R"([{"text": "So."}])");
   document.erase("question");
   EXPECT_THROW(parse_experiment(document, "small.json"), InputError);
+}
+
+// A reader who tries other values in a sweep gives its variants other names.
+TEST(Answers, WhatIsSaidOfVariantsThatAreGoneIsLeftOutWithALine) {
+  const std::string answers = R"([{"text": "{ball|thin|vertices}, {ball|fine|vertices}.", "holds": [
+      {"figure": "ball|fine|vertices", "is": "at_least", "than": 10},
+      {"figure": "ball|thin|vertices", "is": "equal", "than": 3},
+      {"figure": "ball|fine over coars|vertices", "is": "equal", "than": 3},
+      {"figure": "ball|fine|vertices", "is": "equal", "than": "{ball||vertices}"}]}])";
+  const AnswerText answer = answer_of(answers);
+  EXPECT_EQ(answer.untrue, std::vector<std::string>());
+  EXPECT_MESSAGE(answer.markdown, "\n–, 20 (10–30).\n");
+  const std::string left_out =
+      "what the answers say of 'thin', 'coars', '' is left out: the experiment has no such variant\n";
+  EXPECT_MESSAGE(answer.markdown, "1 of 1 statements of this answer hold.\n- " + left_out);
+  const TemporaryFolder folder;
+  write_file(folder / "small.json", json_text(document_with(answers)));
+  const ProgramResult run = run_deliso({"run", folder / "small.json", "--out", folder / "out"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "deliso: question: How many?\ndeliso: " + left_out);
 }
 
 TEST(Answers, AreReadBackAsTheyWereWritten) {

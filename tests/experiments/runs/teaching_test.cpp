@@ -76,6 +76,7 @@ TEST(Teaching, EachExperimentAsksFirstAndItsAnswerHolds) {
     for (const Answer& answer : experiment.answers) {
       claims += answer.holds.size();
       EXPECT_FALSE(answer.holds.empty()) << answer.text;
+      EXPECT_EQ(answer.unknown_variants, std::vector<std::string>());
       for (const TextPart& part : parts_of(answer.text)) {
         if (part.is_figure || part.text.size() <= 20) continue;
         EXPECT_EQ(run.out.find(part.text), std::string::npos) << part.text;
