@@ -300,9 +300,6 @@ def compared_summary(compared):
     rows = []
     for mesher in compared.meshers:
         cells = compared.cells(mesher)
-        if not cells:
-            rows.append([mesher, "no run ended well"] + ["–"] * 9)
-            continue
 
         def total(metric):
             return sum(value(one, metric) or 0 for one in cells)
@@ -376,12 +373,19 @@ def compared_losses(compared):
     if wrong:
         sentences.append(f"not proven, ours: {', '.join(wrong)}")
     if not sentences:
+        rivals = {mesher for dataset, mesher in compared.done if mesher != OURS and dataset in ours}
+        if not rivals:
+            raise Failure(f"{compared.results.table['experiment']}: no other mesher has done a data set that ours has")
         return "Ours loses nowhere."
     return "Where ours loses, on how many data sets:\n\n" + "\n".join(f"- {sentence}." for sentence in sentences)
 
 
 def compared_section(results):
     compared = Compared(results)
+    for mesher in compared.meshers:
+        if not compared.cells(mesher):
+            raise Failure(f"{results.table['experiment']}: no run of {mesher} ended well, so there is nothing to "
+                          "compare; tests/bench/peers/README.md says how the other meshers are made")
     text = compared_summary(compared)
     text += ("\n\nEach cell: vertices, mean distance from the surface to the mesh in voxels, smallest angle, seconds.\n\n" +
              compared_datasets(compared))
