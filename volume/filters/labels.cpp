@@ -13,16 +13,41 @@ namespace {
 
 constexpr std::size_t kMostLabels = 64;
 
-// The share of samples that equal the next one along x.
-double share_of_equal_neighbours(const ScalarGrid& grid) {
+// Neighbours along x.
+struct Neighbours {
+  std::size_t pairs = 0;
+  std::size_t equal = 0;
+  std::size_t single = 0;   // samples that differ from the one before and the one after
+  std::size_t between = 0;  // of these, those that lie between the two
+
+  // Most samples equal the next one.
+  [[nodiscard]] bool are_patches() const {
+    constexpr double kMostlyEqual = 0.8;
+    return static_cast<double>(equal) >= kMostlyEqual * static_cast<double>(pairs);
+  }
+  // From one patch to the next the samples go up or down by steps, as at the edges of a smoothed mask. Labels are
+  // names: what lies between two patches is seldom between their numbers.
+  [[nodiscard]] bool have_ramps() const {
+    constexpr double kOften = 0.1, kMostly = 0.9;
+    return static_cast<double>(single) > kOften * static_cast<double>(pairs - equal) &&
+           static_cast<double>(between) > kMostly * static_cast<double>(single);
+  }
+};
+
+Neighbours neighbours_of(const ScalarGrid& grid) {
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const auto row = static_cast<std::size_t>(grid.dims()[0]);
-    std::size_t equal = 0;
+    Neighbours found;
     for (std::size_t first = 0; first < samples.size(); first += row) {
-      for (std::size_t i = first + 1; i < first + row; ++i) equal += samples[i] == samples[i - 1] ? 1 : 0;
+      for (std::size_t i = first + 1; i < first + row; ++i) {
+        ++found.pairs;
+        found.equal += samples[i] == samples[i - 1] ? 1 : 0;
+        if (i + 1 == first + row || samples[i] == samples[i - 1] || samples[i] == samples[i + 1]) continue;
+        ++found.single;
+        found.between += (samples[i - 1] < samples[i]) == (samples[i] < samples[i + 1]) ? 1 : 0;
+      }
     }
-    const std::size_t pairs = samples.size() / row * (row - 1);
-    return static_cast<double>(equal) / static_cast<double>(pairs);
+    return found;
   });
 }
 
@@ -54,13 +79,14 @@ std::optional<std::vector<double>> distinct_values(const ScalarGrid& grid, std::
 }
 
 SampleKinds kind_of_samples(const ScalarGrid& grid) {
-  constexpr double kMostlyEqual = 0.8;
+  constexpr std::size_t kFew = 5;  // nested labels of so few numbers may lie in layers of one sample
   const std::optional<std::vector<double>> values = distinct_values(grid, kMostLabels);
   if (!values || values->size() < 2) return {};
   const auto is_whole = [](double value) { return value == std::floor(value); };
   if (!std::all_of(values->begin(), values->end(), is_whole)) return {};
   if (values->size() == 2) return {SampleKind::kMask, *values};
-  if (share_of_equal_neighbours(grid) < kMostlyEqual) return {};
+  const Neighbours neighbours = neighbours_of(grid);
+  if (!neighbours.are_patches() || (values->size() > kFew && neighbours.have_ramps())) return {};
   return {SampleKind::kLabels, *values};
 }
 

@@ -22,7 +22,8 @@ struct SampleKinds {
   SampleKind kind = SampleKind::kField;
   std::vector<double> values;  // of a mask or of labels, ascending
 };
-// Labels are at most 64 values, most samples of which equal the next one along x.
+// Labels are at most 64 values, most samples of which equal the next one along x. Where a sample differs from both of
+// its neighbours and mostly lies between them, the values are those of a mask with soft edges, a field.
 SampleKinds kind_of_samples(const ScalarGrid& grid);
 
 // The isosurface of a label lies half-way between it and all others.

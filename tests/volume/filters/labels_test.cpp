@@ -1,6 +1,8 @@
 // Masks and labels, recognised and taken apart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -44,6 +46,24 @@ TEST(Labels, AreRecognised) {
   for (const char* name : {"sphere", "gyroid", "shells"}) {
     EXPECT_EQ(kind_of_samples(generate_field(name, 24)).kind, SampleKind::kField) << name;
   }
+}
+
+// A solid that was sampled several times within each voxel: few whole numbers in patches, with those between at its
+// edges.
+TEST(Labels, AMaskWithSoftEdgesIsAField) {
+  std::vector<std::uint8_t> soft, thin;
+  for (int k = 0; k < 32; ++k)
+    for (int j = 0; j < 32; ++j)
+      for (int i = 0; i < 32; ++i) {
+        const double inside = 10.3 - std::hypot(i - 15.5, j - 15.2, k - 15.9);
+        soft.push_back(static_cast<std::uint8_t>(4 * std::lround(std::clamp(8 + 16 * inside, 0.0, 16.0))));
+        // Labels in order of no meaning, the fourth of every five in a layer of one sample.
+        thin.push_back(static_cast<std::uint8_t>(i % 5 == 3 && j % 8 == 0 ? 7 : 11 * (i / 16 + j / 16) + k / 8));
+      }
+  EXPECT_EQ(kind_of_samples(ScalarGrid({32, 32, 32}, soft)).kind, SampleKind::kField);
+  const SampleKinds labels = kind_of_samples(ScalarGrid({32, 32, 32}, thin));
+  EXPECT_EQ(labels.kind, SampleKind::kLabels);
+  EXPECT_GT(labels.values.size(), 8u);
 }
 
 TEST(Labels, BecomeMasks) {
