@@ -214,6 +214,11 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   const World world = world_of(volume, options.world);
   meshing.parameters = resolved_parameters(options, &volume);
   const std::string sha256 = sha256_as_read(volume);
+  // A label that is missing is found before the others are meshed. Where samples are not finite, --nan may give it
+  // some.
+  const SampleRegion region = region_of(meshing.parameters.region);
+  if (labels.size() > 1 && !volume.as_read)
+    check_labels(region.is_all() ? volume.grid : cropped(volume.grid, region), labels);
 
   std::vector<Meshed> all;
   for (const std::optional<std::int32_t> label : runs_of(labels)) {

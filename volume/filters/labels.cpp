@@ -59,6 +59,10 @@ std::string labels_text(const ScalarGrid& grid) {
   return text;
 }
 
+[[noreturn]] void fail_without_label(const ScalarGrid& grid, std::int32_t label) {
+  throw InputError("no sample has the label " + std::to_string(label) + ": the samples are " + labels_text(grid));
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> distinct_values(const ScalarGrid& grid, std::size_t most) {
@@ -90,6 +94,16 @@ SampleKinds kind_of_samples(const ScalarGrid& grid) {
   return {SampleKind::kLabels, *values};
 }
 
+void check_labels(const ScalarGrid& grid, const std::vector<std::int32_t>& labels) {
+  for (const std::int32_t label : labels) {
+    const bool is_found = visit_samples(grid.samples(), [label](const auto& samples) {
+      return std::any_of(samples.begin(), samples.end(),
+                         [label](auto sample) { return static_cast<double>(sample) == label; });
+    });
+    if (!is_found) fail_without_label(grid, label);
+  }
+}
+
 ScalarGrid label_mask(const ScalarGrid& grid, std::int32_t label) {
   std::vector<std::uint8_t> mask(grid.sample_count());
   bool is_found = false;
@@ -99,9 +113,7 @@ ScalarGrid label_mask(const ScalarGrid& grid, std::int32_t label) {
       is_found = is_found || mask[i] != 0;
     }
   });
-  if (!is_found) {
-    throw InputError("no sample has the label " + std::to_string(label) + ": the samples are " + labels_text(grid));
-  }
+  if (!is_found) fail_without_label(grid, label);
   return {grid.dims(), std::move(mask), grid.spacing(), grid.origin()};
 }
 

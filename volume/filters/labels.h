@@ -29,6 +29,9 @@ SampleKinds kind_of_samples(const ScalarGrid& grid);
 // The isosurface of a label lies half-way between it and all others.
 inline constexpr double kLabelIsovalue = 0.5;
 
+// Throws InputError naming the values that there are when no sample is one of the labels.
+void check_labels(const ScalarGrid& grid, const std::vector<std::int32_t>& labels);
+
 // 1 where a sample is the label, else 0. Throws InputError naming the values that there are when no sample is.
 ScalarGrid label_mask(const ScalarGrid& grid, std::int32_t label);
 

@@ -83,6 +83,8 @@ TEST(Labels, BecomeMasks) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the values -1, 0, 1"), std::string::npos) << error.what();
   }
+  EXPECT_NO_THROW(check_labels(grid, {1, -1}));
+  EXPECT_THROW(check_labels(grid, {1, 7, -1}), InputError);
 }
 
 TEST(MeshedField, DoesInOrderWhatItIsAskedFor) {
