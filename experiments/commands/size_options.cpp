@@ -14,9 +14,9 @@
 #include "delaunay/base/shortest_text.h"
 #include "experiments/config/config.h"
 #include "experiments/system/parse_number.h"
-#include "surface/library/rounded_output.h"
 #include "experiments/system/text_table.h"
 #include "surface/base/sizes.h"
+#include "surface/library/rounded_output.h"
 #include "volume/region.h"
 
 namespace deliso {
@@ -85,7 +85,7 @@ void add_size_options(Command& command, SizeOptions& options) {
   };
   add("--max-error", options.max_error,
       "Mesh and isosurface within D of each other, with as few vertices as that allows: voxels, or like 0.5mm", "D");
-  add("--max-edge", options.max_edge, "No edge longer than D", "D");
+  add("--max-edge", options.max_edge, "No edge longer than D, as far as insertions allow", "D");
   add("--min-angle", options.min_angle, "No angle below A degrees, as far as that can be (at most 35)", "A");
   add("--max-aspect", options.max_aspect,
       "No longest edge over smallest height above Q, as far as that can be (at least 3)", "Q");
@@ -157,24 +157,9 @@ std::vector<std::string> size_remarks(const Parameters& parameters, const Meshin
                       " voxels^2");
   }
   const auto& target = parameters.size.target_vertices;
-  constexpr double kWithin = 0.02;
-  const auto count = static_cast<double>(result.mesh.points.size());
-  if (target && std::abs(count - static_cast<double>(*target)) > kWithin * static_cast<double>(*target)) {
-    remarks.push_back("--target-vertices: " + std::to_string(result.mesh.points.size()) +
-                      " vertices were reached, not " + std::to_string(*target) + ": " +
-                      (count > static_cast<double>(*target)
-                           ? "fewer do not keep the topology, the angles and a distance of " +
-                                 number_text(result.promised_distance) + " voxels"
-                           : "insertions of more were refused"));
-  }
   if (target && !parameters.size.max_error && result.promised_distance > parameters.promise.max_distance) {
     remarks.push_back("--target-vertices: so few vertices take a distance of " + number_text(result.promised_distance) +
                       " voxels between mesh and isosurface, which the mesh file promises");
-  }
-  const auto& edge = parameters.size.max_edge;
-  if (edge && result.longest_edge > *edge) {
-    remarks.push_back("--max-edge: the longest edge has " + number_text(result.longest_edge) + " voxels, not " +
-                      number_text(*edge) + ": insertions beside it were refused");
   }
   return remarks;
 }

@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "delaunay/base/shortest_text.h"
 #include "surface/base/parameter_table.h"
 #include "surface/mesh/mesh_quality.h"
 
@@ -138,12 +137,6 @@ JsonTree stages_json(const MeshingResult& result) {
                   {"certify", certify_json(result)}};
 }
 
-// The stage's name in the paper and in the report.
-std::string stage_text(std::string_view stage) {
-  if (stage == "recover") return "stage 1 (recover)";
-  return stage == "refine" ? "stage 2 (refine)" : "the stage '" + std::string(stage) + "'";
-}
-
 }  // namespace
 
 JsonTree topology_tree(const std::vector<TopologyCount>& counts) {
@@ -205,26 +198,6 @@ TopologySum sum_of(const std::vector<TopologyCount>& counts) {
 std::vector<TopologyCount> mesh_topology(const MeshingResult& result) {
   if (!result.certificate.mesh.empty()) return result.certificate.mesh;
   return certify(result.mesh, std::vector<ComponentTopology>()).mesh;
-}
-
-std::vector<std::string> unmet_goals(const MeshingOptions& options, const MeshingResult& result) {
-  if (!result.stopped_early()) return {};
-  // Which limit stopped the run: a signal is known, and so are the values of the budgets.
-  const BudgetParameters& budget = options.parameters.budget;
-  std::string cause = "the budget";
-  if (options.stop != nullptr && options.stop->load()) {
-    cause = options.stop_cause;
-  } else if (budget.max_vertices && static_cast<std::int64_t>(result.mesh.points.size()) >= *budget.max_vertices) {
-    cause = "budget.max_vertices = " + std::to_string(*budget.max_vertices);
-  } else if (budget.seconds) {
-    cause = "budget.seconds = " + JsonTree(*budget.seconds).text();
-  }
-  std::vector<std::string> goals = {stage_text(result.stopped_in) + " was stopped by " + cause +
-                                    " while triangles that violate a criterion were still waiting"};
-  if (options.parameters.certify && result.certificate.verdict != Verdict::kHomeomorphic) {
-    goals.push_back("the mesh is not proven homeomorphic to the isosurface");
-  }
-  return goals;
 }
 
 JsonTree parameters_tree(const Parameters& parameters) {

@@ -43,7 +43,7 @@ TopologySum sum_of(const std::vector<TopologyCount>& counts);
 // The topology of the mesh of a result, certified or not. (The mesher's meshes are manifold.)
 std::vector<TopologyCount> mesh_topology(const MeshingResult& result);
 
-// What a run that stopped early left undone, one sentence each; empty when it was not stopped.
+// What a run that stopped early left undone, or the sizes that another one did not reach, one sentence each.
 std::vector<std::string> unmet_goals(const MeshingOptions& options, const MeshingResult& result);
 
 // Moves the positions that a report tells, of poor triangles and of what was left out, with the mesh into the world.

@@ -253,7 +253,7 @@ struct MeshReport {
   std::string stopped_in;  // a stage; empty: not stopped
   std::vector<std::string> not_kept;     // what a proven mesh would keep and this one does not, a sentence each
   std::vector<std::string> differences;  // of its topology from the isosurface's, a sentence each
-  std::vector<std::string> unmet;        // what a run that stopped has left undone
+  std::vector<std::string> unmet;        // what a run that stopped has left undone; sizes that were not reached
   double isovalue_used = 0;              // differs from the isovalue only where a sample or a saddle has that value
   std::int64_t components = 0, euler_characteristic = 0, boundary_loops = 0;  // of the mesh
   std::int64_t dropped_components = 0;  // left out as asked (`components.*`); verify() wants to know their number

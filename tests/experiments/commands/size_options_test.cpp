@@ -66,7 +66,25 @@ TEST_F(SizeOptionsTest, ANumberOfVerticesIsReachedOrToldOf) {
   const ProgramResult few = mesh({"--target-vertices", "8", "--max-error", "0.3"});
   EXPECT_EQ(few.exit_code, 0);
   EXPECT_NE(few.err.find("vertices were reached, not 8"), std::string::npos) << few.err;
+  EXPECT_NE(json("r.json")["unmet"].dump().find("vertices were reached, not 8"), std::string::npos);
   EXPECT_EQ(verify().exit_code, 0);
+}
+
+// Insertions that would spoil the topology of noise are refused: the report says so, for scripts.
+TEST_F(SizeOptionsTest, AnEdgeThatIsLongerThanAskedForIsUnmet) {
+  const std::string noise = folder_ / "noise.nrrd", report = folder_ / "noise.json";
+  ASSERT_EQ(run_deliso({"generate", "noise", "--size", "8", "-o", noise}).exit_code, 0);
+  const auto made = [&](const std::string& edge) {
+    return run_deliso(
+        {"mesh", noise, "--isovalue", "127.5", "--max-edge", edge, "-o", folder_ / "noise.ply", "--report", report});
+  };
+  const ProgramResult fine = made("0.2");
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_NE(fine.err.find("size.max_edge: the longest edge has "), std::string::npos) << fine.err;
+  ASSERT_EQ(json("noise.json")["unmet"].size(), 1u);
+  EXPECT_NE(fine.err.find(json("noise.json")["unmet"][0].get<std::string>()), std::string::npos) << fine.err;
+  made("50");
+  EXPECT_TRUE(json("noise.json")["unmet"].empty());
 }
 
 TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {

@@ -1,0 +1,66 @@
+// What a report says of goals that were not reached.
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "delaunay/base/shortest_text.h"
+#include "surface/library/run_report.h"
+
+namespace deliso {
+namespace {
+
+// The stage's name in the paper and in the report.
+std::string stage_text(std::string_view stage) {
+  if (stage == "recover") return "stage 1 (recover)";
+  return stage == "refine" ? "stage 2 (refine)" : "the stage '" + std::string(stage) + "'";
+}
+
+// The sizes asked for that a run to its end did not reach.
+std::vector<std::string> unmet_sizes(const SizeParameters& size, const MeshingResult& result) {
+  std::vector<std::string> goals;
+  constexpr double kWithin = 0.02;
+  const auto count = static_cast<std::int64_t>(result.mesh.points.size());
+  if (size.target_vertices) {
+    const std::int64_t target = *size.target_vertices;
+    const auto wanted = static_cast<double>(target);
+    if (std::abs(static_cast<double>(count) - wanted) > kWithin * wanted) {
+      goals.push_back("size.target_vertices: " + std::to_string(count) + " vertices were reached, not " +
+                      std::to_string(target) + ": " +
+                      (count > target ? "fewer do not keep the topology, the angles and a distance of " +
+                                            short_text(result.promised_distance) +
+                                            (result.promised_distance == 1 ? " voxel" : " voxels")
+                                      : "insertions of more were refused"));
+    }
+  }
+  if (size.max_edge && result.longest_edge > *size.max_edge) {
+    goals.push_back("size.max_edge: the longest edge has " + short_text(result.longest_edge) + " voxels, not " +
+                    short_text(*size.max_edge) + ": insertions beside it were refused");
+  }
+  return goals;
+}
+
+}  // namespace
+
+std::vector<std::string> unmet_goals(const MeshingOptions& options, const MeshingResult& result) {
+  if (!result.stopped_early()) return unmet_sizes(options.parameters.size, result);
+  // Which limit stopped the run: a signal is known, and so are the values of the budgets.
+  const BudgetParameters& budget = options.parameters.budget;
+  std::string cause = "the budget";
+  if (options.stop != nullptr && options.stop->load()) {
+    cause = options.stop_cause;
+  } else if (budget.max_vertices && static_cast<std::int64_t>(result.mesh.points.size()) >= *budget.max_vertices) {
+    cause = "budget.max_vertices = " + std::to_string(*budget.max_vertices);
+  } else if (budget.seconds) {
+    cause = "budget.seconds = " + JsonTree(*budget.seconds).text();
+  }
+  std::vector<std::string> goals = {stage_text(result.stopped_in) + " was stopped by " + cause +
+                                    " while triangles that violate a criterion were still waiting"};
+  if (options.parameters.certify && result.certificate.verdict != Verdict::kHomeomorphic) {
+    goals.push_back("the mesh is not proven homeomorphic to the isosurface");
+  }
+  return goals;
+}
+
+}  // namespace deliso
