@@ -1,14 +1,12 @@
 #include "experiments/commands/label_files.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string_view>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/field_options.h"
 #include "experiments/commands/mesh_output.h"
-#include "volume/io/base/input_file.h"
 
 namespace deliso {
 namespace {
@@ -36,9 +34,9 @@ MeshAttribute label_attribute(const TriangleMesh& mesh) {
 }
 
 // The formats with a number for each triangle in which surfaces may touch each other.
-bool holds_labels(const std::string& name) {
-  constexpr std::array<std::string_view, 4> kExtensions{".ply", ".vtk", ".vtp", ".mesh"};
-  return std::find(kExtensions.begin(), kExtensions.end(), lower_case_extension(name)) != kExtensions.end();
+bool holds_labels(MeshFormat format) {
+  return format == MeshFormat::kPly || format == MeshFormat::kLegacyVtk || format == MeshFormat::kVtp ||
+         format == MeshFormat::kMedit;
 }
 
 }  // namespace
@@ -56,12 +54,12 @@ std::string name_for(const std::string& pattern, std::optional<std::int32_t> lab
 }
 
 void check_label_names(const std::string& pattern, const std::string& option, const std::vector<std::int32_t>& labels,
-                       bool is_mesh) {
+                       std::optional<MeshFormat> format) {
   if (pattern.find(kLabelInName) != std::string::npos) {
     if (!labels.empty()) return;
     throw InputError(option + ": {label} stands for a label, but none is meshed, expected --label N or another name");
   }
-  if (!is_mesh || pattern.empty() || labels.size() < 2 || holds_labels(pattern)) return;
+  if (!format || labels.size() < 2 || holds_labels(*format)) return;
   throw InputError(option +
                    ": several labels in one file need a .ply, .vtk, .vtp or .mesh, which hold a label per triangle, or "
                    "{label} in the name for a file each, found '" +

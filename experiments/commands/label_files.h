@@ -20,9 +20,9 @@ Labels runs_of(const std::vector<std::int32_t>& labels);
 std::string name_for(const std::string& pattern, std::optional<std::int32_t> label);
 
 // Throws InputError when {label} stands in a name and no label is meshed, or several meshes shall be in one file of a
-// format that holds no label per triangle.
+// format that holds no label per triangle. `format`: that of the mesh; none of another file.
 void check_label_names(const std::string& pattern, const std::string& option, const std::vector<std::int32_t>& labels,
-                       bool is_mesh);
+                       std::optional<MeshFormat> format);
 
 // Meshes by the names of their files; those of one name come into one file.
 class MeshFiles {

@@ -70,9 +70,12 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
 
 // Finds everything that could prevent the results from being written before the work starts.
 void check_outputs(const MeshCommandOptions& options, const std::vector<std::int32_t>& labels) {
-  check_label_names(options.output, "-o", labels, true);
-  check_label_names(options.stage1_output, "--stage1-out", labels, true);
-  check_label_names(options.report, "--report", labels, false);
+  check_label_names(options.output, "-o", labels, output_format(options.output, "-o", options.format));
+  const bool has_stage1 = !options.stage1_output.empty();
+  check_label_names(
+      options.stage1_output, "--stage1-out", labels,
+      has_stage1 ? std::optional(output_format(options.stage1_output, "--stage1-out", {})) : std::nullopt);
+  check_label_names(options.report, "--report", labels, std::nullopt);
   const Labels runs = runs_of(labels);
   for (const std::optional<std::int32_t> label : runs) {
     const std::string output = name_for(options.output, label), stage1 = name_for(options.stage1_output, label),

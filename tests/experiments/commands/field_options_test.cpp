@@ -134,6 +134,11 @@ TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
     EXPECT_EQ(run_deliso({"mesh", volume_, "--label", "2", "--smooth", "1", "-o", one}).exit_code, 0);
     EXPECT_EQ(run_deliso({"verify", one, volume_}).exit_code, 0);
   }
+  // PLY, whatever its name is; not what is called PLY and is another format.
+  const ProgramResult piped = run_deliso({"mesh", volume_, "--label", "2,-5", "--smooth", "1", "-o", "-"});
+  EXPECT_EQ(piped.exit_code, 0) << piped.err;
+  EXPECT_EQ(piped.out, read_file(mesh_));
+  expect_refused({"mesh", volume_, "--label", "2,-5", "-o", mesh_, "--format", "obj"}, "several labels in one file");
   const std::string text = read_file(numbers);
   const std::size_t at = text.find("label 1 " + std::to_string(mesh.triangles.size()) + " int\n");
   ASSERT_NE(at, std::string::npos);
