@@ -1,5 +1,8 @@
 #include "experiments/results/table_files.h"
 
+#include <array>
+#include <string_view>
+
 namespace deliso {
 namespace {
 
@@ -8,6 +11,11 @@ std::string latex_row(const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) row += (i == 0 ? "" : " & ") + latex_text(cells[i]);
   return row + " \\\\\n";
 }
+
+// What LaTeX's usual encoding of fonts shows as something else, and how it calls it.
+constexpr std::string_view kOtherGlyphs = "\\<>|";
+constexpr std::array<std::string_view, 4> kGlyphNames = {"\\textbackslash{}", "\\textless{}", "\\textgreater{}",
+                                                         "\\textbar{}"};
 
 }  // namespace
 
@@ -18,8 +26,8 @@ std::string latex_text(const std::string& text) {
     if (text.compare(i, 3, "–") == 0) {
       escaped += "--";
       i += 2;
-    } else if (c == '\\') {
-      escaped += "\\textbackslash{}";
+    } else if (const std::size_t at = kOtherGlyphs.find(c); at != std::string_view::npos) {
+      escaped += kGlyphNames[at];
     } else if (c == '~' || c == '^') {
       escaped += std::string("\\") + c + "{}";
     } else if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) {

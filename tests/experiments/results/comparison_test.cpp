@@ -102,6 +102,7 @@ TEST(Comparison, TheIntervalIsThatOfTheMean) {
 }
 
 TEST(TableFiles, LatexHasNoBareSpecialCharacters) {
+  EXPECT_EQ(latex_text("<1|2>"), "\\textless{}1\\textbar{}2\\textgreater{}");
   EXPECT_EQ(latex_text("a_b & 5 % of #1 {x} ~^\\ $ 1–2"),
             "a\\_b \\& 5 \\% of \\#1 \\{x\\} \\~{}\\^{}\\textbackslash{} \\$ 1--2");
   const TemporaryFolder folder;
