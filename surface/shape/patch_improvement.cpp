@@ -118,8 +118,7 @@ bool PatchImprovement::improve(std::uint32_t triangle) {
   }
   if (depth_ == 1 || several_left_ == 0) return false;
   --several_left_;
-  const std::vector<PatchStep> steps = candidates_;  // their points are moved on the way
-  return improve_on_the_way() || improve_by_several(steps);
+  return improve_on_the_way() || improve_by_several(triangle, depth_);
 }
 
 bool PatchImprovement::improves(const PatchStep& step) const {
@@ -150,19 +149,18 @@ std::vector<PatchStep> PatchImprovement::all_steps(std::uint32_t triangle) {
 
 // Several steps that only together are an improvement: after each, one that replaces the worst of what was added. The
 // steps of a trial are taken back unless it ends well.
-bool PatchImprovement::improve_by_several(std::span<const PatchStep> steps) {
+bool PatchImprovement::improve_by_several(std::uint32_t triangle, int depth) {
   const std::size_t first_added = patch_.triangle_count();
-  if (!try_several(steps, {1, 0}, first_added, depth_)) return false;
+  if (!try_several(triangle, {1, 0}, first_added, depth)) return false;
   queue_added(first_added);
   return true;
 }
 
-// `steps`: for its worst triangle, the best first. `old`: what the trial has replaced, of the triangles from before it.
-bool PatchImprovement::try_several(std::span<const PatchStep> steps, const Replaced& old, std::size_t first_added,
-                                   int depth) {
+// `old`: what the trial has replaced, of the triangles from before it.
+bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth) {
   constexpr std::size_t kMostTried = 6;
   std::size_t tried = 0;
-  for (const PatchStep& step : steps) {
+  for (const PatchStep& step : all_steps(triangle)) {
     if (tried == kMostTried) return false;
     Replaced all = old;
     for (const std::uint32_t t : step.removed) {
@@ -176,7 +174,7 @@ bool PatchImprovement::try_several(std::span<const PatchStep> steps, const Repla
     const std::uint32_t worst = worst_added(first_added);
     const bool is_better =
         worst == kNoVertex || (patch_.quality(worst) > wanted && bad_added(first_added) <= all.bad + 1);
-    if (is_better || (depth > 1 && try_several(all_steps(worst), all, first_added, depth - 1))) {
+    if (is_better || (depth > 1 && try_several(worst, all, first_added, depth - 1))) {
       ++stats_.steps[static_cast<std::size_t>(step.kind)];
       return true;
     }

@@ -56,12 +56,12 @@ class PatchImprovement {
   bool improve_on_the_way();
   [[nodiscard]] bool improves(const PatchStep& step) const;
   std::vector<PatchStep> all_steps(std::uint32_t triangle);
-  bool improve_by_several(std::span<const PatchStep> steps);
+  bool improve_by_several(std::uint32_t triangle, int depth);
   struct Replaced {
     double least = 1;     // quality
     std::size_t bad = 0;  // triangles below the goal
   };
-  bool try_several(std::span<const PatchStep> steps, const Replaced& old, std::size_t first_added, int depth);
+  bool try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth);
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;

@@ -39,11 +39,23 @@ struct Votes {
   double area_down = 0;
 };
 
+// By the sides of the nearest two points, before and behind the middle of the triangle, that lie on different ones:
+// beside a crease, as where a volume is closed, the gradient may be that of the wrong cell. Where there are none, by
+// the gradient.
 double area_down(const std::array<Vec3, 3>& corners, const IsosurfaceProbe& probe) {
-  const Vec3 gradient = probe.gradient((corners[0] + corners[1] + corners[2]) / 3);
+  const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double area = norm(normal);
+  for (const double away : {0x1p-9, 0x1p-6, 0x1p-3}) {
+    if (!(area > 0)) break;
+    const Vec3 offset = (away / area) * normal;
+    const bool is_below_before = probe.value(middle + offset) < 0, is_below_behind = probe.value(middle - offset) < 0;
+    if (is_below_before != is_below_behind) return is_below_before ? area : -area;
+  }
+  const Vec3 gradient = probe.gradient(middle);
   const double steepness = norm_of_any_size(gradient);
   if (!(steepness > 0)) return 0;
-  return -dot(cross(corners[1] - corners[0], corners[2] - corners[0]), gradient / steepness);
+  return -dot(normal, gradient / steepness);
 }
 
 // The vote of a triangle at its pass of a line beside a grid edge. The line's ends have to lie on the sides that the

@@ -129,6 +129,18 @@ TEST_F(SizeOptionsTest, EdgesOfWholeVoxelsAreSampledAtTheSamePlacesByBoth) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
 
+// Where the box closes a volume, just inside the field may rise towards the mesh. By its gradient there verify took the
+// component for reversed.
+TEST_F(SizeOptionsTest, AClosedVolumeWithHighValuesAtTheBoxIsTheRightSideOut) {
+  const std::string volume = std::string(DELISO_SOURCE_DIR) + "/tests/regression/closed_far.nrrd";
+  const std::string isovalue = "--isovalue=1.516594969814396";
+  const ProgramResult made = run_deliso(
+      {"mesh", volume, isovalue, "--set", "boundary=closed", "--max-error", "0.05", "-o", folder_ / "c.off"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramResult verified = run_deliso({"verify", folder_ / "c.off", volume, isovalue, "--closed"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+}
+
 TEST_F(SizeOptionsTest, RegionsKeepTheirPlaceInEveryCommand) {
   EXPECT_EQ(mesh({"--region", "14:,:,:"}).exit_code, 0);
   EXPECT_EQ(json("r.json")["components"], 1);
