@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "delaunay/base/vec3.h"
 #include "surface/certificate/promise.h"
@@ -20,6 +21,7 @@ inline int sample_order(double longest_edge) {
 
 // Calls visit(point) where the faces between voxel cells cut a triangle: on its edges, and in the middle between two of
 // these points. There the isosurface has its creases, so there a small triangle is farthest from it. `step`: a cell.
+// The triangle lies within the box of the volume.
 template <class Visit>
 void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step, const Visit& visit) {
   // An edge that is all but parallel to a face has no place where it crosses it. Where both points are corners, as of
@@ -29,8 +31,10 @@ void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::array<double, 3> at = {corners[0][axis] / step[axis], corners[1][axis] / step[axis],
                                       corners[2][axis] / step[axis]};
-    const double last = std::floor(std::max({at[0], at[1], at[2]}));
-    for (double face = std::ceil(std::min({at[0], at[1], at[2]})); face <= last; ++face) {
+    const auto first = static_cast<std::int64_t>(std::ceil(std::min({at[0], at[1], at[2]})));
+    const auto last = static_cast<std::int64_t>(std::floor(std::max({at[0], at[1], at[2]})));
+    for (std::int64_t number = first; number <= last; ++number) {
+      const auto face = static_cast<double>(number);
       std::array<Vec3, 2> ends;
       std::size_t count = 0, at_corners = 0;
       for (std::size_t i = 0; i < 3; ++i) {

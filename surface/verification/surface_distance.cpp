@@ -70,10 +70,12 @@ void append_cuts_by_cell_faces(const std::array<Vec3, 3>& corners, const Isosurf
       from = std::min(from, p[axis]);
       to = std::max(to, p[axis]);
     }
-    const double first = std::ceil(std::max(from, probe.box().low[axis]) / cell);
-    const double last = std::floor(std::min(to, probe.box().high[axis]) / cell);
-    for (double number = first; number <= last; ++number) {
-      const double face = number * cell;
+    from = std::clamp(from, probe.box().low[axis], probe.box().high[axis]);
+    to = std::clamp(to, probe.box().low[axis], probe.box().high[axis]);
+    const auto first = static_cast<std::int64_t>(std::ceil(from / cell));
+    const auto last = static_cast<std::int64_t>(std::floor(to / cell));
+    for (std::int64_t number = first; number <= last; ++number) {
+      const double face = static_cast<double>(number) * cell;
       std::vector<Vec3> cuts;
       bool is_inside = false;  // of an edge, one of them
       for (const auto& [p, q] :
