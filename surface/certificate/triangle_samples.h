@@ -28,6 +28,8 @@ void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step
   // an edge in a face, rounding would decide whether there are two.
   constexpr double kParallel = 1e-3;  // cells
   constexpr double kAtCorner = 1e-6;  // of an edge
+  // An edge may lie in a face but for the rounding of single precision, as in STL: its middle is a sample in any case.
+  for (std::size_t i = 0; i < 3; ++i) visit(0.5 * (corners[i] + corners[(i + 1) % 3]));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::array<double, 3> at = {corners[0][axis] / step[axis], corners[1][axis] / step[axis],
                                       corners[2][axis] / step[axis]};

@@ -63,6 +63,8 @@ void append_cuts_by_cell_faces(const std::array<Vec3, 3>& corners, const Isosurf
                                std::vector<Vec3>& samples) {
   constexpr double kLeastChange = 1e-3;   // cells
   constexpr double kBesideCorner = 1e-6;  // of an edge
+  // Whether an edge lies in a face, rounding may decide: its middle is a sample in any case.
+  for (std::size_t i = 0; i < 3; ++i) samples.push_back((corners[i] + corners[(i + 1) % 3]) / 2);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double cell = probe.step()[axis];
     double from = corners[0][axis], to = from;

@@ -129,6 +129,18 @@ TEST_F(SizeOptionsTest, EdgesOfWholeVoxelsAreSampledAtTheSamePlacesByBoth) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
 
+// Edges in faces between cells come to lie a hair beside them in single precision, where verify looked at their
+// middles.
+TEST_F(SizeOptionsTest, EdgesInCellFacesAreSampledAtTheSamePlacesByBoth) {
+  const std::string volume = std::string(DELISO_SOURCE_DIR) + "/tests/regression/edge_in_face.nrrd";
+  const ProgramResult made =
+      run_deliso({"mesh", volume, "--isovalue", "0.5", "--max-error", "0.5", "-o", folder_ / "e.stl"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramResult verified =
+      run_deliso({"verify", folder_ / "e.stl", volume, "--isovalue", "0.5", "--max-distance", "0.5"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+}
+
 // Where the box closes a volume, just inside the field may rise towards the mesh. By its gradient there verify took the
 // component for reversed.
 TEST_F(SizeOptionsTest, AClosedVolumeWithHighValuesAtTheBoxIsTheRightSideOut) {
