@@ -24,11 +24,10 @@ inline int sample_order(double longest_edge) {
 // The triangle lies within the box of the volume.
 template <class Visit>
 void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step, const Visit& visit) {
-  // An edge that is all but parallel to a face has no place where it crosses it. Where both points are corners, as of
-  // an edge in a face, rounding would decide whether there are two.
+  // An edge that is all but parallel to a face has no place where it crosses it.
   constexpr double kParallel = 1e-3;  // cells
-  constexpr double kAtCorner = 1e-6;  // of an edge
-  // An edge may lie in a face but for the rounding of single precision, as in STL: its middle is a sample in any case.
+  // Whether the ends of an edge in a face lie on both sides of it is up to rounding, and with it whether its middle is
+  // between two points: it is a sample in any case.
   for (std::size_t i = 0; i < 3; ++i) visit(0.5 * (corners[i] + corners[(i + 1) % 3]));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::array<double, 3> at = {corners[0][axis] / step[axis], corners[1][axis] / step[axis],
@@ -38,7 +37,7 @@ void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step
     for (std::int64_t number = first; number <= last; ++number) {
       const auto face = static_cast<double>(number);
       std::array<Vec3, 2> ends;
-      std::size_t count = 0, at_corners = 0;
+      std::size_t count = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = (i + 1) % 3;
         if ((at[i] < face) == (at[next] < face) || std::abs(at[next] - at[i]) < kParallel) continue;
@@ -46,9 +45,8 @@ void for_each_crease_sample(const std::array<Vec3, 3>& corners, const Vec3& step
         ends.at(count) = (1 - along) * corners[i] + along * corners[next];
         visit(ends.at(count));
         ++count;
-        at_corners += along < kAtCorner || along > 1 - kAtCorner ? 1 : 0;
       }
-      if (count == 2 && at_corners < 2) visit(0.5 * (ends[0] + ends[1]));
+      if (count == 2) visit(0.5 * (ends[0] + ends[1]));
     }
   }
 }

@@ -55,14 +55,12 @@ double squared_distance_to(const Vec3& p, const Vec3& a, const Vec3& b, const Ve
   return least;
 }
 
-// Appends the points at which edges of a triangle pass from one voxel cell to the next, and for each face between cells
-// that cuts two edges, not both at corners, the point in the middle. Edges that hardly change in an axis pass no face
-// across it. A mesh may
-// lie anywhere, but cells are within the box alone.
+// Appends the points at which edges of a triangle pass from one voxel cell to the next, for each face between cells
+// that cuts two edges the point in the middle, and the middles of the edges. Edges that hardly change in an axis pass
+// no face across it. A mesh may lie anywhere, but cells are within the box alone.
 void append_cuts_by_cell_faces(const std::array<Vec3, 3>& corners, const IsosurfaceProbe& probe,
                                std::vector<Vec3>& samples) {
-  constexpr double kLeastChange = 1e-3;   // cells
-  constexpr double kBesideCorner = 1e-6;  // of an edge
+  constexpr double kLeastChange = 1e-3;  // cells
   // Whether an edge lies in a face, rounding may decide: its middle is a sample in any case.
   for (std::size_t i = 0; i < 3; ++i) samples.push_back((corners[i] + corners[(i + 1) % 3]) / 2);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -79,17 +77,14 @@ void append_cuts_by_cell_faces(const std::array<Vec3, 3>& corners, const Isosurf
     for (std::int64_t number = first; number <= last; ++number) {
       const double face = static_cast<double>(number) * cell;
       std::vector<Vec3> cuts;
-      bool is_inside = false;  // of an edge, one of them
       for (const auto& [p, q] :
            {std::pair(corners[0], corners[1]), std::pair(corners[1], corners[2]), std::pair(corners[2], corners[0])}) {
         const double change = q[axis] - p[axis];
         if (std::abs(change) < kLeastChange * cell || (p[axis] < face) == (q[axis] < face)) continue;
-        const double share = (face - p[axis]) / change;
-        cuts.push_back(p + share * (q - p));
-        is_inside = is_inside || (kBesideCorner < share && share < 1 - kBesideCorner);
+        cuts.push_back(p + ((face - p[axis]) / change) * (q - p));
       }
       samples.insert(samples.end(), cuts.begin(), cuts.end());
-      if (cuts.size() == 2 && is_inside) samples.push_back((cuts[0] + cuts[1]) / 2);
+      if (cuts.size() == 2) samples.push_back((cuts[0] + cuts[1]) / 2);
     }
   }
 }
