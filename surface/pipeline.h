@@ -54,11 +54,13 @@ class Pipeline {
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
   void take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom);
+  void bring_decimated_near(SurfaceMesh& mesh);
+  void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
   void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
-  void decimate_mesh(SurfaceMesh& mesh);
+  void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void improve_decimated(SurfaceMesh& mesh);
   bool find_last_faults(SurfaceMesh& mesh);
   MeshFaults shaped_cubes(SurfaceMesh& mesh);

@@ -110,7 +110,7 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
   std::int64_t off_before = 0;
   for (int round = 0;; ++round) {
     last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
-    const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings);
+    const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points);
     const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
     if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
     off_before = off;
@@ -118,7 +118,7 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
     timed(result_.refine, [&] {
       set_side_adjacency(mesh);
       mesh.pole_heights.assign(mesh.points.size(), isosurface_->box().diagonal());
-      options.coverage_targets = last_.geometry.missed_crossings;
+      options.coverage_targets = last_.geometry.missed_points;
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
     if (round == 0) improve(mesh, kCautiousRounds);
@@ -224,7 +224,7 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
 // many vertices everywhere.
 void Pipeline::bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults) {
   constexpr std::int64_t kFew = 1000;
-  const std::int64_t off = faults.geometry.mesh_off + std::ssize(faults.geometry.missed_crossings);
+  const std::int64_t off = faults.geometry.mesh_off + std::ssize(faults.geometry.missed_points);
   if (off == 0 || off > kFew || off != faults.count() || !improves_shape(parameters_)) return;
   SurfaceMesh nearer = mesh;
   RepeatedCheck check(*surface_, promise_);
@@ -289,7 +289,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.crossing_pairs = last_.crossing.crossing_pairs;
   figures.vertices_off = last_.geometry.vertices_off;
   figures.mesh_off = last_.geometry.mesh_off;
-  figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_crossings.size());
+  figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_points.size());
   result_.certificate.broken = broken_promises(figures, promise_);
   if (options_.observer != nullptr) options_.observer->certified(figures, promise_);
 }

@@ -64,10 +64,21 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
     last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
   }
   if (!last_.geometry.is_near()) find_last_faults(mesh);
-  decimate_mesh(mesh);
-  improve_decimated(mesh);
+  // Between the points that decimation keeps near the mesh, the isosurface may have come to be farther off: then
+  // decimation begins again with points there.
+  constexpr int kMostTimes = 4;
+  const bool is_near = last_.geometry.is_near();
+  const SurfaceMesh before = mesh;
+  std::vector<Vec3> missed;
+  for (int time = 0; time < kMostTimes && !controls_.poll(); ++time) {
+    if (time > 0) mesh = before;
+    decimate_mesh(mesh, missed);
+    improve_decimated(mesh);
+    bring_decimated_near(mesh);
+    if (!is_near || last_.geometry.missed_points.empty()) break;
+    missed.insert(missed.end(), last_.geometry.missed_points.begin(), last_.geometry.missed_points.end());
+  }
   timed(result_.certify_stage, [&] {
-    last_.geometry = check_geometry(mesh, *surface_, promise_);
     if (last_.crossing.crossing_pairs > 0) last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
   });
 }
@@ -89,12 +100,12 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
     last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
-    const auto off = static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_crossings));
+    const auto off = static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points));
     if (off == 0) return true;
     if (off > kProgress * before) break;
     before = off;
     timed(result_.refine, [&] {
-      const std::vector<Vec3> targets = error_targets(mesh, *surface_, last_.geometry);
+      const std::vector<Vec3> targets = error_targets(mesh, *surface_, last_.geometry, nearer.max_distance);
       set_side_adjacency(mesh);
       ask_for_smaller_triangles(mesh, *surface_, last_.geometry);
       options.coverage_targets = targets;
@@ -103,7 +114,10 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
   }
   constexpr double kFreedom = 16;
   take_steps_nearer(mesh, check, kFreedom);
-  last_.geometry = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, promise_); });
+  last_.geometry = timed(result_.certify_stage, [&] {
+    check(mesh);
+    return check.again_within(promise_, mesh);
+  });
   return last_.geometry.is_near();
 }
 
@@ -118,12 +132,12 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
   bool removes_spikes = false;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check(mesh); });
-    const std::int64_t off = before.mesh_off + std::ssize(before.missed_crossings);
+    const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
     if (off == 0 || (off >= off_before && removes_spikes)) return;
     removes_spikes = removes_spikes || off >= off_before;
     off_before = off;
     timed(result_.shape, [&] {
-      insert_missed(mesh, *surface_, before.missed_crossings, freedom, options_of_steps, controls_, result_.shape);
+      insert_missed(mesh, *surface_, before.missed_points, freedom, options_of_steps, controls_, result_.shape);
     });
     const GeometryCheck now = timed(result_.certify_stage, [&] { return check(mesh); });
     timed(result_.shape, [&] {
@@ -170,7 +184,7 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
   improve(again, parameters_.shape.rounds);
   refine_to_error(again, options);
   cells.add(again, last_.geometry);
-  const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_crossings); };
+  const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_points); };
   const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);
   if (is_nearer) {
     mesh = std::move(again);
@@ -212,7 +226,7 @@ void Pipeline::refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::si
 
 // Down to the number asked for, or as far as the error allows. Where only a number is asked for, more error is allowed
 // as long as it takes, and promised afterwards.
-void Pipeline::decimate_mesh(SurfaceMesh& mesh) {
+void Pipeline::decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses) {
   constexpr double kMostTimes = 64, kRounding = 1.001;
   controls_.enter("decimate");
   DecimationOptions options;
@@ -220,6 +234,7 @@ void Pipeline::decimate_mesh(SurfaceMesh& mesh) {
   options.enough = static_cast<std::size_t>(parameters_.size.target_vertices.value_or(0));
   options.min_angle = shape_options(parameters_).min_angle;
   options.max_edge = longest_edge_allowed(parameters_);
+  options.witnesses.assign(witnesses.begin(), witnesses.end());
   const double most = parameters_.size.max_error ? options.max_error : kMostTimes * options.max_error;
   timed(result_.decimation, [&] {
     for (; !controls_.stopped(); options.max_error = std::min(2 * options.max_error, most)) {
@@ -229,6 +244,42 @@ void Pipeline::decimate_mesh(SurfaceMesh& mesh) {
   });
   const double reached = std::min(kRounding * result_.decimation.largest_error, options.max_error);
   promise_.max_distance = std::max(promise_.max_distance, reached);
+  result_.promised_distance = promise_.max_distance;
+}
+
+// What decimation has left too far off: steps bring it near, and may leave small angles, which others then mend as long
+// as all stays near.
+void Pipeline::bring_decimated_near(SurfaceMesh& mesh) {
+  constexpr double kFreedom = 16;
+  constexpr int kMostRounds = 3;
+  RepeatedCheck check(*surface_, promise_);
+  const auto look = [&] {
+    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+    return last_.geometry.is_near();
+  };
+  if (look()) return;
+  if (!parameters_.size.max_error) return widen_promise(mesh, check);
+  for (int round = 0; round < kMostRounds && !controls_.stopped(); ++round) {
+    take_steps_nearer(mesh, check, kFreedom);
+    if (!look()) return;
+    SurfaceMesh near = mesh;
+    improve_decimated(mesh);
+    if (look()) return;
+    if (round + 1 == kMostRounds) {
+      mesh = std::move(near);
+      look();
+    }
+  }
+}
+
+// Where a number of vertices is all that is asked for, what lies between the points measured decides what is promised.
+void Pipeline::widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check) {
+  constexpr double kFactor = 1.05, kMost = 1.5;
+  const double first = promise_.max_distance;
+  while (!last_.geometry.is_near() && promise_.max_distance < kMost * first) {
+    promise_.max_distance *= kFactor;
+    last_.geometry = timed(result_.certify_stage, [&] { return check.again_within(promise_, mesh); });
+  }
   result_.promised_distance = promise_.max_distance;
 }
 

@@ -46,8 +46,10 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
   stream << '\n'
          << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
-         << "triangles cross, its vertices lie on the isosurface, and distances both ways, where they are measured, "
-         << "are at most " << number_text(result.promised_distance) << " voxel"
+         << "triangles cross, its vertices lie on the isosurface, and distances both ways"
+         << (meshed.meshing.parameters.size.max_error ? ""
+                                                      : ", those of the isosurface at its crossings with grid edges,")
+         << " are at most " << number_text(result.promised_distance) << " voxel"
          << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }
 

@@ -10,54 +10,18 @@
 #include <span>
 #include <utility>
 
-#include "raycast/gradients_at.h"
 #include "surface/base/parallel_blocks.h"
 #include "surface/certificate/boundary_check.h"
 #include "surface/certificate/far_crossings.h"
-#include "surface/certificate/other_side.h"
-#include "surface/certificate/triangle_samples.h"
+#include "surface/certificate/point_nearness.h"
+#include "surface/certificate/triangle_nearness.h"
 
 namespace deliso {
 
 namespace {
 
 constexpr std::size_t kTrianglesAtOnce = 4096;
-
-// Whether a point at this distance from p, along a direction or against it, lies on the other side of the isosurface.
-// `falling`: the direction in which the field is likely to fall.
-bool changes_side(const Isosurface& isosurface, const Vec3& p, bool is_above, const Vec3& falling, double distance) {
-  const double length = norm_of_any_size(falling);
-  // Of a gradient that is all but zero the quotient overflows: it is no direction.
-  if (!(length > 0) || !std::isfinite(length) || !std::isfinite(distance / length)) return false;
-  const Vec3 offset = ((is_above ? distance : -distance) / length) * falling;  // the likelier side first
-  return isosurface.is_above(p + offset) != is_above || isosurface.is_above(p - offset) != is_above;
-}
-
-// Whether the isosurface passes within `reach` of p: points on either side of p tell, first those along `falling`, and
-// in the end all around.
-bool is_near(const Isosurface& isosurface, const Vec3& p, const Vec3& falling, double reach) {
-  constexpr double kBeyond = 1.01;
-  const bool is_above = isosurface.is_above(p);
-  const auto changes = [&](const Vec3& direction, double distance) {
-    return changes_side(isosurface, p, is_above, direction, distance);
-  };
-  if (changes(falling, reach)) return true;
-  if (changes(-isosurface.gradient(p), reach)) return true;
-  // As far as the values around p say that the isosurface lies, in each of its cells: just beyond that.
-  bool is_found = false;
-  const double value = std::abs(isosurface.value(p));
-  for_each_gradient_at(isosurface, p, [&](const Vec3& gradient) {
-    for (const Vec3& direction : {gradient, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      const double distance = kBeyond * value * norm_of_any_size(direction) / std::abs(dot(gradient, direction));
-      is_found = is_found || (distance <= reach && changes(direction, distance));
-    }
-  });
-  return is_found || has_other_side_within(isosurface, p, reach);
-}
-
-double squared_longest_of(const std::array<Vec3, 3>& p) {
-  return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
-}
+constexpr std::int64_t kMostParts = 4;  // counted of a triangle
 
 struct Corners {
   std::array<Vec3, 3> p;
@@ -77,7 +41,9 @@ struct Corners {
     return std::max({a, b, c}) <= 3 * squared_reach ||
            (std::isfinite(product) && product <= 4 * squared_reach * dot(normal, normal));
   }
-  [[nodiscard]] double squared_longest() const { return squared_longest_of(p); }
+  [[nodiscard]] double squared_longest() const {
+    return std::max({squared_distance(p[0], p[1]), squared_distance(p[1], p[2]), squared_distance(p[2], p[0])});
+  }
   [[nodiscard]] bool has_edge_beyond(double length) const { return squared_longest() > length * length; }
 };
 
@@ -91,16 +57,16 @@ std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactS
   using Far = std::pair<std::uint32_t, std::int64_t>;  // a triangle and how many of its samples are far
   const auto append_if_far = [&](std::size_t i, std::vector<Far>& far) {
     const std::uint32_t t = large[i];
-    const bool is_known = known != nullptr && known->far_samples[t] >= 0;
-    const std::int64_t count = is_known
-                                   ? known->far_samples[t]
-                                   : count_far_samples(surface.isosurface, Corners(mesh, t).p, promise.max_distance);
+    const bool is_known = known != nullptr && known->far_parts[t] >= 0;
+    const std::int64_t count =
+        is_known ? known->far_parts[t]
+                 : count_far_parts(surface.isosurface, Corners(mesh, t).p, promise.max_distance, kMostParts);
     if (count > 0) far.emplace_back(t, count);
   };
   for (const auto& [t, count] :
        collect_in_blocks<Far>(large.size(), surface.threads, append_if_far, kTrianglesAtOnce)) {
     check.far_triangles.push_back(t);
-    check.far_samples.push_back(count);
+    check.far_parts.push_back(count);
     check.mesh_off += count;
   }
   std::erase_if(large,
@@ -118,7 +84,7 @@ void check_vertices(const MeshPoints& points, const ExactSurface& surface, const
     if (v >= mesh.points.size()) return;
     const Vec3& p = mesh.points[v];
     if (isosurface.passes_within(p, promise.max_residual) || isosurface.value(p) == 0) return;
-    if (!is_near(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(v);
+    if (!point_across(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(v);
   };
   check.off_vertices = collect_in_blocks<std::uint32_t>(points.order().size(), surface.threads, append_if_off);
   std::sort(check.off_vertices.begin(), check.off_vertices.end());
@@ -134,9 +100,27 @@ void check_crossings(const MeshPoints& points, const ExactSurface& surface, cons
     std::merge(known->missed.begin(), known->missed.end(), far.begin(), far.end(),
                std::back_inserter(check.missed_numbers));
   }
-  for (const std::uint32_t number : check.missed_numbers) {
-    check.missed_crossings.push_back(surface.position(surface.topology.crossings[number]));
+}
+
+void check_cells(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise, const KnownBefore* known,
+                 GeometryCheck& check) {
+  const double most = promise.max_distance;
+  if (!promise.within_cells) return;
+  if (known == nullptr) {
+    check.missed_places = missed_places(mesh, surface, most, crossed_cells(surface));
+  } else {
+    const std::vector<MissedPlace> found = missed_places(mesh, surface, most, known->asked_cells);
+    std::merge(known->missed_places.begin(), known->missed_places.end(), found.begin(), found.end(),
+               std::back_inserter(check.missed_places),
+               [](const MissedPlace& a, const MissedPlace& b) { return a.cell < b.cell; });
   }
+}
+
+void list_missed_points(const ExactSurface& surface, GeometryCheck& check) {
+  for (const std::uint32_t number : check.missed_numbers) {
+    check.missed_points.push_back(surface.position(surface.topology.crossings[number]));
+  }
+  for (const MissedPlace& missed : check.missed_places) check.missed_points.push_back(missed.position);
 }
 
 // A triangle flatter than its vertices may be off the isosurface may face either way.
@@ -215,45 +199,19 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
 
 }  // namespace
 
-// Corners lie on the isosurface, so what is near them needs no look; and every point of a triangle is within its
-// longest edge over the square root of 3 of a corner.
-std::int64_t count_far_samples(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most,
-                               std::int64_t enough) {
-  const double squared_longest = squared_longest_of(corners);
-  if (squared_longest <= 3 * most * most) return 0;
-  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  // Where the isosurface passes close to the centroid, what is not much farther from it needs no look, either.
-  constexpr double kClose = 0.25;  // of the distance
-  const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3;
-  const bool is_close = changes_side(isosurface, centroid, isosurface.is_above(centroid), normal, kClose * most);
-  const double squared_free = is_close ? (1 - kClose) * (1 - kClose) * most * most : -1;
-  // Then every point of a triangle with shorter edges is near it or a corner. (With edges of 2.46 times `most` the
-  // shape for which that is tightest just is.)
-  constexpr double kShort = 2.4;
-  if (is_close && squared_longest <= kShort * kShort * most * most) return 0;
-  std::int64_t count = 0;
-  const auto measure = [&](const Vec3& p) {
-    if (count >= enough) return;
-    const auto is_beside = [&](const Vec3& corner) { return squared_distance(p, corner) <= most * most; };
-    if (squared_distance(p, centroid) <= squared_free || std::any_of(corners.begin(), corners.end(), is_beside)) return;
-    if (!is_near(isosurface, p, normal, most)) ++count;
-  };
-  for_each_sample(corners, std::sqrt(squared_longest), measure);
-  for_each_crease_sample(corners, isosurface.step(), measure);
-  return count;
-}
-
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                              const KnownBefore* known) {
   GeometryCheck check;
   const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, known, check));
   check_vertices(points, surface, promise, check);
+  check_cells(mesh, surface, promise, known, check);
   // Two of these have no parts for several threads.
   run_tasks(3, surface.threads, [&](std::size_t task) {
     if (task == 0) check_crossings(points, surface, known, check);
     if (task == 1) check_orientation(mesh, surface, check);
     if (task == 2) check.off_box_edges = boundary_edges_off_box(mesh, surface.isosurface.box(), promise.on_box);
   });
+  list_missed_points(surface, check);
   return check;
 }
 

@@ -12,8 +12,6 @@ namespace deliso {
 
 namespace {
 
-constexpr int kHalvings = 10;
-
 // The search around one point in one cell, which is [0, 1]^3 here. The interpolant is linear along each axis there, so
 // a box has its extremes at its corners: where all corners are on p's side, so is the whole box.
 class SideSearch {
@@ -29,23 +27,23 @@ class SideSearch {
     return std::all_of(corners_.begin(), corners_.end(), [&](double value) { return (value >= 0) == is_above_; });
   }
 
-  [[nodiscard]] bool finds_in(const Box3& box, int halvings) const {
+  [[nodiscard]] std::optional<Vec3> finds_in(const Box3& box, int halvings) const {
     const Box3 in_mesh{place(box.low), place(box.high)};
-    if (squared_distance(p_, in_mesh.clamp(p_)) > squared_reach_) return false;
+    if (squared_distance(p_, in_mesh.clamp(p_)) > squared_reach_) return std::nullopt;
     bool has_other_side = false;
     for (unsigned corner = 0; corner < 8; ++corner) {
       if ((relative_value(corners_, corner_of(box, corner)) >= 0) == is_above_) continue;
-      if (squared_distance(p_, corner_of(in_mesh, corner)) <= squared_reach_) return true;
+      if (squared_distance(p_, corner_of(in_mesh, corner)) <= squared_reach_) return corner_of(in_mesh, corner);
       has_other_side = true;
     }
-    if (!has_other_side || halvings == 0) return false;
+    if (!has_other_side || halvings == 0) return std::nullopt;
     const Vec3 middle = 0.5 * (box.low + box.high);
     for (unsigned octant = 0; octant < 8; ++octant) {
       Box3 part{middle, middle};
       part.extend(corner_of(box, octant));
-      if (finds_in(part, halvings - 1)) return true;
+      if (const std::optional<Vec3> found = finds_in(part, halvings - 1)) return found;
     }
-    return false;
+    return std::nullopt;
   }
 
  private:
@@ -65,7 +63,7 @@ class SideSearch {
 
 }  // namespace
 
-bool has_other_side_within(const Isosurface& isosurface, const Vec3& p, double reach) {
+std::optional<Vec3> other_side_within(const Isosurface& isosurface, const Vec3& p, double reach, int halvings) {
   SideSearch search(isosurface, p, reach);
   const Box3& box = isosurface.box();
   const Vec3& step = isosurface.step();
@@ -84,11 +82,11 @@ bool has_other_side_within(const Isosurface& isosurface, const Vec3& p, double r
           const Vec3 x{q.x / step.x - double(i), q.y / step.y - double(j), q.z / step.z - double(k)};
           return Box3{{0, 0, 0}, {1, 1, 1}}.clamp(x);
         };
-        if (search.finds_in({in_cell(low), in_cell(high)}, kHalvings)) return true;
+        if (const auto found = search.finds_in({in_cell(low), in_cell(high)}, halvings)) return found;
       }
     }
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace deliso

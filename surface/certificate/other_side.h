@@ -1,13 +1,17 @@
 // Whether the isosurface passes near a point, decided by a complete search of the ball around it.
 #pragma once
 
+#include <optional>
+
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
 
 namespace deliso {
 
-// Whether some point within `reach` of p lies on the other side of the isosurface than p; however thin the part is that
-// it lies in. Points within 2^-10 of the ball's boundary may be missed, but none beyond it is found. In mesh space.
-[[nodiscard]] bool has_other_side_within(const Isosurface& isosurface, const Vec3& p, double reach);
+// A point within `reach` of p that lies on the other side of the isosurface than p, if there is one; however thin the
+// part is that it lies in. Boxes around p are halved so many times: points as near to the ball's boundary as the
+// smallest ones are large may be missed, but none beyond it is found. In mesh space.
+[[nodiscard]] std::optional<Vec3> other_side_within(const Isosurface& isosurface, const Vec3& p, double reach,
+                                                    int halvings = 10);
 
 }  // namespace deliso

@@ -32,9 +32,9 @@ std::vector<std::string> broken_promises(const PromiseFigures& figures, const Pr
   };
   add_distance(figures.vertices_off, "vertex is", "vertices are", promise.max_residual, "isosurface",
                figures.worst_vertex);
-  add_distance(figures.mesh_off, "sampled point of the mesh is", "sampled points of the mesh are", promise.max_distance,
+  add_distance(figures.mesh_off, "place of the mesh is", "places of the mesh are", promise.max_distance,
                "isosurface", figures.worst_mesh);
-  add_distance(figures.isosurface_off, "sampled point of the isosurface is", "sampled points of the isosurface are",
+  add_distance(figures.isosurface_off, "place of the isosurface is", "places of the isosurface are",
                promise.max_distance, "mesh", figures.worst_isosurface);
   return broken;
 }

@@ -15,16 +15,18 @@ namespace deliso {
 // Lengths in voxels: units of the smallest spacing.
 struct Promise {
   double max_distance = 1;     // of any point of the mesh from the isosurface, and the other way
+  bool within_cells = false;   // the other way also within voxel cells, and not on their edges alone
   double max_residual = 1e-3;  // of a vertex from the isosurface
   double on_box = 1e-3;        // of a boundary edge from the face of the box that it lies on
   // So many components of the isosurface are left out on purpose: they have no piece of the mesh, and all others one.
   std::int64_t dropped_components = 0;
 };
 
-// Distances are sampled at the same points of a triangle by both: at its centroid, at the points of a lattice about a
-// voxel apart, with at most so many along an edge, and, where its corners do not tell that all of it is near, where the
-// faces between voxel cells cut it: at its edges and in the middle between two such points. Those of the isosurface are
-// its crossings with the edges of the grid.
+// The mesher proves that all points of triangles are within the distance (triangle_nearness.h), and all points of the
+// isosurface too where an error is stated (missed_places.h); else only its crossings with the edges of the grid are
+// asked for. The verification measures at points: of a triangle at its centroid, at those of a lattice, and where the
+// faces between voxel cells cut it; of the isosurface at its crossings with the edges of the grid, for distances below a
+// voxel also with those of a finer one. A lattice has at most so many points along an edge.
 inline constexpr int kMostSamplesPerEdge = 64;
 
 // What was found of a mesh. A count of 0 is right.
@@ -38,8 +40,8 @@ struct PromiseFigures {
   Verdict topology = Verdict::kNotChecked;
   std::int64_t crossing_pairs = 0;  // of triangles, in the coordinates as they are written
   std::int64_t vertices_off = 0;    // farther than max_residual from the isosurface
-  std::int64_t mesh_off = 0;        // sampled points of triangles farther than max_distance from the isosurface
-  std::int64_t isosurface_off = 0;  // grid-edge crossings of the isosurface farther than max_distance from the mesh
+  std::int64_t mesh_off = 0;        // places of triangles farther than max_distance from the isosurface
+  std::int64_t isosurface_off = 0;  // places of the isosurface farther than max_distance from the mesh
   // The largest of these distances, where they were measured.
   std::optional<double> worst_vertex, worst_mesh, worst_isosurface;
 };

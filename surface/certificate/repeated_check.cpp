@@ -16,7 +16,7 @@ namespace deliso {
 namespace {
 
 // A check of the whole mesh is no slower where more than this fraction of its triangles is new or gone.
-constexpr double kMostChanged = 0.1;
+constexpr double kMostChanged = 0.4;
 
 std::array<Vec3, 3> corners_of(const SurfaceMesh& mesh, std::size_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -91,6 +91,22 @@ void sort_and_unite(std::vector<std::uint32_t>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
+// The crossings as near as that to some triangles along each axis, ascending.
+std::vector<std::uint32_t> crossings_around(std::span<const std::array<Vec3, 3>> triangles, const Vec3& reach,
+                                            const ExactSurface& surface) {
+  std::vector<std::uint32_t> found;
+  for (const std::array<Vec3, 3>& corners : triangles) {
+    Box3 box;
+    for (const Vec3& p : corners) box.extend(p);
+    append_crossings_in({box.low - reach, box.high + reach}, surface, found);
+    // Neighbours have the same crossings around them.
+    constexpr std::size_t kTooMany = 1 << 22;
+    if (found.size() > kTooMany) sort_and_unite(found);
+  }
+  sort_and_unite(found);
+  return found;
+}
+
 }  // namespace
 
 GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
@@ -102,12 +118,22 @@ GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
   triangles_.clear();
   triangles_.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) triangles_.push_back(corners_of(mesh, t));
-  far_samples_.assign(mesh.triangles.size(), 0);
+  far_parts_.assign(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < check.far_triangles.size(); ++i) {
-    far_samples_[check.far_triangles[i]] = check.far_samples[i];
+    far_parts_[check.far_triangles[i]] = check.far_parts[i];
   }
   missed_ = check.missed_numbers;
+  missed_places_ = check.missed_places;
   return check;
+}
+
+GeometryCheck RepeatedCheck::again_within(const Promise& promise, const SurfaceMesh& mesh) const {
+  KnownBefore known;
+  if (!has_checked_) return check_geometry(mesh, surface_, promise);
+  known.asked = missed_;
+  for (const MissedPlace& missed : missed_places_) known.asked_cells.push_back(missed.cell);
+  for (const std::int64_t parts : far_parts_) known.far_parts.push_back(parts > 0 ? -1 : 0);
+  return check_geometry(mesh, surface_, promise, &known);
 }
 
 // Nothing where too little is known.
@@ -115,12 +141,12 @@ std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) cons
   if (!has_checked_) return std::nullopt;
   std::vector<bool> stays(triangles_.size(), false);
   KnownBefore known;
-  known.far_samples.assign(mesh.triangles.size(), -1);
+  known.far_parts.assign(mesh.triangles.size(), -1);
   // Most keep their numbers.
   for (std::size_t t = 0; t < std::min(triangles_.size(), mesh.triangles.size()); ++t) {
     if (triangles_[t] != corners_of(mesh, t)) continue;
     stays[t] = true;
-    known.far_samples[t] = far_samples_[t];
+    known.far_parts[t] = far_parts_[t];
   }
   const auto others = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), false));
   TrianglesByCorners before(others);
@@ -129,31 +155,32 @@ std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) cons
   }
   std::vector<Triangle> changed;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (known.far_samples[t] >= 0) continue;
+    if (known.far_parts[t] >= 0) continue;
     const Triangle corners = corners_of(mesh, t);
     before.for_each_candidate(corners, [&](std::uint32_t old) {
       if (triangles_[old] != corners) return;
       stays[old] = true;
-      known.far_samples[t] = far_samples_[old];
+      known.far_parts[t] = far_parts_[old];
     });
-    if (known.far_samples[t] < 0) changed.push_back(corners);
+    if (known.far_parts[t] < 0) changed.push_back(corners);
   }
   for (std::size_t t = 0; t < stays.size(); ++t) {
     if (!stays[t]) changed.push_back(triangles_[t]);
   }
   if (static_cast<double>(changed.size()) > kMostChanged * static_cast<double>(triangles_.size())) return std::nullopt;
-  const Vec3 around = promise_.max_distance * Vec3{1, 1, 1};
-  for (const Triangle& corners : changed) {
-    Box3 box;
-    for (const Vec3& p : corners) box.extend(p);
-    append_crossings_in({box.low - around, box.high + around}, surface_, known.asked);
-    // Neighbours have the same crossings around them.
-    constexpr std::size_t kTooMany = 1 << 22;
-    if (known.asked.size() > kTooMany) sort_and_unite(known.asked);
-  }
-  sort_and_unite(known.asked);
+  const Vec3 reach = promise_.max_distance * Vec3{1, 1, 1};
+  known.asked = crossings_around(changed, reach, surface_);
   std::set_difference(missed_.begin(), missed_.end(), known.asked.begin(), known.asked.end(),
                       std::back_inserter(known.missed));
+  if (promise_.within_cells) {
+    // Cells that come near a changed triangle have their crossings no farther from it than that and their own size.
+    known.asked_cells =
+        crossed_cells(surface_, crossings_around(changed, reach + surface_.isosurface.step(), surface_));
+    std::copy_if(missed_places_.begin(), missed_places_.end(), std::back_inserter(known.missed_places),
+                 [&](const MissedPlace& missed) {
+                   return !std::binary_search(known.asked_cells.begin(), known.asked_cells.end(), missed.cell);
+                 });
+  }
   return known;
 }
 

@@ -27,6 +27,9 @@ class RepeatedCheck {
   [[nodiscard]] const Promise& promise() const { return promise_; }
   // check_geometry() of a mesh. The same for any number of threads.
   GeometryCheck operator()(const SurfaceMesh& mesh);
+  // The same of the mesh checked last, with a promise of no smaller distances: what is within those promised here is
+  // not measured again.
+  [[nodiscard]] GeometryCheck again_within(const Promise& promise, const SurfaceMesh& mesh) const;
 
  private:
   using Triangle = std::array<Vec3, 3>;
@@ -35,9 +38,10 @@ class RepeatedCheck {
   const ExactSurface& surface_;
   Promise promise_;
   bool has_checked_ = false;
-  std::vector<Triangle> triangles_;        // of the mesh checked last
-  std::vector<std::int64_t> far_samples_;  // of each of these
-  std::vector<std::uint32_t> missed_;      // GeometryCheck::missed_numbers
+  std::vector<Triangle> triangles_;         // of the mesh checked last
+  std::vector<std::int64_t> far_parts_;     // of each of these
+  std::vector<std::uint32_t> missed_;       // GeometryCheck::missed_numbers
+  std::vector<MissedPlace> missed_places_;  // and ::missed_places
 };
 
 }  // namespace deliso

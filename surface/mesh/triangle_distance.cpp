@@ -1,7 +1,7 @@
 #include "surface/mesh/triangle_distance.h"
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 
 namespace deliso {
 
@@ -13,24 +13,26 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
   return squared_distance(p, a + t * (b - a));
 }
 
-// Where p lies above the inside of a triangle that has an area: the square of its height.
-std::optional<double> squared_height_above_inside(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = cross(b - a, c - a);
-  const double area = squared_norm(n);
-  if (!(area > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
-        dot(cross(a - c, p - c), n) >= 0))
-    return std::nullopt;
-  const double height = dot(p - a, n);
-  return height * height / area;
-}
-
 }  // namespace
 
-// Above the inside: the distance to the plane. Elsewhere, and for triangles without area: to the nearest edge.
+// Above the inside: the distance to the plane. Elsewhere the nearest point lies on an edge that p is beyond; for
+// triangles without area on any.
 double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (const auto squared_height = squared_height_above_inside(p, a, b, c)) return *squared_height;
-  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
-                   squared_distance_to_segment(p, c, a)});
+  const Vec3 ab = b - a, pa = p - a, n = cross(ab, c - a);
+  const double area = squared_norm(n);
+  const bool has_area = area > 0;
+  const bool is_in_ab = has_area && dot(cross(ab, pa), n) >= 0;
+  const bool is_in_bc = has_area && dot(cross(c - b, p - b), n) >= 0;
+  const bool is_in_ca = has_area && dot(cross(a - c, p - c), n) >= 0;
+  if (is_in_ab && is_in_bc && is_in_ca) {
+    const double height = dot(pa, n);
+    return height * height / area;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  if (!is_in_ab) least = squared_distance_to_segment(p, a, b);
+  if (!is_in_bc) least = std::min(least, squared_distance_to_segment(p, b, c));
+  if (!is_in_ca) least = std::min(least, squared_distance_to_segment(p, c, a));
+  return least;
 }
 
 }  // namespace deliso

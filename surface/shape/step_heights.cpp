@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/triangle_nearness.h"
 #include "surface/mesh/triangle_shape.h"
 #include "surface/shape/step_guard.h"
 #include "surface/shape/triangle_heights.h"
@@ -32,7 +32,7 @@ bool StepGuard::lies_near(std::size_t first_added) {
 bool StepGuard::samples_stay_near(std::size_t first_added) const {
   if (!std::isfinite(max_sample_)) return true;
   const auto is_far = [&](const std::array<Vec3, 3>& corners) {
-    return count_far_samples(isosurface_, corners, max_sample_, 1) > 0;
+    return count_far_parts(isosurface_, corners, max_sample_, 1) > 0;
   };
   if (std::any_of(old_triangles_.begin(), old_triangles_.end(), is_far)) return true;
   for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {

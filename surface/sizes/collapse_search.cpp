@@ -7,10 +7,11 @@
 #include <utility>
 
 #include "delaunay/triangle_contact.h"
-#include "surface/certificate/triangle_samples.h"
+#include "surface/certificate/triangle_nearness.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/mesh/triangle_shape.h"
 #include "surface/shape/place_search.h"
+#include "surface/sizes/triangle_samples.h"
 
 namespace deliso {
 
@@ -52,9 +53,9 @@ std::optional<double> CollapseSearch::find(std::uint32_t vertex, bool is_last) {
   for (std::size_t i = 0, measured = 0; i < candidates_.size() && measured < kMostMeasured; ++i) {
     make_step(candidates_[i].apex);
     ++measured;
-    double error = distance_of_isosurface(limit);
+    double error = distance_of_isosurface(kSampleShare * limit) / kSampleShare;
     if (error <= limit) error = std::max(error, distance_of_mesh(limit));
-    if (!(error <= limit) || (is_last && !(meets_nothing() && keeps_volume()))) continue;
+    if (!(error <= limit) || (is_last && !(meets_nothing() && keeps_volume() && stays_near()))) continue;
     least = limit = error;
     std::swap(best_, tried_);
     if (least <= candidates_[i].score) break;
@@ -205,8 +206,6 @@ double CollapseSearch::distance_of_mesh(double limit) {
         std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
     const auto take = [&](const Vec3& p) { samples_.push_back(p); };
     for_each_sample(points, longest, take);
-    // Where corners do not tell that all of the triangle is near.
-    if (longest * longest > 3 * limit * limit) for_each_crease_sample(points, isosurface_.step(), take);
     for (std::size_t first = 0; first < samples_.size(); first += kLanes) {
       const std::size_t count = std::min(kLanes, samples_.size() - first);
       LineLanes lines;
@@ -237,6 +236,13 @@ double CollapseSearch::distance_at(const Vec3& p, const Vec3& normal, double lim
   if (!(dot(down, normal) > kFaces * steepness)) return kNoError;
   const auto hit = isosurface_.nearest_falling_hit({p, down / steepness}, limit, counters_);
   return hit && (*hit > 0) == isosurface_.is_above(p) ? std::abs(*hit) : kNoError;
+}
+
+// What lies between the samples, too.
+bool CollapseSearch::stays_near() const {
+  return std::all_of(tried_.added.begin(), tried_.added.end(), [&](const auto& corners) {
+    return count_far_parts(isosurface_, points_of(corners), options_.max_error, 1) == 0;
+  });
 }
 
 // Exactly, of what is best.

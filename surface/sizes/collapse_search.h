@@ -43,6 +43,7 @@ class CollapseSearch {
   [[nodiscard]] double distance_of_isosurface(double limit) const;
   [[nodiscard]] double distance_of_mesh(double limit);
   [[nodiscard]] double distance_at(const Vec3& p, const Vec3& normal, double limit);
+  [[nodiscard]] bool stays_near() const;
   [[nodiscard]] bool meets_nothing();
   [[nodiscard]] bool keeps_volume();
   [[nodiscard]] std::array<Vec3, 3> points_of(const std::array<std::uint32_t, 3>& corners) const {

@@ -52,7 +52,7 @@ class Decimation {
       : options_(options),
         stats_(stats),
         patch_(patch_of(mesh)),
-        witnesses_(patch_, surface, options.max_error),
+        witnesses_(patch_, surface, options.max_error, options.witnesses),
         surface_(surface),
         search_(patch_, witnesses_, surface.isosurface, options_, stats.search),
         is_queued_(mesh.points.size(), 0) {}

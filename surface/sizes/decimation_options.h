@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "raycast/isosurface.h"
 #include "surface/base/stage_stats.h"
@@ -16,6 +17,7 @@ struct DecimationOptions {
   std::size_t enough = 0;  // at so many vertices it ends
   double min_angle = 0;    // radians: no triangle gets a smaller angle, unless one that it replaces had a smaller one
   double max_edge = std::numeric_limits<double>::infinity();  // no new edge is longer
+  std::vector<Vec3> witnesses;  // points of the isosurface that the mesh has to stay near, beside those it finds itself
 };
 
 struct DecimationStats : StageStats {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "delaunay/base/parallel.h"
-#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/triangle_nearness.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/shape_steps.h"
 #include "surface/shape/step_guard.h"
@@ -70,7 +70,7 @@ double NearnessSteps::far_area(std::uint32_t t) {
   if (known_.size() <= t) known_.resize(patch_.triangle_count());
   Known& known = known_[t];
   if (known.corners != corners) {
-    const bool is_far = count_far_samples(isosurface_, corners, most_, 1) > 0;
+    const bool is_far = count_far_parts(isosurface_, corners, most_, 1) > 0;
     known = {corners, is_far ? norm(cross(corners[1] - corners[0], corners[2] - corners[0])) : 0};
   }
   return known.far_area;

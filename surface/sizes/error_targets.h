@@ -10,8 +10,9 @@
 namespace deliso {
 
 // The crossings that the mesh misses, and for each triangle that is too far the point of the isosurface ahead of the
-// sample that is farthest, if there is one. In mesh space.
-std::vector<Vec3> error_targets(const SurfaceMesh& mesh, const ExactSurface& surface, const GeometryCheck& check);
+// part of it that is farthest, if there is one. `most`: the distance checked. In mesh space.
+std::vector<Vec3> error_targets(const SurfaceMesh& mesh, const ExactSurface& surface, const GeometryCheck& check,
+                                double most);
 
 // Sets pole heights so that criterion 2 of stage 2 (r / mean pole height > 1) halves the circumradius where the mesh is
 // too far: of triangles too far from the isosurface, and of those nearest to the crossings missed. Elsewhere it never

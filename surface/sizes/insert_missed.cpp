@@ -10,10 +10,10 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/mesh/triangle_distance.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
-#include "surface/mesh/triangle_shape.h"
 #include "surface/sizes/error_steps.h"
 #include "volume/topology/exact_topology.h"
 
@@ -29,20 +29,29 @@ struct Missed {
   std::uint32_t component = kNoComponent;
 };
 
-// The nearest of a patch's triangles on a component, kNoVertex if there is none. `component_of`: of each vertex.
+// The nearest of a patch's triangles on a component, the first of equals; kNoVertex if there is none. `component_of`:
+// of each vertex.
 std::uint32_t nearest_in(const Patch& patch, std::span<const std::uint32_t> component_of, const Missed& missed) {
+  constexpr double kFirstReach = 0.5, kLastReach = 64;  // voxels: then all triangles are asked
   const Vec3& p = missed.point;
   std::uint32_t nearest = kNoVertex;
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
-    if (!patch.has(t) || component_of[patch.corners(t)[0]] != missed.component) continue;
+  const auto ask = [&](std::uint32_t t) {
+    if (!patch.has(t) || component_of[patch.corners(t)[0]] != missed.component) return;
     const auto [a, b, c] = patch.corner_points(t);
     const double squared = squared_distance_to_triangle(p, a, b, c);
-    if (squared < least) {
-      least = squared;
-      nearest = t;
-    }
+    if (squared > least || (squared == least && t >= nearest)) return;
+    least = squared;
+    nearest = t;
+  };
+  std::vector<std::uint32_t> near;
+  for (double reach = kFirstReach; reach <= kLastReach; reach *= 2) {
+    near.clear();
+    patch.append_near({p - reach * Vec3{1, 1, 1}, p + reach * Vec3{1, 1, 1}}, near);
+    for (const std::uint32_t t : near) ask(t);
+    if (least <= reach * reach) return nearest;
   }
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) ask(t);
   return nearest;
 }
 

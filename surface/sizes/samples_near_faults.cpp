@@ -15,7 +15,7 @@ void CellsNearFaults::add(const SurfaceMesh& mesh, const GeometryCheck& check) {
     for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
     add(box);
   }
-  for (const Vec3& p : check.missed_crossings) {
+  for (const Vec3& p : check.missed_points) {
     Box3 box;
     box.extend(p);
     add(box);

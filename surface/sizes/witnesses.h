@@ -12,12 +12,14 @@
 namespace deliso {
 
 // Each witness belongs to a triangle, and is within the error allowed of it: the crossings of the isosurface with edges
-// of the grid from the beginning, and each vertex from when it is removed. So what is near the isosurface at witnesses
-// is so both ways, and a chain of steps cannot wear off a thin part.
+// of the grid from the beginning, where the error is small also those with the edges of a finer grid, and each vertex
+// from when it is removed. So what is near the isosurface at witnesses is so both ways, and a chain of steps cannot
+// wear off a thin part.
 class Witnesses {
  public:
-  // For the vertices of a mesh and the crossings; those farther than `reach` from all of the mesh are left out.
-  Witnesses(const Patch& mesh, const ExactSurface& surface, double reach);
+  // For the vertices of a mesh, the crossings, and other points of the isosurface; those farther than `reach` from all
+  // of the mesh are left out.
+  Witnesses(const Patch& mesh, const ExactSurface& surface, double reach, std::span<const Vec3> others);
 
   [[nodiscard]] const Vec3& point(std::uint32_t witness) const { return points_[witness]; }
   // Calls visit(witness) for those of a triangle.
@@ -35,7 +37,7 @@ class Witnesses {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   void give(std::uint32_t witness, std::uint32_t triangle);
 
-  std::vector<Vec3> points_;          // the vertices, then the crossings
+  std::vector<Vec3> points_;          // the vertices, then those of the isosurface
   std::vector<std::uint32_t> first_;  // of each triangle: its first witness,
   std::vector<std::uint32_t> next_;   // and of each witness: the next of the same triangle
 };

@@ -113,6 +113,9 @@ DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const 
 
 DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most,
                                        std::int64_t* beyond) {
+  // A voxel, or where less is judged less.
+  constexpr double kApart = 2, kLeastApart = 0.25;  // in distances judged; voxels
+  const double apart = most > 0 ? std::clamp(kApart * most, kLeastApart, 1.0) : 1;
   FigureBuilder builder;
   std::vector<Vec3> samples;
   for (const auto& [ia, ib, ic] : mesh.triangles) {
@@ -122,7 +125,7 @@ DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe
     // An edge as long as some voxels may be a hair longer in the world and back.
     constexpr double kRounding = 1e-9;
     const int order =
-        static_cast<int>(std::clamp(std::ceil((1 - kRounding) * longest), 2.0, double(kMostSamplesPerEdge)));
+        static_cast<int>(std::clamp(std::ceil((1 - kRounding) * longest / apart), 2.0, double(kMostSamplesPerEdge)));
     // The points of a lattice except the corners, and the centroid.
     samples.clear();
     samples.push_back((a + b + c) / 3);

@@ -15,6 +15,7 @@
 #include "surface/verification/delaunay_balls.h"
 #include "surface/verification/dropped_components.h"
 #include "surface/verification/facing_votes.h"
+#include "surface/verification/inner_crossings.h"
 #include "surface/verification/isosurface_probe.h"
 #include "volume/topology/exact_topology.h"
 
@@ -142,6 +143,22 @@ NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCent
 
 void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
 
+// The points of the isosurface whose distances are judged: its crossings with the edges of the grid, and for distances
+// below a voxel with those of a finer one.
+std::vector<Vec3> judged_points(const ScalarGrid& grid, double isovalue, const IsosurfaceProbe& probe,
+                                const IsosurfaceTopology& truth, std::span<const std::uint8_t> is_dropped,
+                                double most) {
+  constexpr double kLarge = 0.75, kSpacing = 1.5;  // voxels; of the finer grid, in distances judged
+  constexpr int kMostTimes = 4;
+  std::vector<Vec3> points = kept_crossings(probe, truth, is_dropped);
+  if (!(most < kLarge)) return points;
+  const int times = static_cast<int>(std::clamp(std::ceil(1 / (kSpacing * most)), 2.0, double(kMostTimes)));
+  for (const Vec3& p : inner_crossings(grid, isovalue, truth.crossings, is_dropped, times)) {
+    points.push_back(scaled(probe.step(), p));
+  }
+  return points;
+}
+
 // The distances beyond what is promised.
 struct DistanceCounts {
   std::int64_t vertices = 0, mesh = 0, isosurface = 0;
@@ -249,8 +266,9 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
 
   // Geometry.
   begin(0.5, "distances");
-  const DistanceCounts counts =
-      check_distances(voxels, probe, kept_crossings(probe, truth, is_dropped), off, promise, v);
+  const DistanceCounts counts = check_distances(
+      voxels, probe, judged_points(grid, v.isovalue_used, probe, truth, is_dropped, promise.max_distance), off, promise,
+      v);
   v.normals = check_normals(voxels, next);
   begin(0.8, "Delaunay balls");
   v.delaunay_balls = check_delaunay_balls(voxels, grid, v.isovalue_used);

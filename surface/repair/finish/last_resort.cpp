@@ -42,7 +42,7 @@ void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const
     if (is_faulty[t] && component != kNoComponent) is_marked[component] = true;
   }
   faults.places.mark(is_marked);
-  for (const Vec3& p : faults.geometry.missed_crossings) {
+  for (const Vec3& p : faults.geometry.missed_points) {
     if (const auto component = surface.component_at(p)) is_marked[*component] = true;
   }
 }

@@ -20,7 +20,7 @@ struct MeshFaults {
 
   [[nodiscard]] std::int64_t count() const {
     return geometry.vertices_off + geometry.mesh_off + geometry.reversed_components + crossing.crossing_pairs +
-           static_cast<std::int64_t>(geometry.missed_crossings.size() + geometry.off_box_edges.size() + places.count());
+           static_cast<std::int64_t>(geometry.missed_points.size() + geometry.off_box_edges.size() + places.count());
   }
 };
 

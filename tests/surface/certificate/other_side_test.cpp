@@ -37,7 +37,7 @@ TEST(OtherSide, IsFoundWhereDrawnPointsLieOnIt) {
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = rng.uniform() * isosurface.box().high[axis];
       const double reach = std::pow(10, -2.5 * rng.uniform()) * 2;
-      const bool is_found = has_other_side_within(isosurface, p, reach);
+      const bool is_found = other_side_within(isosurface, p, reach).has_value();
       // Drawn within a little less, whatever is drawn has to be found; of what is found, all but slivers are drawn.
       if (is_other_side_drawn(rng, isosurface, p, 0.998 * reach, 300)) {
         EXPECT_TRUE(is_found) << i;

@@ -45,7 +45,7 @@ TEST(Promise, NamesBoundAndWorst) {
   figures.mesh_off = 3;
   figures.worst_mesh = 2.5;
   EXPECT_EQ(broken_promises(figures, {.max_distance = 2}).at(0),
-            "3 sampled points of the mesh are more than 2 voxel off the isosurface, the worst 2.500000");
+            "3 places of the mesh are more than 2 voxel off the isosurface, the worst 2.500000");
 }
 
 }  // namespace

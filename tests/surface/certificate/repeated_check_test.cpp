@@ -14,9 +14,10 @@ namespace {
 void expect_equal(const GeometryCheck& found, const GeometryCheck& expected) {
   EXPECT_EQ(found.mesh_off, expected.mesh_off);
   EXPECT_EQ(found.far_triangles, expected.far_triangles);
-  EXPECT_EQ(found.far_samples, expected.far_samples);
+  EXPECT_EQ(found.far_parts, expected.far_parts);
   EXPECT_EQ(found.missed_numbers, expected.missed_numbers);
-  EXPECT_EQ(found.missed_crossings, expected.missed_crossings);
+  EXPECT_EQ(found.missed_places, expected.missed_places);
+  EXPECT_EQ(found.missed_points, expected.missed_points);
   EXPECT_EQ(found.off_vertices, expected.off_vertices);
 }
 
@@ -41,23 +42,27 @@ void change(SurfaceMesh& mesh, const SurfaceMesh& whole, double share, Rng& rng)
 }
 
 TEST(RepeatedCheck, TellsWhatACheckOfTheWholeTells) {
-  std::size_t missed = 0, far = 0;
+  std::size_t missed = 0, within = 0, far = 0;
   for (const auto& scene : {testing::field_scene("gyroid", 14), testing::noise_scene({8, 9, 7}, 3)}) {
     SCOPED_TRACE(scene->name);
     for (const double reach : {0.2, 0.5, 1.0}) {
       for (const int threads : {1, 3}) {
-        if (threads == 3 && reach > 0.5) continue;
+        if (threads == 3 && reach != 0.5) continue;
         Rng rng(static_cast<std::uint64_t>(10 * reach) + 100);
         const SurfaceMesh whole = exact_polygonization(scene->surface()).mesh;
         SurfaceMesh mesh = whole;
-        const Promise promise{.max_distance = reach};
+        const Promise promise{.max_distance = reach, .within_cells = reach < 1};
         const ExactSurface surface = scene->surface(threads);
         RepeatedCheck check(surface, promise);
         for (int round = 0; round < 6; ++round) {
           // The fourth time so much that all is looked at again.
-          change(mesh, whole, round % 4 == 3 ? 0.1 : 0.004, rng);
+          change(mesh, whole, round % 4 == 3 ? 0.2 : 0.004, rng);
           const GeometryCheck expected = check_geometry(mesh, surface, promise);
           expect_equal(check(mesh), expected);
+          Promise wider = promise;
+          wider.max_distance *= 1.3;
+          expect_equal(check.again_within(wider, mesh), check_geometry(mesh, surface, wider));
+          within += expected.missed_places.size();
           missed += expected.missed_numbers.size();
           far += expected.far_triangles.size();
         }
@@ -65,6 +70,7 @@ TEST(RepeatedCheck, TellsWhatACheckOfTheWholeTells) {
     }
   }
   EXPECT_GT(missed, 100u);
+  EXPECT_GT(within, 100u);
   EXPECT_GT(far, 100u);
 }
 

@@ -25,7 +25,7 @@ class SamplesNearFaults : public ::testing::Test {
     mesh_.points = {{3.2, 4.1, 5.3}, {4.7, 4.2, 5.1}, {4.1, 5.6, 5.2}};
     mesh_.triangles = {{0, 1, 2}};
     check_.far_triangles = {0};
-    check_.missed_crossings = {{6, 9.6, 6}};
+    check_.missed_points = {{6, 9.6, 6}};
     cells_.add(mesh_, check_);
   }
 

@@ -57,7 +57,7 @@ TEST(ForeignVolumes, ASignInANiftiVoxelSizeMirrorsNothing) {
   for (const std::string name : {"nifti_qform.nii", "nifti1_i2.nii"}) {
     std::string bytes = read_text(kForeign / name);
     const Volume plain = read_placed_volume(kForeign / name);
-    for (const std::size_t axis : {1, 3}) bytes[kSizes + 4 * axis + 3] ^= '\x80';
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{3}}) bytes[kSizes + 4 * axis + 3] ^= '\x80';
     const TemporaryFolder folder;
     write_text(folder / name, bytes);
     const Volume with_sign = read_placed_volume(folder / name);

@@ -1,0 +1,247 @@
+#include "surface/certificate/missed_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "delaunay/base/box3.h"
+#include "raycast/voxel_intersection.h"
+#include "surface/base/parallel_blocks.h"
+#include "surface/mesh/triangle_distance.h"
+#include "surface/search/box_tree.h"
+
+namespace deliso {
+
+namespace {
+
+constexpr std::size_t kCellsAtOnce = 1024;
+
+Vec3 corner_of(const Box3& box, unsigned i) {
+  return {((i & 1u) != 0 ? box.high : box.low).x, ((i & 2u) != 0 ? box.high : box.low).y,
+          ((i & 4u) != 0 ? box.high : box.low).z};
+}
+
+// A box within a cell, and its values there, less the isovalue.
+struct PartOfCell {
+  Box3 box;
+  CellCorners values;
+};
+
+// The corners of a convex body that holds the isosurface of a part: the field is a linear function there, give or take
+// at most what its mixed terms are at the corners, so it holds where the linear function is that small.
+class SurfaceHull {
+ public:
+  explicit SurfaceHull(const PartOfCell& part) {
+    // As a sum of products of the coordinates along some axes, each from -1 to 1.
+    CellCorners terms = part.values;
+    for (std::size_t axis = 1; axis < 8; axis *= 2) {
+      for (std::size_t i = 0; i < 8; ++i) {
+        if ((i & axis) != 0) continue;
+        const double low = terms[i], high = terms[i | axis];
+        terms[i] = (low + high) / 2;
+        terms[i | axis] = (high - low) / 2;
+      }
+    }
+    const double most = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]);
+    CellCorners linear{};
+    for (unsigned i = 0; i < 8; ++i) {
+      linear[i] = terms[0] + ((i & 1u) != 0 ? terms[1] : -terms[1]) + ((i & 2u) != 0 ? terms[2] : -terms[2]) +
+                  ((i & 4u) != 0 ? terms[4] : -terms[4]);
+      if (std::abs(linear[i]) <= most) add(corner_of(part.box, i));
+    }
+    for (unsigned from = 0; from < 8; ++from) {
+      for (unsigned axis = 1; axis < 8; axis *= 2) {
+        if ((from & axis) != 0) continue;
+        for (const double level : {-most, most}) {
+          const double below = linear[from] - level, above = linear[from | axis] - level;
+          if ((below < 0) == (above < 0)) continue;
+          const Vec3 a = corner_of(part.box, from), b = corner_of(part.box, from | axis);
+          add(a + (below / (below - above)) * (b - a));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  Vec3& operator[](std::size_t i) { return corners_.at(i); }
+
+ private:
+  void add(const Vec3& p) { corners_.at(count_++) = p; }
+
+  std::array<Vec3, 32> corners_;
+  std::size_t count_ = 0;
+};
+
+// The search of cells, one after the other.
+class CellSearch {
+ public:
+  CellSearch(const SurfaceMesh& mesh, std::span<const Box3> boxes, const BoxTree& tree, const Isosurface& isosurface,
+             double most)
+      : mesh_(mesh), boxes_(boxes), tree_(tree), isosurface_(isosurface), most_(most) {}
+
+  [[nodiscard]] std::optional<Vec3> missed_in(const CellIndex& cell) {
+    field_ = relative_to(isosurface_.grid().cell(cell[0], cell[1], cell[2]), isosurface_.isovalue());
+    low_ = {double(cell[0]), double(cell[1]), double(cell[2])};
+    const Box3 all{{0, 0, 0}, {1, 1, 1}};
+    const Vec3 around{most_, most_, most_};
+    near_[0].clear();
+    tree_.for_each_meeting({place(all.low) - around, place(all.high) + around},
+                           [&](std::uint32_t t) { near_[0].push_back(t); });
+    missed_.reset();
+    farthest_ = most_ * most_;
+    look_at(all, 1);
+    return missed_;
+  }
+
+ private:
+  static constexpr double kLeast = 6;  // boxes whose diagonal is so small a part of the distance are not divided
+  static constexpr std::size_t kMostDepth = 14;
+
+  [[nodiscard]] Vec3 place(const Vec3& in_cell) const { return scaled(isosurface_.step(), low_ + in_cell); }
+
+  [[nodiscard]] double squared_distance_of(const Vec3& p, std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh_.triangles[triangle];
+    return squared_distance_to_triangle(p, mesh_.points[a], mesh_.points[b], mesh_.points[c]);
+  }
+
+  // The triangles near the box of this depth are among those near that of the depth before.
+  void look_at(const Box3& box, std::size_t depth) {
+    PartOfCell part{box, {}};
+    for (unsigned i = 0; i < 8; ++i) part.values[i] = relative_value(field_, corner_of(box, i));
+    if (missed_ || !holds_isovalue(part.values)) return;
+    const Box3 in_mesh{place(box.low), place(box.high)};
+    std::vector<std::uint32_t>& near = near_.at(depth);
+    near.clear();
+    for (const std::uint32_t t : near_.at(depth - 1)) {
+      if (squared_gap(in_mesh, boxes_[t]) <= most_ * most_) near.push_back(t);
+    }
+    if (is_near_one(part, near)) return;
+    if (kLeast * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth || near.empty()) return take_from(part, near);
+    const Vec3 center = (box.low + box.high) / 2;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      Box3 eighth{center, center};
+      eighth.extend(corner_of(box, octant));
+      look_at(eighth, depth + 1);
+    }
+  }
+
+  static double squared_gap(const Box3& a, const Box3& b) {
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]});
+      sum += gap * gap;
+    }
+    return sum;
+  }
+
+  // Whether all of the isosurface in a part is near one of the triangles, which then comes first: it is likely to be
+  // near the next part, too. The distance from a triangle is a convex function, so it is largest at corners.
+  bool is_near_one(const PartOfCell& part, std::vector<std::uint32_t>& triangles) const {
+    SurfaceHull hull(part);
+    for (std::size_t i = 0; i < hull.count(); ++i) hull[i] = place(hull[i]);
+    for (std::uint32_t& t : triangles) {
+      std::size_t i = 0;
+      const auto is_near = [&](const Vec3& p) {
+        return squared_distance(p, boxes_[t].clamp(p)) <= most_ * most_ && squared_distance_of(p, t) <= most_ * most_;
+      };
+      while (i < hull.count() && is_near(hull[i])) ++i;
+      if (i < hull.count()) continue;
+      std::swap(t, triangles.front());
+      return true;
+    }
+    return false;
+  }
+
+  // Where the isosurface crosses edges of a part, if that is farther than what has been found.
+  void take_from(const PartOfCell& part, const std::vector<std::uint32_t>& near) {
+    for (unsigned from = 0; from < 8; ++from) {
+      for (unsigned axis = 1; axis < 8; axis *= 2) {
+        const unsigned to = from | axis;
+        if (to == from || (part.values[from] >= 0) == (part.values[to] >= 0)) continue;
+        const double along = part.values[from] / (part.values[from] - part.values[to]);
+        const Vec3 a = corner_of(part.box, from), b = corner_of(part.box, to);
+        const Vec3 p = place(a + along * (b - a));
+        double off = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t t : near) off = std::min(off, squared_distance_of(p, t));
+        if (!(off > farthest_)) continue;
+        farthest_ = off;
+        missed_ = p;
+      }
+    }
+  }
+
+  const SurfaceMesh& mesh_;
+  std::span<const Box3> boxes_;  // of the triangles
+  const BoxTree& tree_;
+  const Isosurface& isosurface_;
+  double most_;
+  CellCorners field_{};  // of the cell at hand, less the isovalue
+  Vec3 low_;             // its lowest corner, in cells
+  std::optional<Vec3> missed_;
+  double farthest_ = 0;                                      // its squared distance
+  std::array<std::vector<std::uint32_t>, kMostDepth> near_;  // triangles near the cell, and near its part of each depth
+};
+
+}  // namespace
+
+std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface,
+                                         std::optional<std::span<const std::uint32_t>> crossings) {
+  const Dims& dims = surface.grid().dims();
+  const auto& all = surface.topology.crossings;
+  std::vector<std::uint64_t> cells, unwanted;
+  const auto append_around = [&](const EdgeCrossing& crossing, std::vector<std::uint64_t>& some) {
+    const CellIndex at = sample_of(crossing, dims);
+    const std::size_t u = (crossing.axis + 1U) % 3, v = (crossing.axis + 2U) % 3;
+    for (unsigned side = 0; side < 4; ++side) {
+      CellIndex cell = at;
+      cell.at(u) -= static_cast<std::int32_t>(side & 1U);
+      cell.at(v) -= static_cast<std::int32_t>(side / 2);
+      if (cell.at(u) < 0 || cell.at(v) < 0 || cell.at(u) > dims.at(u) - 2 || cell.at(v) > dims.at(v) - 2) continue;
+      some.push_back(surface.grid().index(cell[0], cell[1], cell[2]));
+    }
+  };
+  if (crossings) {
+    for (const std::uint32_t number : *crossings) append_around(all[number], cells);
+  } else {
+    for (const EdgeCrossing& crossing : all) append_around(crossing, cells);
+  }
+  for (const EdgeCrossing& crossing : all) {
+    if (!surface.wants(crossing)) append_around(crossing, unwanted);
+  }
+  for (std::vector<std::uint64_t>* some : {&cells, &unwanted}) {
+    std::sort(some->begin(), some->end());
+    some->erase(std::unique(some->begin(), some->end()), some->end());
+  }
+  std::erase_if(cells, [&](std::uint64_t c) { return std::binary_search(unwanted.begin(), unwanted.end(), c); });
+  return cells;
+}
+
+std::vector<MissedPlace> missed_places(const SurfaceMesh& mesh, const ExactSurface& surface, double most,
+                                       std::span<const std::uint64_t> cells) {
+  std::vector<Box3> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
+  }
+  const BoxTree tree(boxes, surface.threads);
+  const Dims& dims = surface.grid().dims();
+  const std::size_t blocks = (cells.size() + kCellsAtOnce - 1) / kCellsAtOnce;
+  std::vector<std::vector<MissedPlace>> found(blocks);
+  for_each_block(
+      cells.size(), surface.threads,
+      [&](std::size_t first, std::size_t last) {
+        CellSearch search(mesh, boxes, tree, surface.isosurface, most);
+        for (std::size_t i = first; i < last; ++i) {
+          const EdgeCrossing lowest{cells[i], 0, 0, 0};
+          const auto missed = search.missed_in(sample_of(lowest, dims));
+          if (missed) found[first / kCellsAtOnce].push_back({cells[i], *missed});
+        }
+      },
+      kCellsAtOnce);
+  std::vector<MissedPlace> places;
+  for (const auto& some : found) places.insert(places.end(), some.begin(), some.end());
+  return places;
+}
+
+}  // namespace deliso

@@ -1,0 +1,101 @@
+// What of the isosurface a mesh misses within cells, against a search of all triangles for the points of a finer grid.
+#include "surface/certificate/missed_places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "raycast/voxel_intersection.h"
+#include "surface/certificate/exact_polygonization.h"
+#include "surface/mesh/triangle_distance.h"
+#include "tests/support/surface_fields.h"
+
+namespace deliso {
+namespace {
+
+using testing::Scene;
+
+double distance_to(const Vec3& p, const SurfaceMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    least = std::min(least, squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]));
+  }
+  return std::sqrt(least);
+}
+
+// The farthest crossing of the isosurface with a grid ten times as fine, in one cell.
+double farthest_in(const Scene& scene, const CellIndex& cell, const SurfaceMesh& mesh) {
+  constexpr int kTimes = 10;
+  const CellCorners field = relative_to(scene.grid.cell(cell[0], cell[1], cell[2]), scene.isovalue);
+  const Vec3 low{double(cell[0]), double(cell[1]), double(cell[2])};
+  double farthest = 0;
+  for (int n = 0; n < (kTimes + 1) * (kTimes + 1) * (kTimes + 1); ++n) {
+    const Vec3 p = Vec3{double(n % (kTimes + 1)), double(n / (kTimes + 1) % (kTimes + 1)),
+                        double(n / (kTimes + 1) / (kTimes + 1))} /
+                   kTimes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (p[axis] > 1 - 0.5 / kTimes) continue;
+      Vec3 q = p;
+      q[axis] += 1.0 / kTimes;
+      const double before = relative_value(field, p), behind = relative_value(field, q);
+      if ((before >= 0) == (behind >= 0)) continue;
+      const Vec3 crossing = p + before / (before - behind) * (q - p);
+      farthest = std::max(farthest, distance_to(scaled(scene.isosurface->step(), low + crossing), mesh));
+    }
+  }
+  return farthest;
+}
+
+// Meshes with holes, made of triangles smaller and larger than the distance.
+TEST(MissedPlaces, AreFoundInEveryCellThatHasThem) {
+  Rng rng(9);
+  int missed = 0, near = 0;
+  for (const auto& scene : {testing::field_scene("gyroid", 9), testing::noise_scene({5, 6, 4}, 3, {1, 1.5, 1})}) {
+    SCOPED_TRACE(scene->name);
+    const ExactSurface surface = scene->surface();
+    const std::vector<std::uint64_t> cells = crossed_cells(surface);
+    for (const double most : {0.1, 0.3, 0.9}) {
+      SurfaceMesh mesh = exact_polygonization(surface).mesh;
+      std::erase_if(mesh.triangles, [&](const auto&) { return rng.uniform() < 0.2; });
+      const std::vector<MissedPlace> places = missed_places(mesh, surface, most, cells);
+      EXPECT_EQ(places, missed_places(mesh, scene->surface(3), most, cells));
+      for (const std::uint64_t cell : cells) {
+        const auto place =
+            std::find_if(places.begin(), places.end(), [&](const auto& one) { return one.cell == cell; });
+        const double farthest = farthest_in(*scene, sample_of({cell, 0, 0, 0}, scene->grid.dims()), mesh);
+        // Points farther by less than the largest box that is not divided may be missed.
+        EXPECT_TRUE(place != places.end() || farthest <= 1.17 * most) << cell;
+        if (place == places.end()) {
+          ++near;
+          continue;
+        }
+        ++missed;
+        EXPECT_GT(distance_to(place->position, mesh), most);
+        EXPECT_NEAR(scene->isosurface->value(place->position), 0, 1e-9) << cell;
+      }
+    }
+  }
+  EXPECT_GT(missed, 50);
+  EXPECT_GT(near, 100);
+}
+
+TEST(MissedPlaces, AreNotLookedForOnComponentsThatAreDropped) {
+  const auto scene = testing::field_scene("linked_tori", 24);
+  ExactSurface surface = scene->surface();
+  SurfaceMesh mesh = exact_polygonization(surface).mesh;
+  mesh.triangles.resize(1);
+  const std::size_t all = missed_places(mesh, surface, 0.5, crossed_cells(surface)).size();
+  surface.is_dropped = {1, 0};
+  const std::vector<std::uint64_t> kept = crossed_cells(surface);
+  EXPECT_LT(missed_places(mesh, surface, 0.5, kept).size(), 0.7 * double(all));
+  for (const std::uint64_t cell : kept) {
+    for (const EdgeCrossing& crossing : scene->topology.crossings) {
+      EXPECT_FALSE(crossing.sample == cell && crossing.component == 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deliso
