@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every quick test. From any folder: tests/run.sh [PRESET ...]
-# Presets: release (default), and with every warning an error dev (the same), asan (address and undefined-behaviour
-# sanitizers), tsan (thread sanitizer, tests with several threads), clang (clang++), tidy (clang++ and clang-tidy).
+# Presets: release (default), and with every warning an error dev (the same), asan (clang++ with address and
+# undefined-behaviour sanitizers, and the fuzz targets), tsan (thread sanitizer, tests with several threads), clang (clang++), tidy (clang++ and clang-tidy).
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -12,7 +12,8 @@ source experiments/packages.sh
 presets=("${@:-release}")
 install_missing "${build_packages[@]}" "${test_packages[@]}"
 for preset in "${presets[@]}"; do
-  if [[ $preset == tidy || $preset == clang ]]; then install_missing "${tidy_packages[@]}"; fi
+  if [[ $preset == tidy || $preset == clang || $preset == asan ]]; then install_missing "${tidy_packages[@]}"; fi
+  if [[ $preset == asan ]]; then install_missing "$(fuzz_package)"; fi
 done
 
 for preset in "${presets[@]}"; do

@@ -4,7 +4,7 @@
 Usage: format_table.py DELISO [FOUND]. The files are written anew by foreign_volumes.py; each is read by DELISO and
 meshed as it lies in the world. "equal samples": files whose samples are those that the tool reads. "apart": how far
 the vertices are from where the tool puts them, which is the mesh of the tool's samples without a place, through the
-tool's map from index to world. FOUND: the folder in which tests/fuzz/run.sh leaves its logs (build/fuzz/found).
+tool's map from index to world. FOUND: the folder in which tests/fuzz/run.sh leaves its logs (build/asan/found).
 Fails where samples differ or a vertex is farther off than 1e-9.
 """
 import importlib.metadata
