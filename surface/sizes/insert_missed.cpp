@@ -32,7 +32,8 @@ struct Missed {
 // The nearest of a patch's triangles on a component, the first of equals; kNoVertex if there is none. `component_of`:
 // of each vertex.
 std::uint32_t nearest_in(const Patch& patch, std::span<const std::uint32_t> component_of, const Missed& missed) {
-  constexpr double kFirstReach = 0.5, kLastReach = 64;  // voxels: then all triangles are asked
+  constexpr double kFirstReach = 0.5;  // voxels
+  constexpr int kMostDoublings = 7;    // then all triangles are asked
   const Vec3& p = missed.point;
   std::uint32_t nearest = kNoVertex;
   double least = std::numeric_limits<double>::infinity();
@@ -45,7 +46,8 @@ std::uint32_t nearest_in(const Patch& patch, std::span<const std::uint32_t> comp
     nearest = t;
   };
   std::vector<std::uint32_t> near;
-  for (double reach = kFirstReach; reach <= kLastReach; reach *= 2) {
+  double reach = kFirstReach;
+  for (int i = 0; i <= kMostDoublings; ++i, reach *= 2) {
     near.clear();
     patch.append_near({p - reach * Vec3{1, 1, 1}, p + reach * Vec3{1, 1, 1}}, near);
     for (const std::uint32_t t : near) ask(t);

@@ -62,9 +62,10 @@ std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, std::
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Lines on a face are those of both its cells; each counts once but at the last faces of the grid.
       for (int place = 1; place < times * times; ++place) {
+        const int row = place / times;
         Vec3 start;
         start[(axis + 1) % 3] = static_cast<double>(place % times) / times;
-        start[(axis + 2) % 3] = static_cast<double>(place / times) / times;
+        start[(axis + 2) % 3] = static_cast<double>(row) / times;
         append_changes(corners, isovalue, axis, start, times, cell, points);
       }
     }
