@@ -97,7 +97,7 @@ class CellSearch {
 
  private:
   static constexpr double kLeast = 6;  // boxes whose diagonal is so small a part of the distance are not divided
-  static constexpr std::size_t kMostDepth = 14;
+  static constexpr std::size_t kMostDepth = 24;
 
   [[nodiscard]] Vec3 place(const Vec3& in_cell) const { return scaled(isosurface_.step(), low_ + in_cell); }
 
@@ -119,8 +119,18 @@ class CellSearch {
     }
     if (is_near_one(part, near)) return;
     if (kLeast * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth || near.empty()) return take_from(part, near);
-    const Vec3 center = (box.low + box.high) / 2;
+    // Along its longer sides.
+    const Vec3 sides = in_mesh.size();
+    const double longest = std::max({sides.x, sides.y, sides.z});
+    Vec3 center = (box.low + box.high) / 2;
+    unsigned whole = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if (2 * sides[axis] > longest) continue;
+      center[axis] = box.high[axis];
+      whole |= 1u << axis;
+    }
     for (unsigned octant = 0; octant < 8; ++octant) {
+      if ((octant & whole) != 0) continue;
       Box3 eighth{center, center};
       eighth.extend(corner_of(box, octant));
       look_at(eighth, depth + 1);
@@ -140,6 +150,7 @@ class CellSearch {
   // near the next part, too. The distance from a triangle is a convex function, so it is largest at corners.
   bool is_near_one(const PartOfCell& part, std::vector<std::uint32_t>& triangles) const {
     SurfaceHull hull(part);
+    if (hull.count() == 0) return false;  // of values too large to be added
     for (std::size_t i = 0; i < hull.count(); ++i) hull[i] = place(hull[i]);
     for (std::uint32_t& t : triangles) {
       std::size_t i = 0;

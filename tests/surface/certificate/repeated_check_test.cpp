@@ -51,7 +51,7 @@ TEST(RepeatedCheck, TellsWhatACheckOfTheWholeTells) {
         Rng rng(static_cast<std::uint64_t>(10 * reach) + 100);
         const SurfaceMesh whole = exact_polygonization(scene->surface()).mesh;
         SurfaceMesh mesh = whole;
-        const Promise promise{.max_distance = reach, .within_cells = reach < 1};
+        const Promise promise{.max_distance = reach, .within_cells = reach == 0.5};
         const ExactSurface surface = scene->surface(threads);
         RepeatedCheck check(surface, promise);
         for (int round = 0; round < 6; ++round) {
