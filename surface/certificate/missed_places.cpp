@@ -117,8 +117,11 @@ class CellSearch {
     for (const std::uint32_t t : near_.at(depth - 1)) {
       if (squared_gap(in_mesh, boxes_[t]) <= most_ * most_) near.push_back(t);
     }
-    if (is_near_one(part, near)) return;
-    if (kLeast * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth || near.empty()) return take_from(part, near);
+    bool is_partly_near = false;
+    if (is_near_one(part, near, is_partly_near)) return;
+    const bool is_last = kLeast * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth;
+    if (is_last || !is_partly_near) take_from(part, near);
+    if (is_last || missed_) return;
     // Along its longer sides.
     const Vec3 sides = in_mesh.size();
     const double longest = std::max({sides.x, sides.y, sides.z});
@@ -148,7 +151,8 @@ class CellSearch {
 
   // Whether all of the isosurface in a part is near one of the triangles, which then comes first: it is likely to be
   // near the next part, too. The distance from a triangle is a convex function, so it is largest at corners.
-  bool is_near_one(const PartOfCell& part, std::vector<std::uint32_t>& triangles) const {
+  // `is_partly_near`: whether the first corner is near any.
+  bool is_near_one(const PartOfCell& part, std::vector<std::uint32_t>& triangles, bool& is_partly_near) const {
     SurfaceHull hull(part);
     if (hull.count() == 0) return false;  // of values too large to be added
     for (std::size_t i = 0; i < hull.count(); ++i) hull[i] = place(hull[i]);
@@ -158,6 +162,7 @@ class CellSearch {
         return squared_distance(p, boxes_[t].clamp(p)) <= most_ * most_ && squared_distance_of(p, t) <= most_ * most_;
       };
       while (i < hull.count() && is_near(hull[i])) ++i;
+      is_partly_near = is_partly_near || i > 0;
       if (i < hull.count()) continue;
       std::swap(t, triangles.front());
       return true;
