@@ -45,13 +45,13 @@ TEST(RepeatedCheck, TellsWhatACheckOfTheWholeTells) {
   std::size_t missed = 0, within = 0, far = 0;
   for (const auto& scene : {testing::field_scene("gyroid", 12), testing::noise_scene({6, 7, 5}, 3)}) {
     SCOPED_TRACE(scene->name);
-    for (const double reach : {0.5, 1.0}) {
+    for (const double reach : {0.3, 1.0}) {
       for (const int threads : {1, 3}) {
-        if (threads == 3 && reach != 0.5) continue;
+        if (threads == 3 && reach != 0.3) continue;
         Rng rng(static_cast<std::uint64_t>(10 * reach) + 100);
         const SurfaceMesh whole = exact_polygonization(scene->surface()).mesh;
         SurfaceMesh mesh = whole;
-        const Promise promise{.max_distance = reach, .within_cells = reach == 0.5};
+        const Promise promise{.max_distance = reach, .within_cells = reach == 0.3};
         const ExactSurface surface = scene->surface(threads);
         RepeatedCheck check(surface, promise);
         for (int round = 0; round < 5; ++round) {
