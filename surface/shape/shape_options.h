@@ -25,8 +25,8 @@ struct ShapeOptions {
                              // of the triangles that it replaces was
   double max_edge = std::numeric_limits<double>::infinity();    // mesh-space units: no new edge is longer, unless one
                                                                 // that it replaces was
-  double max_sample = std::numeric_limits<double>::infinity();  // mesh-space units: no sample of a new triangle is
-                                                                // farther, unless some of what it replaces were
+  double max_sample = std::numeric_limits<double>::infinity();  // mesh-space units: no part of a new triangle is
+                                                                // farther, unless some of what it replaces was
   double max_distance = 0.75;  // mesh-space units: crossings of the isosurface that the mesh is so near stay so
 };
 

@@ -7,7 +7,7 @@
 
 #include "raycast/voxel_intersection.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/certificate/geometry_check.h"
+#include "surface/certificate/missed_places.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 
@@ -58,7 +58,7 @@ std::vector<Vec3> points_of(const ExactSurface& surface, double reach) {
   constexpr double kLarge = 0.75;   // voxels
   constexpr double kSpacing = 2.5;  // of the finer grid, in reaches
   if (reach >= kLarge) return points;
-  const int times = std::clamp(static_cast<int>(std::ceil(1 / (kSpacing * reach))), 2, 4);
+  const int times = static_cast<int>(std::clamp(std::ceil(1 / (kSpacing * reach)), 2.0, 4.0));
   for (const std::uint64_t cell : crossed_cells(surface)) {
     append_crossings_within(sample_of({cell, 0, 0, 0}, surface.grid().dims()), surface.isosurface, times, points);
   }
