@@ -33,6 +33,10 @@ class Pipeline {
   void run(double isovalue);
 
  private:
+  // How freely steps leave the isosurface to bring triangles near it: with more, crossings of one component would be
+  // reached from another that is near.
+  static constexpr double kFreeSteps = 2;
+
   using DelS = std::unique_ptr<RestrictedDelaunay>;  // Del S restricted to the isosurface
 
   void find_exact_surface(double isovalue);
@@ -45,7 +49,7 @@ class Pipeline {
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1, std::span<const Vec3> samples);
   void take_inner_seconds(const RecoveredSurface& recovered);
 
-  // After RefineGeom (pipeline_end.cpp, pipeline_sizes.cpp).
+  // After RefineGeom (pipeline_end.cpp, pipeline_error.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check);
@@ -54,14 +58,15 @@ class Pipeline {
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
   void take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom);
-  void bring_decimated_near(SurfaceMesh& mesh);
+  void bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
   void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
-  void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
-  void improve_decimated(SurfaceMesh& mesh);
+  void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
+  void improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
+  void look_in_world(SurfaceMesh& mesh);
   bool find_last_faults(SurfaceMesh& mesh);
   MeshFaults shaped_cubes(SurfaceMesh& mesh);
   void take_back_shape(const ShapeStats& before);

@@ -24,14 +24,6 @@
 
 namespace deliso {
 
-namespace {
-
-// How freely steps leave the isosurface to bring triangles near it: with more, crossings of one component would be
-// reached from another that is near.
-constexpr double kFreeSteps = 2;
-
-}  // namespace
-
 void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (parameters_.size.max_edge) limit_edges(mesh, options);
   improve(mesh, parameters_.shape.rounds);
@@ -146,17 +138,23 @@ void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
   look_again();
 }
 
-// What is wrong with the mesh in the end. Repair and RefineGeom have seen to crossing triangles in mesh space.
-// Components with faults come from finer cubes. Returns whether there are such for one of them.
+// Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to
+// crossing triangles in mesh space.
+void Pipeline::look_in_world(SurfaceMesh& mesh) {
+  const bool is_exact = is_exact_in_world(*isosurface_);
+  if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
+    last_.geometry = check_geometry(mesh, *surface_, promise_);
+  }
+  if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || last_.crossing.crossing_pairs > 0 || !is_exact) {
+    last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+  }
+}
+
+// What is wrong with the mesh in the end. Components with faults come from finer cubes. Returns whether there are such
+// for one of them.
 bool Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
-    const bool is_exact = is_exact_in_world(*isosurface_);
-    if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
-      last_.geometry = check_geometry(mesh, *surface_, promise_);
-    }
-    if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || !is_exact) {
-      last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
-    }
+    look_in_world(mesh);
     find_places(mesh, last_);
   });
   if (!repairs(parameters_) || last_.count() == 0) return false;

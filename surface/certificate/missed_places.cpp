@@ -202,10 +202,8 @@ class CellSearch {
 
 }  // namespace
 
-std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface,
-                                         std::optional<std::span<const std::uint32_t>> crossings) {
+std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface) {
   const Dims& dims = surface.grid().dims();
-  const auto& all = surface.topology.crossings;
   std::vector<std::uint64_t> cells, unwanted;
   const auto append_around = [&](const EdgeCrossing& crossing, std::vector<std::uint64_t>& some) {
     const CellIndex at = sample_of(crossing, dims);
@@ -218,12 +216,8 @@ std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface,
       some.push_back(surface.grid().index(cell[0], cell[1], cell[2]));
     }
   };
-  if (crossings) {
-    for (const std::uint32_t number : *crossings) append_around(all[number], cells);
-  } else {
-    for (const EdgeCrossing& crossing : all) append_around(crossing, cells);
-  }
-  for (const EdgeCrossing& crossing : all) {
+  for (const EdgeCrossing& crossing : surface.topology.crossings) {
+    append_around(crossing, cells);
     if (!surface.wants(crossing)) append_around(crossing, unwanted);
   }
   for (std::vector<std::uint64_t>* some : {&cells, &unwanted}) {

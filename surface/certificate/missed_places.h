@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +23,8 @@ struct MissedPlace {
   friend bool operator==(const MissedPlace&, const MissedPlace&) = default;
 };
 
-// The cells that the isosurface passes through, ascending; those around these crossings, if any are given.
-std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface,
-                                         std::optional<std::span<const std::uint32_t>> crossings = {});
+// The cells that the isosurface passes through, ascending.
+std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface);
 
 // For each of these cells in which the isosurface has points farther than `most` from all triangles, one of them. Cells
 // with components that are dropped are left out. Points that are farther by less than a 6th of `most` may be missing.

@@ -107,6 +107,37 @@ std::vector<std::uint32_t> crossings_around(std::span<const std::array<Vec3, 3>>
   return found;
 }
 
+// Those of some cells, ascending, that are as near as that to some triangles along each axis.
+std::vector<std::uint64_t> cells_around(std::span<const std::array<Vec3, 3>> triangles, const Vec3& reach,
+                                        const ExactSurface& surface, std::span<const std::uint64_t> cells) {
+  constexpr double kRounding = 1e-6;
+  const Dims& dims = surface.grid().dims();
+  const Vec3& step = surface.isosurface.step();
+  std::vector<std::uint64_t> found;
+  for (const std::array<Vec3, 3>& corners : triangles) {
+    Box3 box;
+    for (const Vec3& p : corners) box.extend(p);
+    CellIndex low{}, high{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto cell = [&](double place) {
+        return static_cast<std::int32_t>(std::clamp(std::floor(place), 0.0, dims.at(axis) - 2.0));
+      };
+      low[axis] = cell((box.low[axis] - reach[axis]) / step[axis] - kRounding);
+      high[axis] = cell((box.high[axis] + reach[axis]) / step[axis] + kRounding);
+    }
+    for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+      for (std::int32_t j = low[1]; j <= high[1]; ++j) {
+        const std::uint64_t first = surface.grid().index(low[0], j, k), last = surface.grid().index(high[0], j, k);
+        const auto begin = std::lower_bound(cells.begin(), cells.end(), first);
+        found.insert(found.end(), begin, std::upper_bound(begin, cells.end(), last));
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 }  // namespace
 
 GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
@@ -114,6 +145,7 @@ GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
   GeometryCheck check = check_geometry(mesh, surface_, promise_, known ? &*known : nullptr);
   // Where nothing is off at first, no other check follows.
   if (!has_checked_ && check.is_near()) return check;
+  if (!has_checked_ && promise_.within_cells) crossed_cells_ = crossed_cells(surface_);
   has_checked_ = true;
   triangles_.clear();
   triangles_.reserve(mesh.triangles.size());
@@ -173,9 +205,7 @@ std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) cons
   std::set_difference(missed_.begin(), missed_.end(), known.asked.begin(), known.asked.end(),
                       std::back_inserter(known.missed));
   if (promise_.within_cells) {
-    // Cells that come near a changed triangle have their crossings no farther from it than that and their own size.
-    known.asked_cells =
-        crossed_cells(surface_, crossings_around(changed, reach + surface_.isosurface.step(), surface_));
+    known.asked_cells = cells_around(changed, reach, surface_, crossed_cells_);
     std::copy_if(missed_places_.begin(), missed_places_.end(), std::back_inserter(known.missed_places),
                  [&](const MissedPlace& missed) {
                    return !std::binary_search(known.asked_cells.begin(), known.asked_cells.end(), missed.cell);

@@ -42,6 +42,7 @@ class RepeatedCheck {
   std::vector<std::int64_t> far_parts_;     // of each of these
   std::vector<std::uint32_t> missed_;       // GeometryCheck::missed_numbers
   std::vector<MissedPlace> missed_places_;  // and ::missed_places
+  std::vector<std::uint64_t> crossed_cells_;
 };
 
 }  // namespace deliso

@@ -51,6 +51,12 @@ std::vector<Vec3> thinned(std::span<const Vec3> points) {
   return kept;
 }
 
+std::vector<Vec3> joined(std::span<const Vec3> some, std::span<const Vec3> others) {
+  std::vector<Vec3> all(some.begin(), some.end());
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
 }  // namespace
 
 StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosurface& isosurface,
@@ -62,7 +68,7 @@ StepGuard::StepGuard(Patch& patch, std::span<const Vec3> crossings, const Isosur
       max_sample_(options.max_sample),
       heights_(patch, isosurface, counters),
       vertices_(thinned(patch.points()), options.max_height),
-      crossings_(crossings, options.max_distance) {}
+      crossings_(joined(crossings, options.witnesses), options.max_distance) {}
 
 bool StepGuard::apply(const PatchStep& step) {
   if (!learn_old(step.removed)) return false;

@@ -10,11 +10,11 @@
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/mesh/triangle_distance.h"
-#include "surface/mesh/triangle_shape.h"
 #include "surface/search/box_tree.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
 #include "surface/sizes/error_steps.h"
+#include "surface/sizes/insertion_steps.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {
@@ -29,113 +29,53 @@ struct Missed {
   std::uint32_t component = kNoComponent;
 };
 
-// The nearest of a patch's triangles on a component, the first of equals; kNoVertex if there is none. `component_of`:
-// of each vertex.
-std::uint32_t nearest_in(const Patch& patch, std::span<const std::uint32_t> component_of, const Missed& missed) {
+// The triangles of a patch on a component that a point may be inserted at, the nearest first: of those that share a
+// corner only the nearest, none twice as far as that, since another sheet may lie nearer than the right one.
+// `component_of`: of each vertex.
+std::vector<std::uint32_t> nearest_in(const Patch& patch, std::span<const std::uint32_t> component_of,
+                                      const Missed& missed) {
   constexpr double kFirstReach = 0.5;  // voxels
   constexpr int kMostDoublings = 7;    // then all triangles are asked
+  constexpr double kTimes = 2;
+  constexpr std::size_t kMost = 4;
   const Vec3& p = missed.point;
-  std::uint32_t nearest = kNoVertex;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, std::uint32_t>> found;  // with squared distances
   const auto ask = [&](std::uint32_t t) {
     if (!patch.has(t) || component_of[patch.corners(t)[0]] != missed.component) return;
     const auto [a, b, c] = patch.corner_points(t);
-    const double squared = squared_distance_to_triangle(p, a, b, c);
-    if (squared > least || (squared == least && t >= nearest)) return;
-    least = squared;
-    nearest = t;
+    found.emplace_back(squared_distance_to_triangle(p, a, b, c), t);
   };
   std::vector<std::uint32_t> near;
   double reach = kFirstReach;
   for (int i = 0; i <= kMostDoublings; ++i, reach *= 2) {
     near.clear();
+    found.clear();
     patch.append_near({p - reach * Vec3{1, 1, 1}, p + reach * Vec3{1, 1, 1}}, near);
     for (const std::uint32_t t : near) ask(t);
-    if (least <= reach * reach) return nearest;
+    const auto first = std::min_element(found.begin(), found.end());
+    if (first != found.end() && kTimes * kTimes * first->first <= reach * reach) break;
+    if (i < kMostDoublings) continue;
+    found.clear();
+    for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) ask(t);
   }
-  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) ask(t);
+  std::sort(found.begin(), found.end());
+  std::vector<std::uint32_t> nearest, corners;
+  for (const auto& [squared, t] : found) {
+    if (nearest.size() == kMost || squared > kTimes * kTimes * found.front().first) break;
+    const auto& its = patch.corners(t);
+    const bool is_beside = std::any_of(its.begin(), its.end(), [&](std::uint32_t v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    });
+    if (is_beside) continue;
+    nearest.push_back(t);
+    corners.insert(corners.end(), its.begin(), its.end());
+  }
   return nearest;
-}
-
-// The star of a new vertex over the rim of a triangle and those of its neighbours that `sides` names, as bits.
-PatchStep star_step(const Patch& patch, std::uint32_t t, const Vec3& p, unsigned sides) {
-  PatchStep step;
-  step.kind = ShapeStep::kInsert;
-  step.removed = {t};
-  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
-  step.point = step.start = p;
-  const auto& corners = patch.corners(t);
-  for (unsigned side = 0; side < 3; ++side) {
-    const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
-    const std::uint32_t beyond = (sides >> side & 1u) != 0 ? patch.across(t, a, b) : kNoVertex;
-    if (beyond == kNoVertex) {
-      step.added.push_back({step.vertex, a, b});
-      continue;
-    }
-    const auto& others = patch.corners(beyond);
-    const std::uint32_t apex =
-        *std::find_if(others.begin(), others.end(), [&](std::uint32_t v) { return v != a && v != b; });
-    step.removed.push_back(beyond);
-    step.added.push_back({step.vertex, a, apex});
-    step.added.push_back({step.vertex, apex, b});
-  }
-  return step;
-}
-
-// The star of a new vertex over the rim of some triangles. Corners that are theirs alone are gone.
-PatchStep cavity_step(const Patch& patch, const std::vector<std::uint32_t>& cavity, const Vec3& p) {
-  PatchStep step;
-  step.kind = ShapeStep::kInsert;
-  step.removed = cavity;
-  step.vertex = static_cast<std::uint32_t>(patch.vertex_count());
-  step.point = step.start = p;
-  for (const std::uint32_t t : cavity) {
-    const auto& corners = patch.corners(t);
-    for (std::size_t side = 0; side < 3; ++side) {
-      const std::uint32_t a = corners[(side + 1) % 3], b = corners[(side + 2) % 3];
-      const std::uint32_t beyond = patch.across(t, a, b);
-      if (std::find(cavity.begin(), cavity.end(), beyond) == cavity.end()) step.added.push_back({step.vertex, a, b});
-    }
-  }
-  return step;
-}
-
-double least_quality(const Patch& patch, const PatchStep& step) {
-  const auto at = [&](std::uint32_t v) { return v == step.vertex ? step.point : patch.point(v); };
-  double least = 1;
-  for (const auto& [a, b, c] : step.added) least = std::min(least, sine_of_least_angle(at(a), at(b), at(c)));
-  return least;
-}
-
-// A tip of a finger may stand out beyond a vertex: over the rim of some of the triangles around it that follow each
-// other, or of all, and the vertex is gone then. The best triangles first.
-std::vector<PatchStep> tip_steps(const Patch& patch, std::uint32_t t, const Vec3& p) {
-  const auto& corners = patch.corners(t);
-  const std::uint32_t nearest =
-      *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t u) {
-        return squared_distance(patch.point(v), p) < squared_distance(patch.point(u), p);
-      });
-  std::vector<PatchStep> steps;
-  VertexLink link;
-  if (!patch.find_link(nearest, link)) return steps;
-  const std::size_t count = link.triangles.size();
-  for (std::size_t first = 0; first < count; ++first) {
-    std::vector<std::uint32_t> cavity;
-    const std::size_t most = link.is_closed ? (first == 0 ? count : count - 1) : count - first;
-    for (std::size_t i = 0; i < most; ++i) {
-      cavity.push_back(link.triangles[(first + i) % count]);
-      steps.push_back(cavity_step(patch, cavity, p));
-      steps.back().quality = least_quality(patch, steps.back());
-    }
-  }
-  std::stable_sort(steps.begin(), steps.end(),
-                   [](const PatchStep& a, const PatchStep& b) { return a.quality > b.quality; });
-  return steps;
 }
 
 // `component_of`: of each vertex of the mesh, that of its piece.
 void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const Missed> missed,
-               std::span<const std::uint32_t> component_of, StepGuard& guard, ShapeStats& stats) {
+               std::span<const std::uint32_t> component_of, const Box3& box, StepGuard& guard, ShapeStats& stats) {
   Patch& patch = numbered.patch;
   std::vector<std::uint32_t> of_vertex, near;
   for (const std::uint32_t v : numbered.vertices) of_vertex.push_back(component_of[v]);
@@ -144,16 +84,15 @@ void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const M
     Box3 at;
     at.extend(p);
     if (!plan.room.holds(at, near)) continue;
-    const std::uint32_t t = nearest_in(patch, of_vertex, one);
-    if (t == kNoVertex) continue;
-    const auto& corners = patch.corners(t);
+    const auto is_inserted_at = [&](std::uint32_t t) {
+      const std::vector<PatchStep> steps = insertion_steps(patch, t, p, box);
+      return std::any_of(steps.begin(), steps.end(), [&](const PatchStep& step) { return guard.apply(step); });
+    };
+    const std::vector<std::uint32_t> nearest = nearest_in(patch, of_vertex, one);
+    if (nearest.empty()) continue;
+    const auto& corners = patch.corners(nearest.front());
     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return patch.point(v) == p; })) continue;
-    std::vector<PatchStep> steps;
-    for (const unsigned sides : {7u, 0u, 1u, 2u, 4u, 3u, 5u, 6u}) steps.push_back(star_step(patch, t, p, sides));
-    for (PatchStep& step : tip_steps(patch, t, p)) steps.push_back(std::move(step));
-    const bool is_done =
-        std::any_of(steps.begin(), steps.end(), [&](const PatchStep& step) { return guard.apply(step); });
-    if (!is_done) continue;
+    if (std::none_of(nearest.begin(), nearest.end(), is_inserted_at)) continue;
     of_vertex.resize(patch.vertex_count(), one.component);
     ++stats.steps[static_cast<std::size_t>(ShapeStep::kInsert)];
   }
@@ -209,7 +148,7 @@ void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<con
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
                     StepGuard guard(patch.patch, plan.crossings, surface.isosurface, options, counted.search);
                     guard.set_freedom(freedom);
-                    insert_in(patch, plan, missed, component_of_vertex, guard, counted);
+                    insert_in(patch, plan, missed, component_of_vertex, surface.isosurface.box(), guard, counted);
                   });
 }
 

@@ -19,6 +19,7 @@ class CellsNearFaults {
   // Adds the cells at which a mesh (in mesh space) is too far from the isosurface, and those next to them.
   void add(const SurfaceMesh& mesh, const GeometryCheck& check);
 
+  [[nodiscard]] std::size_t count() const { return cells_.size(); }
   // Where the isosurface meets the edges of a lattice that divides each of the cells, in their order. `spacing`: of the
   // lattice, at most (mesh-space units).
   [[nodiscard]] std::vector<Vec3> samples(double spacing) const;

@@ -42,6 +42,7 @@ class CoverageTargetSearch {
   [[nodiscard]] std::vector<MissedTarget> with_nearest(std::span<const Vec3> coverage_targets) const;
 
  private:
+  void append_nearest(std::vector<Vec3>& targets, double reach, std::vector<MissedTarget>& found) const;
   [[nodiscard]] std::array<Vec3, 3> corners(std::size_t triangle) const {
     return mesh_.corner_points(mesh_.triangles[triangle].corners);
   }
@@ -175,24 +176,42 @@ std::vector<Vec3> CoverageTargetSearch::beside_no_triangle(std::span<const Vec3>
   return far;
 }
 
+// Within growing distances, since most targets are not much farther than is near.
 std::vector<MissedTarget> CoverageTargetSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
-  if (coverage_targets.empty()) return {};
-  const PointGrid blocks(coverage_targets, kBlock);
   std::vector<MissedTarget> found;
-  for (const Vec3& p : coverage_targets) found.push_back({p, 0, kFarthest * kFarthest});
-  const OccupiedBlocks near_blocks(coverage_targets, reach_of_small(kFarthest));
+  std::vector<Vec3> left(coverage_targets.begin(), coverage_targets.end());
+  for (double reach = std::min(2 * least_, kFarthest); !left.empty(); reach = std::min(2 * reach, kFarthest)) {
+    append_nearest(left, reach, found);
+    if (reach == kFarthest) break;
+  }
+  return found;
+}
+
+// Takes away the targets that have a triangle nearer than that.
+void CoverageTargetSearch::append_nearest(std::vector<Vec3>& targets, double reach,
+                                          std::vector<MissedTarget>& found) const {
+  const PointGrid blocks(targets, std::min(kBlock, reach));
+  std::vector<MissedTarget> nearest;
+  for (const Vec3& p : targets) nearest.push_back({p, 0, reach * reach});
+  const OccupiedBlocks near_blocks(targets, reach_of_small(reach));
   const auto near = collect_in_blocks<std::uint32_t>(mesh_.triangles.size(), threads_, [&](std::size_t i, auto& some) {
     const auto t = static_cast<std::uint32_t>(i);
     if (!is_small(t) || near_blocks.is_near(mesh_.triangles[t].ball.center)) some.push_back(t);
   });
   for (const std::uint32_t t : near) {
-    blocks.for_each_near(widened(mesh_.box_of(t), kFarthest), [&](std::uint32_t i) {
-      const double squared = squared_distance_to(coverage_targets[i], t);
-      if (squared < found[i].squared_distance) found[i] = {coverage_targets[i], t, squared};
+    blocks.for_each_near(widened(mesh_.box_of(t), reach), [&](std::uint32_t i) {
+      const double squared = squared_distance_to(targets[i], t);
+      if (squared < nearest[i].squared_distance) nearest[i] = {targets[i], t, squared};
     });
   }
-  std::erase_if(found, [](const MissedTarget& m) { return !(m.squared_distance < kFarthest * kFarthest); });
-  return found;
+  targets.clear();
+  for (const MissedTarget& m : nearest) {
+    if (m.squared_distance < reach * reach) {
+      found.push_back(m);
+    } else {
+      targets.push_back(m.point);
+    }
+  }
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace {
 
 // A boundary edge is split only at least this far from its ends, as a fraction of its length.
 constexpr double kNearestEnd = 0.2;
+// And only where it is not that much shorter than its triangle's other edges: the triangle would become a fan of needles
+// that are as long as it is.
+constexpr double kShortest = 0.1;
 // A halved edge may have a vertex this near to its middle, as a fraction of its length: coarse slivers have one there.
 constexpr double kNearestToMiddle = 0.03;
 // Edges shorter than this (mesh-space units) may not: they are halved for their distance, not for their shape.
@@ -41,8 +44,9 @@ std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh
   if (squared_norm(outward) != 1) return std::nullopt;
   // Seen from below the mesh lies left of ab and the box's outside right of it.
   const Vec3 towards_lower = cross(outward, b - a);
+  const Vec3& apex = mesh.corner(t, side & 3u);
   const double length = distance(a, b);
-  if (length <= r_min) return std::nullopt;
+  if (length <= std::max(r_min, kShortest * std::max(distance(a, apex), distance(b, apex)))) return std::nullopt;
   const Line line{0.5 * (a + b), towards_lower / norm(towards_lower)};
   const auto hit = isosurface.nearest_falling_hit(line, length, counters);
   if (!hit || !box.contains(line.at(*hit))) return std::nullopt;

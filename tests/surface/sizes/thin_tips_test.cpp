@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <ostream>
+#include <string>
 
 #include "surface/deliso.h"
 #include "surface/mesh/mesh_quality.h"
 #include "surface/verification/verification.h"
 #include "volume/fields/field_slices.h"
+#include "volume/io/volume_file.h"
 #include "volume/region.h"
 
 namespace deliso {
@@ -48,6 +51,54 @@ INSTANTIATE_TEST_SUITE_P(ThinTips, StatedError,
                                            Case{"marschner_lobb", 41, 127.5, 0.1, "2:14,26:38,15:28"},
                                            Case{"gyroid_ball", 48, 0, 0.1, ":,:,:"},
                                            Case{"gyroid_ball", 64, 0.1, 0.1, ":,:,:"}));
+
+// Of a region that lies off the origin, steps along straight creases left triangles that crossed when rounded, and
+// finer cubes took the place of all: 47,212 vertices.
+TEST(RoundedError, IsKeptWhereDecimationLeavesTrianglesThatCrossWhenRounded) {
+  const ScalarGrid grid = cropped(generate_field("marschner_lobb", 41), parse_region("0:13,9:22,17:30", "test"));
+  MeshingOptions options;
+  options.parameters.size.max_error = 0.07;
+  const MeshingResult result = mesh_isosurface(grid, 100.1, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used, {.max_distance = 0.07}).proven);
+  EXPECT_EQ(result.repair.components_polygonized, 0);
+}
+
+// Where tips are missed, as at first with an error this small, stage 1 has to run again. Here steps reach all of them:
+// in several rounds, in other places than the nearest triangle, in faces of the box, and where no boundary edge has
+// been divided into a fan of needles.
+struct TipsCase {
+  const char* file;  // in tests/regression; none: marschner_lobb
+  double isovalue, max_error;
+  const char* region;
+
+  friend std::ostream& operator<<(std::ostream& out, const TipsCase& c) {
+    return out << c.file << " " << c.isovalue << " " << c.region;
+  }
+};
+
+class Tips : public ::testing::TestWithParam<TipsCase> {};
+
+TEST_P(Tips, AreReachedWithoutStageOneAgain) {
+  const TipsCase& c = GetParam();
+  const std::string file = c.file;
+  const std::filesystem::path inputs = std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression";
+  const ScalarGrid grid = cropped(file.empty() ? generate_field("marschner_lobb", 41) : read_volume(inputs / file),
+                                  parse_region(c.region, "test"));
+  MeshingOptions options;
+  const std::int64_t once = mesh_isosurface(grid, c.isovalue, options).recover.insertions;
+  options.parameters.size.max_error = c.max_error;
+  const MeshingResult result = mesh_isosurface(grid, c.isovalue, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_EQ(result.recover.insertions, once);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, Tips,
+                         ::testing::Values(TipsCase{"", 100.1, 0.07, "6:19,0:13,15:28"},
+                                           TipsCase{"", 100.1, 0.1, "19:32,10:23,16:29"},
+                                           TipsCase{"", 127.5, 0.1, "7:20,15:28,15:28"},
+                                           TipsCase{"tip_in_face.nrrd", 0.5, 0.05, ":,:,:"},
+                                           TipsCase{"boundary_needles.nrrd", 0.309, 0.05, ":,:,:"}));
 
 }  // namespace
 }  // namespace deliso

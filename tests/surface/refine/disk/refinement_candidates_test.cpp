@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
 
+#include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -72,6 +77,32 @@ TEST(HalvingCandidate, IsForCoarseEdgesOnly) {
   EXPECT_FALSE(TwoTriangles(1.4, 0.5).halving(0, 0.1));
   EXPECT_TRUE(TwoTriangles(1.6, 0.5).halving(0, 0.1));
   EXPECT_FALSE(TwoTriangles(1.6, 0.5).halving(0, 0.9)) << "halves would be finer than r_min";
+}
+
+// Of an edge in the low face of z, of a triangle in the isosurface x = 16.3 with an apex as far off as that.
+std::optional<RefinementCandidate> on_boundary(double length, double apex) {
+  const ScalarGrid grid = testing::sampled({33, 33, 33}, [](const Vec3& p) { return 16.3 - p.x; });
+  const Isosurface surface(grid, 0, {});
+  RefinementMesh mesh;
+  for (const double side : {-0.5, 0.5}) mesh.vertices.push_back({{16.3, 16 + side * length, 0}});
+  mesh.vertices.push_back({{16.3, 16, apex}});
+  RefinementMesh::Triangle triangle;
+  triangle.corners = {0, 1, 2};
+  triangle.neighbours = {kNoSide, kNoSide, kNoSide};
+  mesh.triangles.push_back(triangle);
+  SearchCounters counters;
+  return boundary_candidate(mesh, surface, 2, 0.001, counters);
+}
+
+TEST(BoundaryCandidate, IsInTheMiddleOfAnEdgeUnlessItsTriangleIsANeedle) {
+  for (const double apex : {0.1, 1.0, 9.0}) {
+    const auto candidate = on_boundary(1, apex);
+    ASSERT_TRUE(candidate) << apex;
+    EXPECT_EQ(candidate->split, 2u);
+    EXPECT_EQ(candidate->point.z, 0);
+  }
+  EXPECT_FALSE(on_boundary(1, 11));
+  EXPECT_FALSE(on_boundary(0.01, 1));
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+// A run in which an error is stated: until the mesh is as near to the isosurface as that, both ways.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "surface/base/sizes.h"
+#include "surface/certificate/geometry_check.h"
+#include "surface/mesh/side_adjacency.h"
+#include "surface/pipeline.h"
+#include "surface/refine/refine.h"
+#include "surface/shape/shape_options.h"
+#include "surface/sizes/error_steps.h"
+#include "surface/sizes/error_targets.h"
+#include "surface/sizes/samples_near_faults.h"
+
+namespace deliso {
+
+namespace {
+
+// Far triangles that steps have been tried for: most stay as they are, whatever changes near them.
+class StuckTriangles {
+ public:
+  // Those of some triangles that are none, which then are; all of them where there are no others.
+  std::vector<std::uint32_t> others(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> others;
+    for (const std::uint32_t t : triangles) {
+      std::array<std::array<double, 3>, 3> corners{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& p = mesh.points[mesh.triangles[t].at(i)];
+        corners.at(i) = {p.x, p.y, p.z};
+      }
+      if (known_.insert(corners).second) others.push_back(t);
+    }
+    return others.empty() ? triangles : others;
+  }
+
+ private:
+  std::set<std::array<std::array<double, 3>, 3>> known_;  // by their corners, for numbers change
+};
+
+}  // namespace
+
+// The height of stage 2 is measured at one point of each triangle. Where the mesh is too far at others, its triangles
+// get smaller, and what it misses is inserted; where that is refused, other steps are tried. Whether that was enough.
+bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
+  constexpr int kMostRounds = 12;
+  constexpr double kReach = 0.9;       // of the distance promised: what is farther off is inserted
+  constexpr double kLeastShare = 0.1;  // of it: smaller triangles are near it anyway
+  constexpr double kProgress = 0.7;
+  Promise nearer = promise_;
+  nearer.max_distance *= kReach;
+  options.target_reach = nearer.max_distance;
+  options.r_min = std::min(options.r_min, kLeastShare * promise_.max_distance);
+  options.criterion2 = Criterion2::kCircumradius;
+  options.epsilon2 = 1;
+  RepeatedCheck check(*surface_, nearer);
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
+    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+    const auto off = static_cast<double>(last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points));
+    if (off == 0) return true;
+    if (off > kProgress * before) break;
+    before = off;
+    timed(result_.refine, [&] {
+      const std::vector<Vec3> targets = error_targets(mesh, *surface_, last_.geometry, nearer.max_distance);
+      set_side_adjacency(mesh);
+      ask_for_smaller_triangles(mesh, *surface_, last_.geometry);
+      options.coverage_targets = targets;
+      refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
+    });
+  }
+  constexpr double kFreedom = 16;
+  take_steps_nearer(mesh, check, kFreedom);
+  last_.geometry = timed(result_.certify_stage, [&] {
+    check(mesh);
+    return check.again_within(promise_, mesh);
+  });
+  return last_.geometry.is_near();
+}
+
+// What refinement does not reach: steps of the shape stage, as long as anything is farther off than it checks for.
+// Spikes are removed once other steps do not help: they may be all that covers a tip.
+void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom) {
+  constexpr int kStepRounds = 24;
+  constexpr int kMostIdle = 2;  // where spikes were, more may be off at first
+  // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
+  ShapeOptions options_of_steps = shape_options(parameters_);
+  options_of_steps.max_height = std::max(options_of_steps.max_height, ShapeOptions{}.max_height);
+  std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
+  bool removes_spikes = false;
+  int idle = 0;  // rounds since that was less
+  StuckTriangles stuck;
+  for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
+    const GeometryCheck before = timed(result_.certify_stage, [&] { return check(mesh); });
+    const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
+    idle = off < least_off ? 0 : idle + 1;
+    if (off == 0 || idle > kMostIdle) return;
+    if (!removes_spikes && idle > 0) {
+      removes_spikes = true;
+      stuck = {};
+    }
+    least_off = std::min(least_off, off);
+    timed(result_.shape, [&] {
+      insert_missed(mesh, *surface_, before.missed_points, freedom, options_of_steps, controls_, result_.shape);
+    });
+    const GeometryCheck now = timed(result_.certify_stage, [&] { return check(mesh); });
+    timed(result_.shape, [&] {
+      bring_near(mesh, *surface_, stuck.others(mesh, now.far_triangles), {check.promise().max_distance, removes_spikes},
+                 options_of_steps, controls_, result_.shape);
+    });
+  }
+}
+
+// Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
+// of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs again with more and
+// more samples there; decimation takes out what is not needed. With other samples other places may be too far: those of
+// all times get samples, and their spacing is halved each second time, and where no place is new.
+void Pipeline::begin_again(SurfaceMesh& mesh) {
+  constexpr int kMostTimes = 6;
+  constexpr double kSpacing = 2, kLargest = 0.25;  // of samples at first, in distances promised, and in voxels
+  constexpr std::size_t kMostSamples = 1'000'000;
+  if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
+  Observer* const observer = controls_.observer();
+  controls_.set_observer(nullptr);  // it learns of the mesh alone
+  double spacing = std::min(kSpacing * promise_.max_distance, kLargest);
+  CellsNearFaults cells(*isosurface_);
+  cells.add(mesh, last_.geometry);
+  std::size_t cells_before = 0;
+  for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time) {
+    if (time > 0 && (time % 2 == 0 || cells.count() == cells_before)) spacing /= 2;
+    cells_before = cells.count();
+    const std::vector<Vec3> samples = cells.samples(spacing);
+    if (samples.size() > kMostSamples) break;
+    take_nearer_mesh(samples, mesh, cells);
+  }
+  controls_.set_observer(observer);
+  if (observer != nullptr) observer->reshaped(mesh);
+}
+
+// The mesh that these samples give to stage 1, if it is nearer to the isosurface. Adds the cells where it is not near.
+void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
+  const MeshFaults last_before = last_;
+  RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
+  SurfaceMesh again = stage1(samples);
+  controls_.enter("refine");
+  RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
+  timed(result_.refine, [&] { refine_geometry(again, *isosurface_, options, controls_, result_.refine); });
+  options.smoothing_passes = 0;
+  if (parameters_.size.max_edge) limit_edges(again, options);
+  improve(again, parameters_.shape.rounds);
+  refine_to_error(again, options);
+  cells.add(again, last_.geometry);
+  const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_points); };
+  const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);
+  if (is_nearer) {
+    mesh = std::move(again);
+  } else {
+    last_ = last_before;
+    std::swap(result_.repair, repair_before);
+  }
+  result_.repair.seconds += repair_before.seconds;
+}
+
+}  // namespace deliso
