@@ -112,9 +112,11 @@ MeshFileOptions file_options(const MeshCommandOptions& options, const Meshed& me
   file.ascii = options.ascii;
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
+  // What a verification needs comes first: STL has no room for more.
+  std::vector<std::string> notes = kept_comments(parameters, meshed.result);
+  append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, notes);
   file.comments = mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used,
-                                meshed.result.promised_distance, world, kept_comments(parameters, meshed.result));
-  append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, file.comments);
+                                meshed.result.promised_distance, world, notes);
   if (holds_fields(*file.format)) {
     const SampleRegion region = region_of(parameters.region);
     const ScalarGrid& grid = meshed.chosen.grid;

@@ -63,10 +63,13 @@ Vec3 normal_of(const std::array<Vec3, 3>& corners) {
   return length > 0 && std::isfinite(length) ? n / length : Vec3{0, 0, 0};
 }
 
-// The comments as one line.
-std::string joined(const MeshComments& comments) {
+// The comments as one line, but for those for which there is no room: half of one might say something else.
+std::string joined(const MeshComments& comments, std::size_t most = std::string::npos) {
   std::string line;
-  for (const std::string& comment : comments) line += (line.empty() ? "" : "; ") + comment;
+  for (const std::string& comment : comments) {
+    const std::string text = (line.empty() ? "" : "; ") + comment;
+    if (text.size() <= most - line.size()) line += text;
+  }
   return line;
 }
 
@@ -210,9 +213,9 @@ std::string stl_bytes(const TriangleMesh& exact, bool ascii, const std::string& 
   }
   if (ascii) return ascii_bytes(mesh, comments);
 
-  std::string bytes = comments.empty() ? "DelIso" : joined(comments);
-  if (bytes.starts_with("solid")) bytes.insert(0, "DelIso ");  // it would pass for text
-  if (bytes.size() > kHeaderSize - 4) bytes.resize(kHeaderSize - 4);
+  std::string bytes = joined(comments, kHeaderSize - 4);
+  if (bytes.empty()) bytes = "DelIso";
+  if (bytes.starts_with("solid")) bytes = "DelIso";  // it would pass for text
   bytes.reserve(kHeaderSize + kRecordSize * mesh.triangles.size());
   bytes.resize(kHeaderSize - 4, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));

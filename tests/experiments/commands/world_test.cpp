@@ -228,8 +228,12 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
   const std::string text = read_file(folder_ / "m.stl");
   EXPECT_NE(text.substr(0, text.find('\n')).find("space left-posterior-superior"), std::string::npos);
   mesh("a.nrrd", "b.stl", {}, false);
+  // Whole notes, as far as there is room; what a verification needs comes first.
+  EXPECT_TRUE(read_file(folder_ / "b.stl")
+                  .starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; volume a.nrrd                "));
+  mesh("a.nrrd", "c.stl", {"--closed"}, false);
   EXPECT_TRUE(
-      read_file(folder_ / "b.stl").starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; space left"));
+      read_file(folder_ / "c.stl").starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; boundary closed "));
 }
 
 // Space and local origin of a mesh need not be said again; what is said again counts.
