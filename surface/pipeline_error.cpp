@@ -109,7 +109,10 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
     }
     least_off = std::min(least_off, off);
     timed(result_.shape, [&] {
-      insert_missed(mesh, *surface_, before.missed_points, freedom, options_of_steps, controls_, result_.shape);
+      // What other steps do not bring near may take a point off it.
+      const std::vector<Vec3> targets =
+          idle > 0 ? error_targets(mesh, *surface_, before, check.promise().max_distance) : before.missed_points;
+      insert_missed(mesh, *surface_, targets, freedom, options_of_steps, controls_, result_.shape);
     });
     const GeometryCheck now = timed(result_.certify_stage, [&] { return check(mesh); });
     timed(result_.shape, [&] {
