@@ -192,6 +192,7 @@ void CoverageTargetSearch::append_nearest(std::vector<Vec3>& targets, double rea
                                           std::vector<MissedTarget>& found) const {
   const PointGrid blocks(targets, std::min(kBlock, reach));
   std::vector<MissedTarget> nearest;
+  nearest.reserve(targets.size());
   for (const Vec3& p : targets) nearest.push_back({p, 0, reach * reach});
   const OccupiedBlocks near_blocks(targets, reach_of_small(reach));
   const auto near = collect_in_blocks<std::uint32_t>(mesh_.triangles.size(), threads_, [&](std::size_t i, auto& some) {
