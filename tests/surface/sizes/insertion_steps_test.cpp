@@ -103,7 +103,7 @@ TEST(StepGuard, StaysNearTheWitnessesOfItsOptions) {
   TriangleMesh mesh;
   const auto number = [](int i, int j) { return static_cast<std::uint32_t>(5 * (j + 2) + i + 2); };
   for (int j = -2; j <= 2; ++j) {
-    for (int i = -2; i <= 2; ++i) mesh.points.emplace_back(i == 0 && j == 0 ? 4.38 : 4.28, 4.0 + i, 4.0 + j);
+    for (int i = -2; i <= 2; ++i) mesh.points.push_back({i == 0 && j == 0 ? 4.38 : 4.28, 4.0 + i, 4.0 + j});
   }
   for (int j = -2; j < 2; ++j) {
     for (int i = -2; i < 2; ++i) {
