@@ -16,6 +16,8 @@
 namespace deliso {
 namespace {
 
+const std::filesystem::path kInputs = std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression";
+
 // Rings close to the sampling limit end in fingers a tenth of a voxel wide.
 struct Case {
   const char* field;
@@ -64,6 +66,17 @@ TEST(RoundedError, IsKeptWhereDecimationLeavesTrianglesThatCrossWhenRounded) {
   EXPECT_EQ(result.repair.components_polygonized, 0);
 }
 
+// Triangles that no step brought near let stage 1 run again seven times as long, where a point off them does.
+TEST(FarTriangles, GetAPointOffThem) {
+  const ScalarGrid grid = read_volume(kInputs / "far_triangles.nrrd");
+  MeshingOptions options;
+  const std::int64_t once = mesh_isosurface(grid, 4, options).recover.insertions;
+  options.parameters.size.max_error = 0.2;
+  const MeshingResult result = mesh_isosurface(grid, 4, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_LT(result.recover.insertions, 3 * once);
+}
+
 // Where tips are missed, as at first with an error this small, stage 1 has to run again. Here steps reach all of them:
 // in several rounds, in other places than the nearest triangle, in faces of the box, and where no boundary edge has
 // been divided into a fan of needles.
@@ -82,8 +95,7 @@ class Tips : public ::testing::TestWithParam<TipsCase> {};
 TEST_P(Tips, AreReachedWithoutStageOneAgain) {
   const TipsCase& c = GetParam();
   const std::string file = c.file;
-  const std::filesystem::path inputs = std::filesystem::path(DELISO_SOURCE_DIR) / "tests" / "regression";
-  const ScalarGrid grid = cropped(file.empty() ? generate_field("marschner_lobb", 41) : read_volume(inputs / file),
+  const ScalarGrid grid = cropped(file.empty() ? generate_field("marschner_lobb", 41) : read_volume(kInputs / file),
                                   parse_region(c.region, "test"));
   MeshingOptions options;
   const std::int64_t once = mesh_isosurface(grid, c.isovalue, options).recover.insertions;
