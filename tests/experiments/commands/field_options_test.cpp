@@ -91,11 +91,13 @@ TEST_F(Fields, AMaskIsToldWithWhatHelps) {
 TEST_F(Fields, SmoothingIsTheSameForAllCommands) {
   write_field<std::uint8_t>(volume_, [](int, double d) { return d < 6 ? 1 : 0; });
   expect_proven({"--isovalue", "0.5", "--smooth", "1.2", "--set", "spacing=ignore"}, {"--isovalue", "0.5"});
-  // A file that tells nothing needs the option.
-  const std::string stl = folder_ / "m.stl";
+  // A file that tells nothing needs the option; that of STL has room for it in its header.
+  const std::string stl = folder_ / "m.stl", silent = folder_ / "silent.stl";
   EXPECT_EQ(run_deliso({"mesh", volume_, "--isovalue", "0.5", "--smooth", "2w", "-o", stl}).exit_code, 0);
-  EXPECT_EQ(run_deliso({"verify", stl, volume_, "--isovalue", "0.5", "--smooth", "2mm"}).exit_code, 0);
-  EXPECT_EQ(run_deliso({"verify", stl, volume_, "--isovalue", "0.5"}).exit_code, 1);
+  write_file(silent, std::string(80, ' ') + read_file(stl).substr(80));
+  EXPECT_EQ(run_deliso({"verify", stl, volume_, "--isovalue", "0.5"}).exit_code, 0);
+  EXPECT_EQ(run_deliso({"verify", silent, volume_, "--isovalue", "0.5", "--smooth", "2mm"}).exit_code, 0);
+  EXPECT_EQ(run_deliso({"verify", silent, volume_, "--isovalue", "0.5"}).exit_code, 1);
   EXPECT_EQ(run_deliso({"topology", volume_, "--isovalue", "50%", "--smooth", "2"}).exit_code, 0);
   EXPECT_EQ(run_deliso({"info", volume_, "--smooth", "2"}).exit_code, 0);
   EXPECT_EQ(run_deliso({"render", volume_, "--label", "1", "--smooth", "2", "-o", folder_ / "p.png", "--size", "40x40"})
