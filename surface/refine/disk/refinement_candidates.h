@@ -26,8 +26,8 @@ struct RefinementCandidate {
 // `r_min`.
 RefinementCandidate target_candidate(const MissedTarget& missed, double r_min);
 
-// For a boundary edge in a face of the box that is longer than `r_min`: a point of the boundary curve between its ends,
-// namely the hit nearest to its midpoint on the bisector within the face.
+// For a boundary edge in a face of the box that is longer than `r_min`, and than a tenth of its triangle's other edges: a
+// point of the boundary curve between its ends, namely the hit nearest to its midpoint on the bisector within the face.
 std::optional<RefinementCandidate> boundary_candidate(const RefinementMesh& mesh, const Isosurface& isosurface,
                                                       TriangleSide side, double r_min, SearchCounters& counters);
 
