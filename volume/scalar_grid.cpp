@@ -89,6 +89,32 @@ Neighbors find_neighbors(const ScalarGrid& grid, double value) {
   });
 }
 
+// Where an isovalue is that equals a sample, as a fraction of the gap to the next lower sample value.
+constexpr double kLowered = 0.01;
+constexpr double kLoweredWhereThin = 0.382;  // far from the thirds, quarters and halves that saddles of integers have
+
+// Whether samples have the value, and along some axis lower samples on both sides: there two sheets of the isosurface
+// meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
+bool is_thin_at(const ScalarGrid& grid, double value) {
+  return visit_samples(grid.samples(), [&](const auto& samples) {
+    const std::array<std::size_t, 3> n = {static_cast<std::size_t>(grid.dims()[0]),
+                                          static_cast<std::size_t>(grid.dims()[1]),
+                                          static_cast<std::size_t>(grid.dims()[2])};
+    const std::array<std::size_t, 3> stride = {1, n[0], n[0] * n[1]};
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (static_cast<double>(samples[i]) != value) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t at = i / stride.at(axis) % n.at(axis);
+        if (at > 0 && at + 1 < n.at(axis) && static_cast<double>(samples[i - stride.at(axis)]) < value &&
+            static_cast<double>(samples[i + stride.at(axis)]) < value) {
+          return true;
+        }
+      }
+    }
+    return false;
+  });
+}
+
 }  // namespace
 
 std::size_t checked_sample_count(const Dims& dims) {
@@ -161,7 +187,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   if (never_equal) return isovalue;
   Neighbors near = find_neighbors(grid, isovalue);
   while (near.equal) {
-    // Lower it by 1 % of the gap. In a gap of few doubles this may round to nothing, so also try the middle of the gap.
+    // In a gap of few doubles lowering by a fraction may round to nothing, so also try the middle of the gap.
     const bool has_lower = near.lower > -kInfinity;
     if (!has_lower && isovalue < given) {
       throw InputError(
@@ -171,7 +197,8 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
     }
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
     if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
-    for (const double fraction : {0.01, 0.5}) {
+    const double lowered = has_lower && is_thin_at(grid, isovalue) ? kLoweredWhereThin : kLowered;
+    for (const double fraction : {lowered, 0.5}) {
       const double candidate = isovalue - fraction * gap;
       if (candidate < isovalue && candidate > near.lower) return candidate;
     }
@@ -185,7 +212,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
 
 double lowered_isovalue(const ScalarGrid& grid, double isovalue) {
   const double lower = find_neighbors(grid, isovalue).lower;
-  return lower > -kInfinity ? isovalue - 0.01 * (isovalue - lower) : std::nextafter(isovalue, -kInfinity);
+  return lower > -kInfinity ? isovalue - kLowered * (isovalue - lower) : std::nextafter(isovalue, -kInfinity);
 }
 
 }  // namespace deliso

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -154,6 +155,29 @@ int facing_by_gradient(const Isosurface& isosurface, const Corners& corners) {
   return slope < 0 ? 1 : (slope > 0 ? -1 : 0);
 }
 
+// Whether a component faces lower values that is far smaller than a voxel, where points beside one triangle may lie
+// beyond others. Extremes of the interpolant are at samples, so it winds around the sample nearest to it, or on the box
+// half around it. Nothing where it is larger.
+std::optional<bool> grain_faces_lower(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles,
+                                      const Isosurface& isosurface) {
+  Box3 box;
+  for (const std::size_t t : triangles) {
+    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
+  }
+  if (!(norm(box.size()) <= kFarthestBeside)) return std::nullopt;
+  Vec3 sample = (box.low + box.high) / 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sample[axis] = std::round(sample[axis] / isosurface.step()[axis]) * isosurface.step()[axis];
+  }
+  double volume = 0;
+  for (const std::size_t t : triangles) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    volume += dot(mesh.points[a] - sample, cross(mesh.points[b] - sample, mesh.points[c] - sample));
+  }
+  if (volume == 0) return std::nullopt;
+  return (volume > 0) == isosurface.is_above(sample);
+}
+
 // Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces.
 void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, GeometryCheck& check) {
   constexpr int kEnough = 64;  // triangles that tell
@@ -191,8 +215,15 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
     const std::uint32_t component = root(mesh.triangles[t][0]);
     if (is_silent[component]) add(votes[component], facing_by_gradient(surface.isosurface, Corners(mesh, t)));
   }
-  for (std::uint32_t v = 0; v < votes.size(); ++v) {
-    if (votes[v].sum < 0) check.reversed_vertices.push_back(v);
+  std::map<std::uint32_t, std::vector<std::size_t>> against;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t component = root(mesh.triangles[t][0]);
+    if (votes[component].sum < 0) against[component].push_back(t);
+  }
+  for (const auto& [component, triangles] : against) {
+    if (!grain_faces_lower(mesh, triangles, surface.isosurface).value_or(false)) {
+      check.reversed_vertices.push_back(component);
+    }
   }
   check.reversed_components = static_cast<std::int64_t>(check.reversed_vertices.size());
 }

@@ -183,6 +183,36 @@ TEST(RegularIsovalue, LiesBetweenTheSampleAndTheNextLowerOneForRandomData) {
   }
 }
 
+// A sample that equals the isovalue and has lower ones on both sides along an axis would be left as a grain, a wire or
+// a wall as thin as the isovalue is lowered.
+TYPED_TEST(ScalarGridOfType, RegularIsovalueIsLowerWhereTheSurfaceWouldBeThin) {
+  const Dims dims{3, 4, 3};
+  int thin = 0, others = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Rng rng(seed);
+    std::vector<TypeParam> samples(36, TypeParam{20});
+    for (int i = 0; i < 6; ++i) samples[rng.below(36)] = static_cast<TypeParam>(10 * rng.below(2));
+    const ScalarGrid grid(dims, samples);
+    bool is_thin = false, has_equal = false;
+    for (std::int32_t k = 0; k < 3; ++k)
+      for (std::int32_t j = 0; j < 4; ++j)
+        for (std::int32_t i = 0; i < 3; ++i) {
+          if (grid.at(i, j, k) != 20) continue;
+          has_equal = true;
+          const auto lower = [&](std::int32_t x, std::int32_t y, std::int32_t z) { return grid.at(x, y, z) < 20; };
+          is_thin = is_thin || (i == 1 && lower(0, j, k) && lower(2, j, k)) ||
+                    (j > 0 && j < 3 && lower(i, j - 1, k) && lower(i, j + 1, k)) ||
+                    (k == 1 && lower(i, j, 0) && lower(i, j, 2));
+        }
+    ASSERT_TRUE(has_equal);
+    (is_thin ? thin : others) += 1;
+    const double gap = std::count(samples.begin(), samples.end(), TypeParam{10}) > 0 ? 10 : 20;
+    EXPECT_DOUBLE_EQ(regular_isovalue(grid, 20), 20 - (is_thin ? 0.382 : 0.01) * gap) << "seed " << seed;
+  }
+  EXPECT_GT(thin, 20);
+  EXPECT_GT(others, 20);
+}
+
 TEST(RegularIsovalue, WorksInGapsOfOneDoubleAndInConstantVolumes) {
   const double a = 1.0;
   const double b = std::nextafter(a, 2.0);

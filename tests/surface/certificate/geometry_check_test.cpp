@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
 
 #include "surface/certificate/exact_polygonization.h"
 #include "surface/mesh/side_adjacency.h"
@@ -94,6 +98,46 @@ TEST(GeometryCheck, TellsReversedComponents) {
     if (exact.component[t[0]] == 1) std::swap(t[0], t[1]);
   }
   EXPECT_EQ(check_geometry(mesh, scene->surface(), {}).reversed_components, 1);
+}
+
+// An octahedron without one of its vertices: two triangles in place of the four around it.
+SurfaceMesh without_vertex(SurfaceMesh mesh, std::uint32_t gone) {
+  std::map<std::uint32_t, std::uint32_t> next;
+  std::vector<std::array<std::uint32_t, 3>> left;
+  for (auto t : mesh.triangles) {
+    for (int i = 0; i < 3 && t[0] != gone; ++i) std::rotate(t.begin(), t.begin() + 1, t.end());
+    if (t[0] == gone) {
+      next[t[1]] = t[2];
+    } else {
+      left.push_back(t);
+    }
+  }
+  const std::uint32_t first = next.begin()->first, second = next[first], third = next[second];
+  left.push_back({first, second, third});
+  left.push_back({first, third, next[third]});
+  mesh.triangles = left;
+  return mesh;
+}
+
+// Grains around samples just above the isovalue are thinner than the points beside their triangles were apart, and
+// vertices may be left out that are hardly off the rest: two triangles through the sample then lie within the grain.
+TEST(GeometryCheck, GrainsAFewThousandthsOfAVoxelLargeAreNotCalledReversed) {
+  constexpr std::size_t kCenter = 62;  // of 5^3 samples
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Rng rng(seed);
+    std::vector<std::uint8_t> samples(125);
+    for (std::uint8_t& sample : samples) sample = static_cast<std::uint8_t>(24 + rng.below(9));
+    samples[kCenter] = 34;
+    samples[kCenter + 1] = 33;
+    const Scene scene("grain", ScalarGrid({5, 5, 5}, samples), 33.99);
+    const SurfaceMesh octahedron = exact_polygonization(scene.surface()).mesh;
+    ASSERT_EQ(octahedron.triangles.size(), 8u);
+    const auto farthest = std::max_element(octahedron.points.begin(), octahedron.points.end(),
+                                           [](const Vec3& a, const Vec3& b) { return a.x < b.x; }) -
+                          octahedron.points.begin();
+    const SurfaceMesh mesh = without_vertex(octahedron, static_cast<std::uint32_t>(farthest));
+    EXPECT_EQ(check_geometry(mesh, scene.surface(), {}).reversed_components, 0) << "seed " << seed;
+  }
 }
 
 }  // namespace
