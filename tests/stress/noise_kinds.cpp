@@ -41,7 +41,14 @@ StressCase integers_at_samples(Rng& rng) {
   return {std::move(grid), 1 + static_cast<double>(rng.below(most)), rng.below(2) == 0};
 }
 
-// The same with one spacing a tenth to a half of the others.
+// Few values, and an isovalue a little below samples: walls, wires and grains as thin.
+StressCase integers_below_samples(Rng& rng) {
+  StressCase at = integers_at_samples(rng);
+  at.isovalue -= rng.below(2) == 0 ? 0.01 : 0.001;
+  return at;
+}
+
+// An isovalue that samples have, with one spacing a tenth to a half of the others.
 StressCase integers_flat(Rng& rng) {
   const std::uint64_t most = 2 + rng.below(5);
   Vec3 spacing{1, 1, 1};

@@ -36,6 +36,7 @@ StressCase white_noise(Rng& rng);
 StressCase masks(Rng& rng);
 StressCase few_values(Rng& rng);
 StressCase integers_at_samples(Rng& rng);
+StressCase integers_below_samples(Rng& rng);
 StressCase integers_flat(Rng& rng);
 StressCase integers_at_an_end(Rng& rng);
 StressCase magnitudes(Rng& rng);
