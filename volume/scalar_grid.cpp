@@ -93,16 +93,46 @@ Neighbors find_neighbors(const ScalarGrid& grid, double value) {
 constexpr double kLowered = 0.01;
 constexpr double kLoweredWhereThin = 0.382;  // far from the thirds, quarters and halves that saddles of integers have
 
-// Whether samples have the value, and along some axis lower samples on both sides: there two sheets of the isosurface
-// meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
-bool is_thin_at(const ScalarGrid& grid, double value) {
+// Samples are taken for equal to an isovalue that they are so near to, relative to it: a decimal fraction, rounded to a
+// float or multiplied, is a few units in the last place off what people type.
+constexpr double kRounding = 0x1p-22;
+// Unless other samples are as near as this, in the same measure: then they are no steps, and any isovalue is as good.
+constexpr double kDense = 100 * kRounding;
+
+bool has_whole_numbers(const ScalarGrid& grid) {
+  return visit_samples(grid.samples(),
+                       []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
+}
+
+// The lowest of the samples that an isovalue equals up to rounding; the isovalue itself, where there is none.
+double sample_meant(const ScalarGrid& grid, double isovalue) {
+  const double reach = kRounding * std::abs(isovalue);
+  return visit_samples(grid.samples(), [&](const auto& samples) {
+    double lowest = kInfinity, below = -kInfinity;
+    for (const auto sample : samples) {
+      const auto s = static_cast<double>(sample);
+      if (s < isovalue - reach) {
+        below = std::max(below, s);
+      } else {
+        lowest = std::min(lowest, s);
+      }
+    }
+    const bool is_step =
+        lowest <= isovalue + reach && below > -kInfinity && lowest - below > kDense * std::abs(isovalue);
+    return is_step ? lowest : isovalue;
+  });
+}
+
+// Whether there are samples from `value` to `most`, and along some axis lower ones on both sides: there two sheets of
+// the isosurface meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
+bool is_thin_at(const ScalarGrid& grid, double value, double most) {
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const std::array<std::size_t, 3> n = {static_cast<std::size_t>(grid.dims()[0]),
                                           static_cast<std::size_t>(grid.dims()[1]),
                                           static_cast<std::size_t>(grid.dims()[2])};
     const std::array<std::size_t, 3> stride = {1, n[0], n[0] * n[1]};
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (static_cast<double>(samples[i]) != value) continue;
+      if (const auto s = static_cast<double>(samples[i]); s < value || s > most) continue;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t at = i / stride.at(axis) % n.at(axis);
         if (at > 0 && at + 1 < n.at(axis) && static_cast<double>(samples[i - stride.at(axis)]) < value &&
@@ -180,11 +210,13 @@ ScalarGrid padded(const ScalarGrid& grid, double value) {
 }
 
 double regular_isovalue(const ScalarGrid& grid, double isovalue) {
-  const double given = isovalue;
-  const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const SampleArray<Sample>&) {
-    return SideTest<Sample>(isovalue).never_equal();
+  const double given = isovalue, most = isovalue + kRounding * std::abs(isovalue);
+  const bool never_equal = visit_samples(grid.samples(), [given]<class Sample>(const SampleArray<Sample>&) {
+    return SideTest<Sample>(given).never_equal();
   });
-  if (never_equal) return isovalue;
+  if (never_equal && has_whole_numbers(grid)) return given;
+  isovalue = sample_meant(grid, given);
+  if (never_equal && isovalue == given) return given;
   Neighbors near = find_neighbors(grid, isovalue);
   while (near.equal) {
     // In a gap of few doubles lowering by a fraction may round to nothing, so also try the middle of the gap.
@@ -197,7 +229,8 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
     }
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
     if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
-    const double lowered = has_lower && is_thin_at(grid, isovalue) ? kLoweredWhereThin : kLowered;
+    const double lowered =
+        has_lower && is_thin_at(grid, isovalue, std::max(isovalue, most)) ? kLoweredWhereThin : kLowered;
     for (const double fraction : {lowered, 0.5}) {
       const double candidate = isovalue - fraction * gap;
       if (candidate < isovalue && candidate > near.lower) return candidate;

@@ -80,13 +80,13 @@ class ScalarGrid {
 // type's range. Throws InputError when `value` is NaN or a dimension would leave the range of Dims.
 ScalarGrid padded(const ScalarGrid& grid, double value);
 
-// A regular isovalue: never equal to a sample. It is `isovalue` itself unless some sample equals it. Then it is lowered
-// by 1 % of the gap to the next lower sample value, or, where such a sample has lower ones on both sides along an axis,
-// by 38.2 %. (There 1 % leaves walls, wires and grains a hundredth of a voxel thin: with a whole number for isovalue,
-// on most scans of integers, everywhere. Distances to a box on grid planes have no such samples, and hardly move.) If
-// there is no lower sample, it is lowered by 1 % of the gap to the next higher one; if all samples are equal, to the
-// next lower double. When a gap is too narrow to hold a double, the next gap below is taken; throws InputError when
-// none is left.
+// A regular isovalue: never equal to a sample. It is `isovalue` itself unless some sample equals it (or, where samples
+// are in steps, does so up to rounding: 0.6 and the float next to it). Then it is lowered by 1 % of the gap to the next
+// lower sample value, or, where such a sample has lower ones on both sides along an axis, by 38.2 %. (There 1 % leaves
+// walls, wires and grains a hundredth of a voxel thin: with a whole number for isovalue, on most scans of integers,
+// everywhere. Distances to a box on grid planes have no such samples, and hardly move.) If there is no lower sample, it
+// is lowered by 1 % of the gap to the next higher one; if all samples are equal, to the next lower double. When a gap
+// is too narrow to hold a double, the next gap below is taken; throws InputError when none is left.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
 // A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same

@@ -213,6 +213,40 @@ TYPED_TEST(ScalarGridOfType, RegularIsovalueIsLowerWhereTheSurfaceWouldBeThin) {
   EXPECT_GT(others, 20);
 }
 
+// Steps of a tenth: no float is 0.6, and 3 * 0.1 is a unit in the last place above 0.3. Samples that an isovalue means
+// are inside, wherever rounding puts them, and not a hair away.
+template <class Sample>
+void expect_decimal_steps_to_be_met(double step) {
+  for (int wanted = 1; wanted < 20; ++wanted) {
+    std::vector<Sample> samples;
+    for (int i = 0; i < 64; ++i) samples.push_back(static_cast<Sample>(step * (i % 20)));
+    samples[21] = static_cast<Sample>(step * wanted);  // not on the box
+    const double isovalue = std::stod(std::to_string(step * wanted));
+    const double regular = regular_isovalue(ScalarGrid({4, 4, 4}, samples), isovalue);
+    EXPECT_LE(regular, (wanted - 0.0099) * step) << isovalue;
+    EXPECT_GE(regular, (wanted - 0.39) * step) << isovalue;
+  }
+}
+
+TEST(RegularIsovalue, MeetsDecimalSteps) {
+  for (const double step : {0.1, 0.01, 0.7, 12.3}) {
+    expect_decimal_steps_to_be_met<float>(step);
+    expect_decimal_steps_to_be_met<double>(step);
+  }
+}
+
+TEST(RegularIsovalue, IsTheIsovalueItselfWhereSamplesAreDense) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Rng rng(seed);
+    std::vector<double> samples(1000);
+    for (double& s : samples) s = 1 + 1e-5 * rng.uniform();
+    samples[0] = -1e6;
+    samples[1] = 1e9;
+    const double isovalue = rng.uniform(1, 1 + 1e-5);
+    EXPECT_EQ(regular_isovalue(ScalarGrid({10, 10, 10}, samples), isovalue), isovalue);
+  }
+}
+
 TEST(RegularIsovalue, WorksInGapsOfOneDoubleAndInConstantVolumes) {
   const double a = 1.0;
   const double b = std::nextafter(a, 2.0);
