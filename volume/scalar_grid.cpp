@@ -93,39 +93,43 @@ Neighbors find_neighbors(const ScalarGrid& grid, double value) {
 constexpr double kLowered = 0.01;
 constexpr double kLoweredWhereThin = 0.382;  // far from the thirds, quarters and halves that saddles of integers have
 
-// Samples are taken for equal to an isovalue that they are so near to, relative to it: a decimal fraction, rounded to a
-// float or multiplied, is a few units in the last place off what people type.
-constexpr double kRounding = 0x1p-22;
-// Unless other samples are as near as this, in the same measure: then they are no steps, and any isovalue is as good.
-constexpr double kDense = 100 * kRounding;
+// A sample equals an isovalue up to rounding that is so near to it, relative to it: a decimal fraction, rounded to a
+// float or multiplied, is a few units in the last place off what people type. It has to be alone: samples with the same
+// meaning are as near to each other as kSame, all others kApart away. Else samples hardly differ, and every digit
+// counts.
+constexpr double kRounding = 0x1p-22, kSame = 0x1p-48, kApart = 100 * kRounding;
 
-bool has_whole_numbers(const ScalarGrid& grid) {
+bool has_integers(const ScalarGrid& grid) {
   return visit_samples(grid.samples(),
                        []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
 }
 
 // The lowest of the samples that an isovalue equals up to rounding; the isovalue itself, where there is none.
 double sample_meant(const ScalarGrid& grid, double isovalue) {
-  const double reach = kRounding * std::abs(isovalue);
+  const double size = std::abs(isovalue);
   return visit_samples(grid.samples(), [&](const auto& samples) {
-    double lowest = kInfinity, below = -kInfinity;
+    double lowest = kInfinity, highest = -kInfinity, below = -kInfinity, above = kInfinity;
     for (const auto sample : samples) {
       const auto s = static_cast<double>(sample);
-      if (s < isovalue - reach) {
+      if (s < isovalue - kRounding * size) {
         below = std::max(below, s);
+      } else if (s > isovalue + kRounding * size) {
+        above = std::min(above, s);
       } else {
         lowest = std::min(lowest, s);
+        highest = std::max(highest, s);
       }
     }
-    const bool is_step =
-        lowest <= isovalue + reach && below > -kInfinity && lowest - below > kDense * std::abs(isovalue);
-    return is_step ? lowest : isovalue;
+    const bool is_alone =
+        highest - lowest <= kSame * size && lowest - below > kApart * size && above - highest > kApart * size;
+    return lowest <= highest && below > -kInfinity && is_alone ? lowest : isovalue;
   });
 }
 
-// Whether there are samples from `value` to `most`, and along some axis lower ones on both sides: there two sheets of
-// the isosurface meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
-bool is_thin_at(const ScalarGrid& grid, double value, double most) {
+// Whether samples have the value, or its meaning, and along some axis lower ones on both sides: there two sheets of the
+// isosurface meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
+bool is_thin_at(const ScalarGrid& grid, double value) {
+  const double most = value + kSame * std::abs(value);
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const std::array<std::size_t, 3> n = {static_cast<std::size_t>(grid.dims()[0]),
                                           static_cast<std::size_t>(grid.dims()[1]),
@@ -210,12 +214,11 @@ ScalarGrid padded(const ScalarGrid& grid, double value) {
 }
 
 double regular_isovalue(const ScalarGrid& grid, double isovalue) {
-  const double given = isovalue, most = isovalue + kRounding * std::abs(isovalue);
+  const double given = isovalue;
   const bool never_equal = visit_samples(grid.samples(), [given]<class Sample>(const SampleArray<Sample>&) {
     return SideTest<Sample>(given).never_equal();
   });
-  if (never_equal && has_whole_numbers(grid)) return given;
-  isovalue = sample_meant(grid, given);
+  if (!has_integers(grid)) isovalue = sample_meant(grid, given);
   if (never_equal && isovalue == given) return given;
   Neighbors near = find_neighbors(grid, isovalue);
   while (near.equal) {
@@ -229,8 +232,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
     }
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
     if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
-    const double lowered =
-        has_lower && is_thin_at(grid, isovalue, std::max(isovalue, most)) ? kLoweredWhereThin : kLowered;
+    const double lowered = has_lower && is_thin_at(grid, isovalue) ? kLoweredWhereThin : kLowered;
     for (const double fraction : {lowered, 0.5}) {
       const double candidate = isovalue - fraction * gap;
       if (candidate < isovalue && candidate > near.lower) return candidate;

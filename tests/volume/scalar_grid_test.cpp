@@ -247,6 +247,20 @@ TEST(RegularIsovalue, IsTheIsovalueItselfWhereSamplesAreDense) {
   }
 }
 
+// Pressures beside a fill value of 0: all within a millionth of each other, and every digit counts.
+TEST(RegularIsovalue, IsTheIsovalueItselfAmongSamplesThatHardlyDiffer) {
+  for (const double step : {1e-7, 1e-4, 0.01, 0.02, 0.03, 0.5}) {
+    std::vector<double> samples(27, 0.0);
+    for (std::size_t i = 0; i < 9; ++i) samples[3 * i] = 101325 + step * static_cast<double>(i % 3);
+    for (const double between : {0.1, 0.3, 0.5, 0.9, 1.5}) {
+      const double isovalue = 101325 + between * step;
+      EXPECT_EQ(regular_isovalue(ScalarGrid({3, 3, 3}, samples), isovalue), isovalue) << step;
+    }
+  }
+  const ScalarGrid large({2, 2, 2}, std::vector<std::int32_t>{0, 0, 0, 0, 99'999'990, 99'999'999, 100'000'000, 0});
+  EXPECT_DOUBLE_EQ(regular_isovalue(large, 100'000'000), 100'000'000 - 0.01);
+}
+
 TEST(RegularIsovalue, WorksInGapsOfOneDoubleAndInConstantVolumes) {
   const double a = 1.0;
   const double b = std::nextafter(a, 2.0);
