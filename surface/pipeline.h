@@ -52,8 +52,10 @@ class Pipeline {
   // After RefineGeom (pipeline_end.cpp, pipeline_error.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
+  void come_near(SurfaceMesh& mesh, const RefineOptions& options);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check);
   void bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check);
+  void improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check);
   void drop_components(SurfaceMesh& mesh);
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);

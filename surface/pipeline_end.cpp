@@ -32,9 +32,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (is_sized(parameters_)) {
     if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh);
   } else {
-    RepeatedCheck check(*surface_, promise_);
-    refine_by_distance(mesh, options, check);
-    bring_near_by_steps(mesh, check);
+    come_near(mesh, options);
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
@@ -91,6 +89,18 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
   });
 }
 
+// Refinement gives the better triangles where much is far off, but it measures all of the mesh again and refines places
+// that are near. So a few that are far are left to steps, if these bring all of them near.
+void Pipeline::come_near(SurfaceMesh& mesh, const RefineOptions& options) {
+  constexpr std::int64_t kFew = 1000, kShare = 100;  // at most, and at most one for so many triangles
+  RepeatedCheck check(*surface_, promise_);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points);
+  if (off <= std::min(kFew, std::ssize(mesh.triangles) / kShare)) bring_near_by_steps(mesh, check);
+  if (!last_.geometry.is_near()) refine_by_distance(mesh, options, check);
+  bring_near_by_steps(mesh, check);
+}
+
 // Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;
 // not without repair, as in the paper. What is promised is known afterwards.
 void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check) {
@@ -100,11 +110,9 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
   options.epsilon2 = std::numeric_limits<double>::infinity();
   options.max_distance = std::min(options.max_distance, kFraction * promise_.max_distance);
   std::int64_t off_before = 0;
-  for (int round = 0;; ++round) {
-    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  for (int round = 0; round < kMostRounds && may_refine && !last_.geometry.is_near() && !controls_.poll(); ++round) {
     const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points);
-    const bool helps = round == 0 || off <= off_before / 2;  // else finer cubes are to replace what is off
-    if (off == 0 || !may_refine || !helps || round == kMostRounds || controls_.poll()) return;
+    if (round > 0 && off > off_before / 2) return;  // finer cubes are to replace what is off
     off_before = off;
     const std::int64_t before = result_.refine.insertions;
     timed(result_.refine, [&] {
@@ -114,6 +122,7 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
     if (round == 0) improve(mesh, kCautiousRounds);
+    last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
     if (result_.refine.insertions == before) return;
   }
 }
@@ -122,20 +131,22 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
 // the place of all of their component; steps of the shape stage take that of these triangles alone.
 void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
   if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
-  constexpr double kReach = 0.9;  // of the distance promised
-  Promise nearer = promise_;
-  nearer.max_distance *= kReach;
-  const auto look_again = [&] { last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); }); };
-  RepeatedCheck check_nearer(*surface_, nearer);
-  take_steps_nearer(mesh, check_nearer, kFreeSteps);
-  look_again();
-  if (!last_.geometry.is_near()) return;
-  const SurfaceMesh before = mesh;
+  take_steps_nearer(mesh, check, kFreeSteps);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  improve_while_near(mesh, check);
+}
+
+// Better angles for what has been brought near, if all stays near. Precondition: the mesh is the one checked last.
+void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
+  if (!last_.geometry.is_near() || !improves_shape(parameters_) || controls_.stopped()) return;
+  SurfaceMesh before = mesh;
+  const ShapeStats shape_before = result_.shape;
   improve(mesh, parameters_.shape.rounds);
-  look_again();
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
   if (last_.geometry.is_near()) return;
-  mesh = before;
-  look_again();
+  mesh = std::move(before);
+  take_back_shape(shape_before);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
 }
 
 // Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to

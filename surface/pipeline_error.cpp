@@ -99,7 +99,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
   int idle = 0;  // rounds since that was less
   StuckTriangles stuck;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
-    const GeometryCheck before = timed(result_.certify_stage, [&] { return check(mesh); });
+    const GeometryCheck before = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
     idle = off < least_off ? 0 : idle + 1;
     if (off == 0 || idle > kMostIdle) return;
@@ -114,7 +114,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
           idle > 0 ? error_targets(mesh, *surface_, before, check.promise().max_distance) : before.missed_points;
       insert_missed(mesh, *surface_, targets, freedom, options_of_steps, controls_, result_.shape);
     });
-    const GeometryCheck now = timed(result_.certify_stage, [&] { return check(mesh); });
+    const GeometryCheck now = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     timed(result_.shape, [&] {
       bring_near(mesh, *surface_, stuck.others(mesh, now.far_triangles), {check.promise().max_distance, removes_spikes},
                  options_of_steps, controls_, result_.shape);
@@ -160,6 +160,11 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
   if (parameters_.size.max_edge) limit_edges(again, options);
   improve(again, parameters_.shape.rounds);
   refine_to_error(again, options);
+  if (!is_sized(parameters_)) {
+    RepeatedCheck check(*surface_, promise_);
+    last_.geometry = timed(result_.certify_stage, [&] { return check(again); });
+    improve_while_near(again, check);
+  }
   cells.add(again, last_.geometry);
   const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_points); };
   const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);

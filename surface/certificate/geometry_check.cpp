@@ -230,6 +230,16 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
 
 }  // namespace
 
+GeometryCheck check_distances(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                              const KnownBefore* known) {
+  GeometryCheck check;
+  const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, known, check));
+  check_cells(mesh, surface, promise, known, check);
+  check_crossings(points, surface, known, check);
+  list_missed_points(surface, check);
+  return check;
+}
+
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                              const KnownBefore* known) {
   GeometryCheck check;

@@ -36,14 +36,19 @@ struct GeometryCheck {
 
 // What a check of an earlier mesh tells of this one (repeated_check.h).
 struct KnownBefore {
-  std::vector<std::int64_t> far_parts;     // of each triangle; -1: not known
+  std::vector<std::int32_t> far_parts;     // of each triangle; -1: not known
   std::vector<std::uint32_t> missed;       // crossings known to be missed, ascending
   std::vector<std::uint32_t> asked;        // crossings of which nothing is known, ascending; none of `missed`
   std::vector<MissedPlace> missed_places;  // known, in the order of their cells
   std::vector<std::uint64_t> asked_cells;  // of which nothing is known, ascending; none of these
 };
 
-// Of a mesh in mesh space with the exact topology's crossings. The same for any number of threads.
+// Of a mesh in mesh space with the exact topology's crossings: how far the two lie apart, both ways, alone. The same
+// for any number of threads.
+GeometryCheck check_distances(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
+                              const KnownBefore* known = nullptr);
+
+// That and the rest.
 GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                              const KnownBefore* known = nullptr);
 

@@ -140,19 +140,18 @@ std::vector<std::uint64_t> cells_around(std::span<const std::array<Vec3, 3>> tri
 
 }  // namespace
 
-GeometryCheck RepeatedCheck::operator()(const SurfaceMesh& mesh) {
+GeometryCheck RepeatedCheck::checked(const SurfaceMesh& mesh, decltype(check_geometry)& kind) {
   const std::optional<KnownBefore> known = known_of(mesh);
-  GeometryCheck check = check_geometry(mesh, surface_, promise_, known ? &*known : nullptr);
+  GeometryCheck check = kind(mesh, surface_, promise_, known ? &*known : nullptr);
   // Where nothing is off at first, no other check follows.
   if (!has_checked_ && check.is_near()) return check;
   if (!has_checked_ && promise_.within_cells) crossed_cells_ = crossed_cells(surface_);
   has_checked_ = true;
-  triangles_.clear();
-  triangles_.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) triangles_.push_back(corners_of(mesh, t));
+  last_.points = mesh.points;
+  last_.triangles = mesh.triangles;
   far_parts_.assign(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < check.far_triangles.size(); ++i) {
-    far_parts_[check.far_triangles[i]] = check.far_parts[i];
+    far_parts_[check.far_triangles[i]] = static_cast<std::int32_t>(check.far_parts[i]);
   }
   missed_ = check.missed_numbers;
   missed_places_ = check.missed_places;
@@ -164,42 +163,43 @@ GeometryCheck RepeatedCheck::again_within(const Promise& promise, const SurfaceM
   if (!has_checked_) return check_geometry(mesh, surface_, promise);
   known.asked = missed_;
   for (const MissedPlace& missed : missed_places_) known.asked_cells.push_back(missed.cell);
-  for (const std::int64_t parts : far_parts_) known.far_parts.push_back(parts > 0 ? -1 : 0);
+  known.far_parts.reserve(far_parts_.size());
+  for (const std::int32_t parts : far_parts_) known.far_parts.push_back(parts > 0 ? -1 : 0);
   return check_geometry(mesh, surface_, promise, &known);
 }
 
 // Nothing where too little is known.
 std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) const {
   if (!has_checked_) return std::nullopt;
-  std::vector<bool> stays(triangles_.size(), false);
+  std::vector<bool> stays(last_.triangles.size(), false);
   KnownBefore known;
   known.far_parts.assign(mesh.triangles.size(), -1);
   // Most keep their numbers.
-  for (std::size_t t = 0; t < std::min(triangles_.size(), mesh.triangles.size()); ++t) {
-    if (triangles_[t] != corners_of(mesh, t)) continue;
+  for (std::size_t t = 0; t < std::min(stays.size(), mesh.triangles.size()); ++t) {
+    if (corners_of(last_, t) != corners_of(mesh, t)) continue;
     stays[t] = true;
     known.far_parts[t] = far_parts_[t];
   }
   const auto others = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), false));
   TrianglesByCorners before(others);
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    if (!stays[t]) before.add(t, triangles_[t]);
+  for (std::uint32_t t = 0; t < stays.size(); ++t) {
+    if (!stays[t]) before.add(t, corners_of(last_, t));
   }
-  std::vector<Triangle> changed;
+  std::vector<std::array<Vec3, 3>> changed;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (known.far_parts[t] >= 0) continue;
-    const Triangle corners = corners_of(mesh, t);
+    const std::array<Vec3, 3> corners = corners_of(mesh, t);
     before.for_each_candidate(corners, [&](std::uint32_t old) {
-      if (triangles_[old] != corners) return;
+      if (corners_of(last_, old) != corners) return;
       stays[old] = true;
       known.far_parts[t] = far_parts_[old];
     });
     if (known.far_parts[t] < 0) changed.push_back(corners);
   }
   for (std::size_t t = 0; t < stays.size(); ++t) {
-    if (!stays[t]) changed.push_back(triangles_[t]);
+    if (!stays[t]) changed.push_back(corners_of(last_, t));
   }
-  if (static_cast<double>(changed.size()) > kMostChanged * static_cast<double>(triangles_.size())) return std::nullopt;
+  if (static_cast<double>(changed.size()) > kMostChanged * static_cast<double>(stays.size())) return std::nullopt;
   const Vec3 reach = promise_.max_distance * Vec3{1, 1, 1};
   known.asked = crossings_around(changed, reach, surface_);
   std::set_difference(missed_.begin(), missed_.end(), known.asked.begin(), known.asked.end(),

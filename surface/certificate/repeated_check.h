@@ -7,7 +7,6 @@
 // whole mesh.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -25,21 +24,22 @@ class RepeatedCheck {
   RepeatedCheck(const ExactSurface& surface, const Promise& promise) : surface_(surface), promise_(promise) {}
 
   [[nodiscard]] const Promise& promise() const { return promise_; }
-  // check_geometry() of a mesh. The same for any number of threads.
-  GeometryCheck operator()(const SurfaceMesh& mesh);
+  // check_geometry() of a mesh, and check_distances(). The same for any number of threads.
+  GeometryCheck operator()(const SurfaceMesh& mesh) { return checked(mesh, check_geometry); }
+  GeometryCheck distances(const SurfaceMesh& mesh) { return checked(mesh, check_distances); }
   // The same of the mesh checked last, with a promise of no smaller distances: what is within those promised here is
   // not measured again.
   [[nodiscard]] GeometryCheck again_within(const Promise& promise, const SurfaceMesh& mesh) const;
 
  private:
-  using Triangle = std::array<Vec3, 3>;
+  GeometryCheck checked(const SurfaceMesh& mesh, decltype(check_geometry)& kind);
   [[nodiscard]] std::optional<KnownBefore> known_of(const SurfaceMesh& mesh) const;
 
   const ExactSurface& surface_;
   Promise promise_;
   bool has_checked_ = false;
-  std::vector<Triangle> triangles_;         // of the mesh checked last
-  std::vector<std::int64_t> far_parts_;     // of each of these
+  SurfaceMesh last_;                        // points and triangles of the mesh checked last
+  std::vector<std::int32_t> far_parts_;     // of each of these triangles
   std::vector<std::uint32_t> missed_;       // GeometryCheck::missed_numbers
   std::vector<MissedPlace> missed_places_;  // and ::missed_places
   std::vector<std::uint64_t> crossed_cells_;

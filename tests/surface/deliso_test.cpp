@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "surface/mesh/mesh_quality.h"
 #include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 #include "tests/support/topology_mesh_check.h"
@@ -73,6 +74,19 @@ TEST(Deliso, ALargeSmoothBallIsAsNearAsPromised) {
   EXPECT_EQ(coarse.certificate.verdict, Verdict::kHomeomorphic);
   EXPECT_FALSE(is_proven(coarse.certificate));
   EXPECT_FALSE(verify_mesh(coarse.mesh, grid, isovalue).proven);
+}
+
+// Stage 2 would measure all of the mesh again, and refine triangles that are near.
+TEST(Deliso, AFewPlacesTooFarOffAreLeftToSteps) {
+  const ScalarGrid grid = generate_field("shells", 40);
+  MeshingOptions options;
+  const MeshingResult far = mesh_isosurface(grid, 0.1, options);
+  options.parameters.promise.max_distance = 0.3;
+  const MeshingResult near = mesh_isosurface(grid, 0.1, options);
+  EXPECT_FALSE(verify_mesh(far.mesh, grid, 0.1, {.max_distance = 0.3}).proven);
+  EXPECT_TRUE(verify_mesh(near.mesh, grid, 0.1, {.max_distance = 0.3}).proven);
+  EXPECT_EQ(near.refine.insertions, far.refine.insertions);
+  EXPECT_GE(measure_quality(near.mesh).min_angle_degrees, 10);
 }
 
 TEST(Deliso, EqualRunsGiveEqualBytes) {
