@@ -38,6 +38,13 @@ Box3 r_min_box(const Isosurface& isosurface, RMinOf of) {
   return of == RMinOf::kBox ? isosurface.box() : Box3{{0, 0, 0}, {kVoxels, kVoxels, kVoxels}};
 }
 
+double share_near_samples(const IsosurfaceTopology& topology) {
+  constexpr double kNear = 0.01;
+  const auto near = std::count_if(topology.crossings.begin(), topology.crossings.end(),
+                                  [](const EdgeCrossing& c) { return c.t < kNear || c.t > 1 - kNear; });
+  return static_cast<double>(near) / std::max<double>(1, static_cast<double>(topology.crossings.size()));
+}
+
 bool needs_topology(const Parameters& parameters) {
   return parameters.certify || parameters.initial.seeding == Seeding::kComponents;
 }
@@ -76,6 +83,7 @@ void Pipeline::find_exact_surface(double isovalue) {
   });
   topology_ = std::move(regular.topology);
   result_.isovalue_used = regular.isovalue;
+  result_.share_near_samples = share_near_samples(topology_);
   isosurface_ = timed(result_.index, [&] {
     return std::make_unique<Isosurface>(grid_, result_.isovalue_used, parameters_.search,
                                         spacing_to_use(parameters_, grid_.spacing()), options_.threads);

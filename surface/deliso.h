@@ -47,8 +47,9 @@ struct MeshingResult {
   TriangleMesh mesh;
   std::optional<TriangleMesh> stage1_mesh;  // after Recover, when asked for
   double isovalue_used = 0;
-  double r_min_voxels = 0;                                    // r_min of stage 2 in smallest spacings
-  std::string_view stopped_in;                                // the stage in which it stopped (controls.h); else empty
+  double share_near_samples = 0;  // of the crossings with grid edges: within a hundredth of the edge of a sample
+  double r_min_voxels = 0;        // r_min of stage 2 in smallest spacings
+  std::string_view stopped_in;    // the stage in which it stopped (controls.h); else empty
   StageStats index, topology, initial, poles, certify_stage;  // topology: the exact one, found from the grid
   SearchCounters initial_search;                              // of the random rays
   RecoverStats recover;

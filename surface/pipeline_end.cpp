@@ -127,28 +127,6 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
   }
 }
 
-// A few triangles may be too far where nothing can be inserted, as along the faces of the box. Finer cubes would take
-// the place of all of their component; steps of the shape stage take that of these triangles alone.
-void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
-  if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
-  take_steps_nearer(mesh, check, kFreeSteps);
-  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
-  improve_while_near(mesh, check);
-}
-
-// Better angles for what has been brought near, if all stays near. Precondition: the mesh is the one checked last.
-void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
-  if (!last_.geometry.is_near() || !improves_shape(parameters_) || controls_.stopped()) return;
-  SurfaceMesh before = mesh;
-  const ShapeStats shape_before = result_.shape;
-  improve(mesh, parameters_.shape.rounds);
-  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
-  if (last_.geometry.is_near()) return;
-  mesh = std::move(before);
-  take_back_shape(shape_before);
-  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
-}
-
 // Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to
 // crossing triangles in mesh space.
 void Pipeline::look_in_world(SurfaceMesh& mesh) {

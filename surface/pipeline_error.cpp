@@ -122,6 +122,28 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
   }
 }
 
+// A few triangles may be too far where nothing can be inserted, as along the faces of the box. Finer cubes would take
+// the place of all of their component; steps of the shape stage take that of these triangles alone.
+void Pipeline::bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check) {
+  if (last_.geometry.is_near() || !repairs(parameters_) || !improves_shape(parameters_) || controls_.stopped()) return;
+  take_steps_nearer(mesh, check, kFreeSteps);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  improve_while_near(mesh, check);
+}
+
+// Better angles for what has been brought near, if all stays near. Precondition: the mesh is the one checked last.
+void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
+  if (!last_.geometry.is_near() || !improves_shape(parameters_) || controls_.stopped()) return;
+  SurfaceMesh before = mesh;
+  const ShapeStats shape_before = result_.shape;
+  improve(mesh, parameters_.shape.rounds);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  if (last_.geometry.is_near()) return;
+  mesh = std::move(before);
+  take_back_shape(shape_before);
+  last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+}
+
 // Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
 // of few samples is right, but no insertion of stage 2 and no step brings it near. Stage 1 runs again with more and
 // more samples there; decimation takes out what is not needed. With other samples other places may be too far: those of

@@ -245,6 +245,11 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   return isovalue;
 }
 
+std::pair<double, double> samples_around(const ScalarGrid& grid, double value) {
+  const Neighbors found = find_neighbors(grid, value);
+  return {found.lower, found.higher};
+}
+
 double lowered_isovalue(const ScalarGrid& grid, double isovalue) {
   const double lower = find_neighbors(grid, isovalue).lower;
   return lower > -kInfinity ? isovalue - kLowered * (isovalue - lower) : std::nextafter(isovalue, -kInfinity);

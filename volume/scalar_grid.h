@@ -93,6 +93,9 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue);
 // samples lie above it.
 double lowered_isovalue(const ScalarGrid& grid, double isovalue);
 
+// The largest sample below a value and the smallest above it; infinite where there is none.
+std::pair<double, double> samples_around(const ScalarGrid& grid, double value);
+
 // The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,
 // at eight bytes each, could not be addressed.
 std::size_t checked_sample_count(const Dims& dims);

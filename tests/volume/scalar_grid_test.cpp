@@ -261,6 +261,14 @@ TEST(RegularIsovalue, IsTheIsovalueItselfAmongSamplesThatHardlyDiffer) {
   EXPECT_DOUBLE_EQ(regular_isovalue(large, 100'000'000), 100'000'000 - 0.01);
 }
 
+TEST(ScalarGrid, TellsTheSamplesAroundAValue) {
+  const ScalarGrid grid({2, 2, 2}, std::vector<float>{1, 3, 3, 1, 7, 7, 1, 1});
+  EXPECT_EQ(samples_around(grid, 3.5), std::pair(3.0, 7.0));
+  EXPECT_EQ(samples_around(grid, 3), std::pair(1.0, 7.0));
+  EXPECT_EQ(samples_around(grid, 1).first, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(samples_around(grid, 8).second, std::numeric_limits<double>::infinity());
+}
+
 TEST(RegularIsovalue, WorksInGapsOfOneDoubleAndInConstantVolumes) {
   const double a = 1.0;
   const double b = std::nextafter(a, 2.0);

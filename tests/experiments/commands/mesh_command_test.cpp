@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -199,6 +201,18 @@ TEST_F(MeshCommand, IsovalueOnASampleIsMovedAndSaidSo) {
   EXPECT_LT(json["isovalue_used"].get<double>(), 100);
   EXPECT_GT(json["isovalue_used"].get<double>(), 99);
   EXPECT_NE(result.err.find("a sample equals the isovalue"), std::string::npos);
+}
+
+// 4 values: 1.01 is beside samples, and 1.5 has the same samples inside. Values without steps have no such gap.
+TEST_F(MeshCommand, AnIsovalueBesideSamplesIsRemarked) {
+  const char* const remark = "no sample lies between 1 and 2, so --isovalue 1.5 has the same samples inside";
+  std::vector<std::uint8_t> samples(1000);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<std::uint8_t>(i * i % 101 % 4);
+  write_volume(ScalarGrid({10, 10, 10}, std::move(samples)), folder_ / "v.nrrd");
+  EXPECT_NE(mesh("1.01").err.find(remark), std::string::npos);
+  EXPECT_EQ(mesh("1.5").err.find("has the same samples inside"), std::string::npos);
+  generate("noise", 10);
+  EXPECT_EQ(mesh("100.01").err.find("has the same samples inside"), std::string::npos);
 }
 
 TEST_F(MeshCommand, VertexBudgetStopsWithAValidPartialMesh) {
