@@ -24,6 +24,7 @@ void remark_gap(const MeshingResult& result, const ScalarGrid& grid, double isov
   if (result.share_near_samples < kMany || result.isovalue_used != isovalue) return;
   const auto [lower, higher] = samples_around(grid, isovalue);
   const double gap = higher - lower;
+  if (!std::isfinite(gap)) return;  // closed along the box, all may be inside
   if (std::pair(lower, higher) == grid.range() || std::min(isovalue - lower, higher - isovalue) >= kClose * gap) return;
   std::cerr
       << "deliso: " << number_text(std::round(100 * result.share_near_samples))
