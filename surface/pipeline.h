@@ -64,7 +64,7 @@ class Pipeline {
   void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
-  void take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
+  bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
   void improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses);

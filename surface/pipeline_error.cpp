@@ -150,6 +150,7 @@ void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
 // all times get samples, and their spacing is halved each second time, and where no place is new.
 void Pipeline::begin_again(SurfaceMesh& mesh) {
   constexpr int kMostTimes = 6;
+  constexpr int kMostIdle = 2;  // marching cubes make the same places of any samples
   constexpr double kSpacing = 2, kLargest = 0.25;  // of samples at first, in distances promised, and in voxels
   constexpr std::size_t kMostSamples = 1'000'000;
   if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
@@ -159,19 +160,23 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
   CellsNearFaults cells(*isosurface_);
   cells.add(mesh, last_.geometry);
   std::size_t cells_before = 0;
+  int idle = 0;  // times in a row that brought neither a nearer mesh nor another place
   for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time) {
     if (time > 0 && (time % 2 == 0 || cells.count() == cells_before)) spacing /= 2;
     cells_before = cells.count();
     const std::vector<Vec3> samples = cells.samples(spacing);
     if (samples.size() > kMostSamples) break;
-    take_nearer_mesh(samples, mesh, cells);
+    const bool is_nearer = take_nearer_mesh(samples, mesh, cells);
+    idle = is_nearer || cells.count() > cells_before ? 0 : idle + 1;
+    if (idle == kMostIdle) break;
   }
   controls_.set_observer(observer);
   if (observer != nullptr) observer->reshaped(mesh);
 }
 
-// The mesh that these samples give to stage 1, if it is nearer to the isosurface. Adds the cells where it is not near.
-void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
+// Takes the mesh that these samples give to stage 1, if it is nearer to the isosurface: whether it is. Adds the cells
+// where it is not near.
+bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
   const MeshFaults last_before = last_;
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
   SurfaceMesh again = stage1(samples);
@@ -197,6 +202,7 @@ void Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
     std::swap(result_.repair, repair_before);
   }
   result_.repair.seconds += repair_before.seconds;
+  return is_nearer;
 }
 
 }  // namespace deliso

@@ -29,6 +29,7 @@ struct RepairStats : StageStats {
   std::int64_t components_before = 0;  // exact components that disagreed with the mesh of stage 1
   // Accepted at the end although their piece has vertices of another component.
   std::int64_t components_mixed = 0;
+  std::int64_t components_displaced = 0;        // likewise, with a handle elsewhere (component_match.h)
   std::int64_t components_stray = 0;            // right after stray pieces were dropped
   std::int64_t components_given_up = 0;         // because rounds do not pay in noise (sample_budget.h)
   std::int64_t components_polygonized = 0;      // taken from marching cubes at the end

@@ -19,11 +19,12 @@ struct MeshPiece {
   bool mixed = false;           // it has vertices of other components, too
 };
 
-// How a component agrees with its main piece, the largest piece that lies on it. kPartial is set by callers that know
-// the surface; match_components never sets it.
+// How a component agrees with its main piece, the largest piece that lies on it. kPartial and kDisplaced are set by
+// callers that know the surface; match_components never sets them.
 enum class Agreement {
   kNone,        // no piece, or one of another topology
   kPartial,     // the same (Euler characteristic, boundary loops), but the piece is far from a part of the component
+  kDisplaced,   // the same, but a handle is missing at one place, and at another there is one too many
   kMixed,       // the same, but the piece also has vertices of other components
   kWithStrays,  // the same, and there are smaller pieces on the component
   kExact,       // the same, and there is no other piece

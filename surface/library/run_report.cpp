@@ -76,6 +76,7 @@ JsonTree repair_json(const RepairStats& repair) {
                   {"cells_refined", repair.cells_refined},
                   {"components_before", repair.components_before},
                   {"components_mixed", repair.components_mixed},
+                  {"components_displaced", repair.components_displaced},
                   {"components_stray", repair.components_stray},
                   {"components_given_up", repair.components_given_up},
                   {"components_polygonized", repair.components_polygonized},

@@ -19,6 +19,8 @@ const char* agreement_name(Agreement agreement) {
       return "different";
     case Agreement::kPartial:
       return "partial";
+    case Agreement::kDisplaced:
+      return "displaced";
     case Agreement::kMixed:
       return "mixed";
     case Agreement::kWithStrays:

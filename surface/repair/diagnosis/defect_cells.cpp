@@ -40,7 +40,9 @@ class DefectFinder {
       has_other_loops_[c] = piece != kNoPiece &&
                             mesh_.match.pieces[piece].topology.boundary_loops != topology_.components[c].boundary_loops;
     }
-    for (std::size_t c = 0; context.is_near_boxes && c < boxes_.size(); ++c) {
+    for (std::size_t c = 0; c < boxes_.size(); ++c) {
+      // One whose topology is right in all has a mesh already, and is worth few more samples.
+      if (!context.is_near_boxes && mesh_.match.agreement[c] != Agreement::kDisplaced) continue;
       // One layer more, for tests of cells whose points are not known yet.
       if (!boxes_[c].all.empty()) near_boxes_[c].emplace(boxes_[c].all, grid_.dims(), kNear + 1);
     }

@@ -22,7 +22,7 @@ struct DefectContext {
   const std::vector<bool>& done;                          // of each exact component
   // Of each exact component: where it differs from its main piece.
   const std::vector<IndexRanges>& boxes;
-  // For components with boxes, only defects near the boxes count.
+  // For components with boxes, only defects near the boxes count. For displaced ones that is always so.
   bool is_near_boxes = true;
 };
 

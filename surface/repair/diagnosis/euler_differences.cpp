@@ -33,33 +33,42 @@ const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<Mat
   boxes_.assign(done.size(), {});
   std::vector<std::uint32_t> components;
   for (std::uint32_t c = 0; c < done.size(); ++c) {
-    if (!done[c] && mesh->match.main_piece[c] != kNoPiece && mesh->match.agreement[c] == Agreement::kNone) {
-      components.push_back(c);
-    }
+    const Agreement agreement = mesh->match.agreement[c];
+    const bool differs = agreement == Agreement::kNone || agreement == Agreement::kDisplaced;
+    if (!done[c] && mesh->match.main_piece[c] != kNoPiece && differs) components.push_back(c);
   }
   for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
     find_for(*mesh, std::span(components).subspan(first, std::min(kAtOnce, components.size() - first)));
   }
-  std::erase_if(components, [&](std::uint32_t c) { return are_clear(boxes_[c].all); });
-  if (effort.takes_angle_defects && components.size() <= kFewComponents) {
+  // The jumps of curves that part and meet again are many layers off in noise.
+  const auto is_displaced = [&](std::uint32_t c) { return mesh->match.agreement[c] == Agreement::kDisplaced; };
+  std::erase_if(components, [&](std::uint32_t c) {
+    return !is_displaced(c) && (!effort.takes_angle_defects || are_clear(boxes_[c].all));
+  });
+  if (components.size() <= kFewComponents) {
     for (const std::uint32_t c : components) add_by_angle_defects(*mesh, c);
   }
   of_ = mesh;
   return boxes_;
 }
 
-// Boxes that have too much are of no use where something is missing in all, nor the other way.
+// Boxes that have too much are of no use where something is missing in all, nor the other way. Where neither is, both
+// are.
 void EulerDifferences::add_by_angle_defects(const MatchedMesh& mesh, std::uint32_t component) {
   const ComponentMatch& match = mesh.match;
   const ExactSurface& surface = cache_.surface();
   const std::uint32_t main = match.main_piece[component];
   const std::int64_t too_much =
       match.pieces[main].topology.euler_characteristic - surface.topology.components[component].euler_characteristic;
-  if (too_much == 0) return;
   AngleDefectGrid difference(surface.grid().dims(), surface.isosurface.step());
   difference.add(mesh.built.mesh, [&](std::uint32_t v) { return match.piece_of[v] == main; });
   difference.subtract(exact_angle_defects(component));
-  const std::vector<IndexBox> found = difference.places(too_much > 0, kMostByAngleDefects);
+  std::vector<IndexBox> found;
+  for (const bool is_positive : {true, false}) {
+    if (is_positive ? too_much < 0 : too_much > 0) continue;
+    const std::vector<IndexBox> some = difference.places(is_positive, kMostByAngleDefects);
+    found.insert(found.end(), some.begin(), some.end());
+  }
   if (found.empty()) return;
   IndexRanges& boxes = boxes_[component];
   boxes.likely = found;
@@ -81,23 +90,53 @@ const AngleDefectGrid& EulerDifferences::exact_angle_defects(std::uint32_t compo
   return defects;
 }
 
-void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
+EulerDifferences::Parts EulerDifferences::compare(const MatchedMesh& mesh,
+                                                  std::span<const std::uint32_t> components) const {
   const ComponentMatch& match = mesh.match;
   std::vector<std::uint32_t> part_of_piece(match.pieces.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) part_of_piece[match.main_piece[components[i]]] = i;
-  std::vector<std::uint32_t> part_of_vertex(match.piece_of.size(), kNoPart);
-  for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
-    if (match.piece_of[v] != kNoPiece) part_of_vertex[v] = part_of_piece[match.piece_of[v]];
+  Parts parts{std::vector<std::uint32_t>(match.piece_of.size(), kNoPart), {}};
+  for (std::size_t v = 0; v < match.piece_of.size(); ++v) {
+    if (match.piece_of[v] != kNoPiece) parts.part_of_vertex[v] = part_of_piece[match.piece_of[v]];
   }
   const ExactSurface& surface = cache_.surface();
-  const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, part_of_vertex, components.size(),
+  const std::vector<EulerCurves> curves = euler_curves(mesh.built.mesh, parts.part_of_vertex, components.size(),
                                                        surface.isosurface.step(), surface.grid().dims());
+  parts.jumps.reserve(components.size());
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    parts.jumps.push_back(jumps_between(curves[i], cache_.euler_curves().of(components[i])));
+  }
+  return parts;
+}
+
+// A piece without handles cannot have one elsewhere.
+void EulerDifferences::find_displaced(MatchedMesh& mesh, const std::vector<bool>& done, std::size_t most_boxes) const {
+  ComponentMatch& match = mesh.match;
+  std::vector<std::uint32_t> components;
+  for (std::uint32_t c = 0; c < done.size(); ++c) {
+    if (done[c] || match.agreement[c] < Agreement::kDisplaced) continue;
+    const ComponentTopology& topology = match.pieces[match.main_piece[c]].topology;
+    if (topology.euler_characteristic + topology.boundary_loops < 2) components.push_back(c);
+  }
+  for (std::size_t first = 0; first < components.size(); first += kAtOnce) {
+    const auto some = std::span(components).subspan(first, std::min(kAtOnce, components.size() - first));
+    const Parts parts = compare(mesh, some);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      if (!EulerBoxes::around(parts.jumps[i], cache_.surface().grid().dims(), most_boxes)) continue;
+      match.agreement[some[i]] = Agreement::kDisplaced;
+      ++match.error;
+    }
+  }
+}
+
+void EulerDifferences::find_for(const MatchedMesh& mesh, std::span<const std::uint32_t> components) {
+  const auto [part_of_vertex, jumps] = compare(mesh, components);
+  const ExactSurface& surface = cache_.surface();
   std::vector<std::optional<EulerBoxes>> several(components.size());
   std::vector<std::uint32_t> part_of_component(boxes_.size(), kNoPart);
   for (std::uint32_t i = 0; i < components.size(); ++i) {
     const std::uint32_t c = components[i];
-    std::optional<EulerBoxes> boxes = EulerBoxes::around(jumps_between(curves[i], cache_.euler_curves().of(c)),
-                                                         surface.grid().dims(), effort_.most_boxes);
+    std::optional<EulerBoxes> boxes = EulerBoxes::around(jumps[i], surface.grid().dims(), effort_.most_boxes);
     if (!boxes) continue;
     boxes_[c] = boxes->boxes();
     if (boxes->count() == 1) continue;

@@ -145,7 +145,7 @@ void ComponentSelection::give_poles(RepairRound& round) {
 AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosurface& isosurface, int threads,
                                            RepairStats& stats) const {
   left.assign(done_.size(), true);
-  stats.components_mixed = stats.components_stray = 0;
+  stats.components_mixed = stats.components_displaced = stats.components_stray = 0;
   std::vector<std::vector<bool>> wanted(kept_.size());  // the wanted pieces of each mesh
   for (std::size_t i = kept_.size(); i-- > 0;) {
     const ComponentMatch& match = kept_[i].mesh->match;
@@ -154,7 +154,11 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosur
       if (!left[c] || !may_give(*kept_[i].mesh, c)) continue;
       left[c] = false;
       wanted[i][match.main_piece[c]] = true;
-      stats.components_mixed += match.agreement[c] == Agreement::kMixed ? 1 : 0;
+      const bool is_displaced = match.agreement[c] == Agreement::kDisplaced;
+      const bool is_mixed =
+          is_displaced ? match.pieces[match.main_piece[c]].mixed : match.agreement[c] == Agreement::kMixed;
+      stats.components_displaced += is_displaced ? 1 : 0;
+      stats.components_mixed += is_mixed ? 1 : 0;
       stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
     }
   }

@@ -30,6 +30,8 @@ class ComponentSelection {
   [[nodiscard]] bool is_done() const {
     return std::all_of(done_.begin(), done_.end(), [](bool done) { return done; });
   }
+  // The best agreement of any mesh so far.
+  [[nodiscard]] Agreement best(std::size_t component) const { return best_[component]; }
   // Whether every component is done or given up, or has the right topology but foreign vertices.
   [[nodiscard]] bool is_done_but_for_mixing() const {
     for (std::size_t c = 0; c < best_.size(); ++c) {

@@ -41,11 +41,10 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
       differences_(cache) {
   if (options.may_give_up) budget_.emplace(surface_);
   round_->take_plain_signs();
-  mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
+  take_mesh();
   stats_.vertices_before = static_cast<std::int64_t>(mesh_->built.mesh.points.size());
   stats_.components_before = std::count_if(mesh_->match.agreement.begin(), mesh_->match.agreement.end(),
                                            [](Agreement a) { return a != Agreement::kExact; });
-  kept_.keep(mesh_, round_->restricted().signs());
 }
 
 bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& ends, Controls& controls) {
@@ -64,10 +63,15 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
   return false;
 }
 
-// Gives up the components whose samples are many more than their crossings.
+// Gives up the components whose samples are many more than their crossings. Not those that have a displaced mesh: these
+// are rare, and mended by few samples more.
 void RepairRounds::give_up() {
   if (!budget_) return;
-  const std::vector<std::uint32_t> over = budget_->spend(round_->component_of_vertex(), kept_.done());
+  std::vector<bool> is_spared = kept_.done();
+  for (std::size_t c = 0; c < is_spared.size(); ++c) {
+    if (kept_.best(c) == Agreement::kDisplaced) is_spared[c] = true;
+  }
+  const std::vector<std::uint32_t> over = budget_->spend(round_->component_of_vertex(), is_spared);
   for (const std::uint32_t c : over) kept_.give_up(c);
   stats_.components_given_up += std::ssize(over);
 }
@@ -126,6 +130,7 @@ void RepairRounds::resample() {
 // Assembles the mesh for the present signs, and keeps it if it improves some component.
 void RepairRounds::take_mesh() {
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
+  differences_.find_displaced(*mesh_, kept_.done(), kFewBoxes);
   kept_.keep(mesh_, round_->restricted().signs());
 }
 
