@@ -45,6 +45,9 @@ const std::vector<IndexRanges>& EulerDifferences::find(const std::shared_ptr<Mat
   std::erase_if(components, [&](std::uint32_t c) {
     return !is_displaced(c) && (!effort.takes_angle_defects || are_clear(boxes_[c].all));
   });
+  if (components.size() > kFewComponents) {
+    std::erase_if(components, [&](std::uint32_t c) { return !is_displaced(c); });
+  }
   if (components.size() <= kFewComponents) {
     for (const std::uint32_t c : components) add_by_angle_defects(*mesh, c);
   }

@@ -25,14 +25,14 @@ class EulerDifferences {
   explicit EulerDifferences(const ExactSurfaceCache& cache) : cache_(cache) {}
 
   // How much is done to find boxes. Euler curves are always compared; they give none if there are more than
-  // `most_boxes`. Angle defects (angle_defect_grid.h) take longer. They are compared where Euler curves give no box,
-  // many boxes or wide ones, and for displaced components in any case.
+  // `most_boxes`. Angle defects (angle_defect_grid.h) take longer. They are compared for displaced components, and
+  // where Euler curves give no box, many boxes or wide ones.
   struct Effort {
     std::size_t most_boxes = 0;
     bool takes_angle_defects = false;
     friend bool operator==(const Effort&, const Effort&) = default;
   };
-  // Marks as displaced the components, of those not done, whose main piece has the right topology in all, but neither
+  // Marks as displaced the components, of those not done, whose main piece has the right topology in all, but not
   // everywhere: from one place on Euler curves differ, and from another on no more. (A tube between two walls of a head
   // where they nearly meet, and a handle missing elsewhere.) Not those with more than so many boxes.
   void find_displaced(MatchedMesh& mesh, const std::vector<bool>& done, std::size_t most_boxes) const;
