@@ -86,6 +86,8 @@ Lesson.markStrokes = (shape, x, y, size) => {
       return [across(size * 0.75, size * 0.75), across(size * 0.75, -size * 0.75)];
     case "plus":
       return [across(size, 0), across(0, size)];
+    case "dash":
+      return [across(size, 0)];
     case "bar":
       return [across(0, size)];
     default:

@@ -225,6 +225,7 @@ Lesson.RepairChapter.says = {
   exact: "its piece has the same χ and as many boundary curves, is alone, and is near all of it. Right.",
   different: "its piece has another χ, or other boundary curves. Wrong.",
   partial: "χ and curves are equal, but the piece is far from a part of it. Wrong.",
+  displaced: "χ and curves are equal, but one handle too many makes up for one that is missing elsewhere. Wrong.",
   mixed: "χ and curves are equal, but vertices of it belong to another piece: they are joined. Wrong.",
   with_strays: "its piece is right, but others lie there, too.",
 };
@@ -234,6 +235,7 @@ Lesson.RepairChapter.kinds = {
   exact: {title: "right", key: "r", mark: "disc", role: "right", rise: 8},
   different: {title: "other topology", key: "t", mark: "triangle", role: "multi", rise: -8},
   partial: {title: "a part missing", key: "m", mark: "diamond", role: "multi", rise: -8},
+  displaced: {title: "a handle elsewhere", key: "d", mark: "dash", role: "multi", rise: -8},
   mixed: {title: "joined", key: "j", mark: "pentagon", role: "multi", rise: -8},
   with_strays: {title: "stray pieces", key: "s", mark: "down", role: "multi", rise: -8},
   x: {title: "cell X", key: "x", mark: "square", role: "refine"},
