@@ -106,7 +106,7 @@ ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed) {
 
 // Of these fields a mesh of repair had the right topology with a handle in a wrong place. Its Euler curves told.
 TEST(DisplacedHandles, OfNoiseAreMended) {
-  for (const std::uint64_t seed : {4, 17, 68}) {
+  for (const std::uint64_t seed : {4u, 17u, 68u}) {
     SCOPED_TRACE(seed);
     const ScalarGrid grid = smoothed_noise(32, seed);
     MeshingResult result = mesh_isosurface(grid, 128.5, {});
