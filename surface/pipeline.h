@@ -49,7 +49,7 @@ class Pipeline {
   std::unique_ptr<RecoveredSurface> mended(DelS del_s1, std::span<const Vec3> samples);
   void take_inner_seconds(const RecoveredSurface& recovered);
 
-  // After RefineGeom (pipeline_end.cpp, pipeline_error.cpp, pipeline_sizes.cpp).
+  // After RefineGeom (pipeline_end.cpp, pipeline_faults.cpp, pipeline_error.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
   void come_near(SurfaceMesh& mesh, const RefineOptions& options);
@@ -69,6 +69,7 @@ class Pipeline {
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
   void improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void look_in_world(SurfaceMesh& mesh);
+  void uncross_by_steps(SurfaceMesh& mesh);
   bool find_last_faults(SurfaceMesh& mesh);
   MeshFaults shaped_cubes(SurfaceMesh& mesh);
   void take_back_shape(const ShapeStats& before);

@@ -1,4 +1,4 @@
-// A run after RefineGeom: better angles, the distance promised, sizes, the last faults, the certificate.
+// A run after RefineGeom: better angles, the distance promised, the certificate.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,11 +15,9 @@
 #include "surface/certificate/geometry_check.h"
 #include "surface/certificate/kept_components.h"
 #include "surface/certificate/mesh_pieces.h"
-#include "surface/mesh/equal_vertices.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
-#include "surface/repair/finish/last_resort.h"
 #include "surface/shape/shape.h"
 
 namespace deliso {
@@ -125,117 +123,6 @@ void Pipeline::refine_by_distance(SurfaceMesh& mesh, RefineOptions options, Repe
     last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
     if (result_.refine.insertions == before) return;
   }
-}
-
-// Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to
-// crossing triangles in mesh space.
-void Pipeline::look_in_world(SurfaceMesh& mesh) {
-  const bool is_exact = is_exact_in_world(*isosurface_);
-  if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
-    last_.geometry = check_geometry(mesh, *surface_, promise_);
-  }
-  if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || last_.crossing.crossing_pairs > 0 || !is_exact) {
-    last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
-  }
-}
-
-// What is wrong with the mesh in the end. Components with faults come from finer cubes. Returns whether there are such
-// for one of them.
-bool Pipeline::find_last_faults(SurfaceMesh& mesh) {
-  timed(result_.certify_stage, [&] {
-    look_in_world(mesh);
-    find_places(mesh, last_);
-  });
-  if (!repairs(parameters_) || last_.count() == 0) return false;
-  // With a smaller error promised, cubes that are no smaller will mostly do.
-  constexpr int kMostRounds = 4;
-  constexpr double kTimes = 4, kLargest = 0.9;
-  const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
-  const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
-  std::vector<bool> is_marked;
-  std::int64_t most = 0;
-  bool has_cubes = false;
-  for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
-    const ShapeStats shape_before = result_.shape;
-    SurfaceMesh next = mesh;
-    const std::int64_t replaced = timed(result_.repair, [&] {
-      return replace_faulty_components(next, *surface_, last_, cube / (1 + round), is_marked);
-    });
-    if (replaced == 0) break;
-    has_cubes = true;
-    MeshFaults faults = shaped_cubes(next);
-    if (is_sized(parameters_)) bring_cubes_near(next, faults);
-    if (faults.count() >= last_.count()) {
-      take_back_shape(shape_before);
-      continue;
-    }
-    mesh = std::move(next);
-    last_ = std::move(faults);
-    most = std::max(most, replaced);
-  }
-  result_.repair.components_polygonized += most;
-  return has_cubes;
-}
-
-// What the stage says is of the mesh that is kept, but for its time.
-void Pipeline::take_back_shape(const ShapeStats& before) {
-  const double seconds = result_.shape.seconds;
-  result_.shape = before;
-  result_.shape.seconds = seconds;
-}
-
-// Finer cubes have slivers where the isosurface passes near a sample, and strips along closed walls that are nothing
-// when written. Their faults after the steps that better their angles; as they were, if they had fewer then.
-MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
-  merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh);
-  const ShapeStats shape_before = result_.shape;
-  SurfaceMesh shaped = mesh;
-  Observer* const observer = controls_.observer();
-  controls_.set_observer(nullptr);  // the mesh may be taken back
-  improve(shaped, parameters_.shape.rounds);
-  controls_.set_observer(observer);
-  merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
-  MeshFaults faults = faults_of(shaped);
-  if (faults.count() > 0) {
-    MeshFaults unshaped = faults_of(mesh);
-    if (unshaped.count() < faults.count()) {
-      take_back_shape(shape_before);
-      return unshaped;
-    }
-  }
-  mesh = std::move(shaped);
-  return faults;
-}
-
-// Cubes a little too large leave a few triangles too far: steps bring these near. Smaller ones would have many times as
-// many vertices everywhere.
-void Pipeline::bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults) {
-  constexpr std::int64_t kFew = 1000;
-  const std::int64_t off = faults.geometry.mesh_off + std::ssize(faults.geometry.missed_points);
-  if (off == 0 || off > kFew || off != faults.count() || !improves_shape(parameters_)) return;
-  SurfaceMesh nearer = mesh;
-  RepeatedCheck check(*surface_, promise_);
-  take_steps_nearer(nearer, check, kFreeSteps);
-  MeshFaults left = faults_of(nearer);
-  if (left.count() >= faults.count()) return;
-  mesh = std::move(nearer);
-  faults = std::move(left);
-}
-
-MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
-  return timed(result_.certify_stage, [&] {
-    MeshFaults faults{
-        check_geometry(mesh, *surface_, promise_), crossing_in_world(mesh, *isosurface_, options_.threads), {}, {}};
-    find_places(mesh, faults);
-    return faults;
-  });
-}
-
-// Where the pieces of a mesh lie. Components left out on purpose may be without a piece.
-void Pipeline::find_places(const SurfaceMesh& mesh, MeshFaults& faults) {
-  faults.pieces = mesh_topology(mesh.points.size(), mesh.triangles, options_.threads);
-  faults.places = {};
-  if (result_.build.bounds_a_solid) faults.places = assignment_faults(mesh, faults.pieces, *surface_);
 }
 
 void Pipeline::drop_crossings() {

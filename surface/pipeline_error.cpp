@@ -150,7 +150,7 @@ void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
 // all times get samples, and their spacing is halved each second time, and where no place is new.
 void Pipeline::begin_again(SurfaceMesh& mesh) {
   constexpr int kMostTimes = 6;
-  constexpr int kMostIdle = 2;  // marching cubes make the same places of any samples
+  constexpr int kMostIdle = 2;                     // marching cubes make the same places of any samples
   constexpr double kSpacing = 2, kLargest = 0.25;  // of samples at first, in distances promised, and in voxels
   constexpr std::size_t kMostSamples = 1'000'000;
   if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -66,10 +67,13 @@ class Patch {
   // Appends the triangles whose boxes meet a box, as far as single precision tells.
   void append_near(const Box3& box, std::vector<std::uint32_t>& found) const { places_.append_near(box, found); }
 
+  // Has a triangle count as worse than all others, until a step replaces it.
+  void spoil(std::uint32_t t) { qualities_[t] = std::numeric_limits<double>::min(); }
+
   // The triangle across the edge from a to b of triangle t, if there is one.
   [[nodiscard]] std::uint32_t across(std::uint32_t t, std::uint32_t a, std::uint32_t b) const;
-  // The link of a vertex; false when its triangles are no single fan, or repeat a vertex. Several threads may ask at the
-  // same time (but not is_whole()).
+  // The link of a vertex; false when its triangles are no single fan, or repeat a vertex. Several threads may ask at
+  // the same time (but not is_whole()).
   bool find_link(std::uint32_t v, VertexLink& link) const;
 
   // The triangles of a quality below a bound.

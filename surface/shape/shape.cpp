@@ -102,4 +102,15 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   controls.poll();
 }
 
+void replace_crossing_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> crossing, const ExactSurface& surface,
+                                const ShapeOptions& options, Controls& controls, ShapeStats& stats) {
+  work_in_patches(mesh, plan_patches(mesh, crossing, kReach, surface), surface.threads, stats,
+                  [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                    for (const std::uint32_t t : patch.bad) patch.patch.spoil(t);
+                    PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
+                                                 controls.for_part(1, mesh.points.size()), part);
+                    improve_patch(patch, improvement, std::sin(options.min_angle), options.rounds);
+                  });
+}
+
 }  // namespace deliso

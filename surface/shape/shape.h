@@ -5,6 +5,9 @@
 // isosurface, in necks and thin walls. Each is improved by steps that replace a disk of triangles by another.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "surface/base/controls.h"
 #include "surface/base/exact_surface.h"
 #include "surface/mesh/surface_mesh.h"
@@ -16,5 +19,10 @@ namespace deliso {
 // used and kept. The same for any number of threads.
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats);
+
+// Replaces triangles that cross others: where pinches come side by side, copies of their vertices may not come apart.
+// These count as the worst of all; what is badly shaped around them is improved, too.
+void replace_crossing_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> crossing, const ExactSurface& surface,
+                                const ShapeOptions& options, Controls& controls, ShapeStats& stats);
 
 }  // namespace deliso

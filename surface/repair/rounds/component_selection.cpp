@@ -68,15 +68,17 @@ MatchedMesh part_of(const MatchedMesh& whole, const std::vector<bool>& pieces) {
 
 // Keeps a mesh if some component agrees with it better than with every earlier mesh.
 void ComponentSelection::keep(std::shared_ptr<MatchedMesh> mesh, TetSigns signs) {
+  std::vector<Agreement> agreement = mesh->match.agreement;
   bool helps = false;
   for (std::size_t c = 0; c < done_.size(); ++c) {
-    if (mesh->match.agreement[c] <= best_[c]) continue;
-    best_[c] = std::min(mesh->match.agreement[c], Agreement::kWithStrays);
+    if (agreement[c] == Agreement::kDisplaced && best_[c] == Agreement::kDisplaced) agreement[c] = Agreement::kNone;
+    if (agreement[c] <= best_[c]) continue;
+    best_[c] = std::min(agreement[c], Agreement::kWithStrays);
     done_[c] = best_[c] == Agreement::kWithStrays;
     helps = true;
   }
   if (!helps) return;
-  kept_.push_back({std::move(mesh), std::move(signs)});
+  kept_.push_back({std::move(mesh), std::move(signs), std::move(agreement)});
   drop_superseded();
 }
 
@@ -88,7 +90,7 @@ void ComponentSelection::drop_superseded() {
     --kept;
     std::vector<bool> gives(given.size(), false);
     for (std::size_t c = 0; c < given.size(); ++c) {
-      if (given[c] || !may_give(*kept->mesh, c)) continue;
+      if (given[c] || !may_give(*kept, c)) continue;
       given[c] = gives[c] = true;
     }
     if (std::find(gives.begin(), gives.end(), true) == gives.end()) {
@@ -113,7 +115,7 @@ void ComponentSelection::cut_down(KeptMesh& kept, const std::vector<bool>& gives
   if (kWorthCutting * left > static_cast<std::int64_t>(whole.built.mesh.points.size())) return;
   kept.mesh = std::make_shared<MatchedMesh>(part_of(whole, stays));
   for (std::size_t c = 0; c < gives.size(); ++c) {
-    if (!gives[c]) kept.mesh->match.agreement[c] = Agreement::kNone;
+    if (!gives[c]) kept.agreement[c] = Agreement::kNone;
   }
 }
 
@@ -132,7 +134,7 @@ void ComponentSelection::give_poles(RepairRound& round) {
       const std::uint32_t piece = kept.mesh->match.piece_of[v];
       if (piece == kNoPiece) continue;
       const std::uint32_t component = kept.mesh->match.pieces[piece].component;
-      if (component != kNoComponent && may_give(*kept.mesh, component)) {
+      if (component != kNoComponent && may_give(kept, component)) {
         wanted[built.vertex_of[v].index()] = true;
       }
     }
@@ -151,15 +153,15 @@ AssembledMesh ComponentSelection::assemble(std::vector<bool>& left, const Isosur
     const ComponentMatch& match = kept_[i].mesh->match;
     wanted[i].assign(match.pieces.size(), false);
     for (std::size_t c = 0; c < done_.size(); ++c) {
-      if (!left[c] || !may_give(*kept_[i].mesh, c)) continue;
+      if (!left[c] || !may_give(kept_[i], c)) continue;
       left[c] = false;
       wanted[i][match.main_piece[c]] = true;
-      const bool is_displaced = match.agreement[c] == Agreement::kDisplaced;
-      const bool is_mixed =
-          is_displaced ? match.pieces[match.main_piece[c]].mixed : match.agreement[c] == Agreement::kMixed;
+      const Agreement agreement = kept_[i].agreement[c];
+      const bool is_displaced = agreement == Agreement::kDisplaced;
+      const bool is_mixed = is_displaced ? match.pieces[match.main_piece[c]].mixed : agreement == Agreement::kMixed;
       stats.components_displaced += is_displaced ? 1 : 0;
       stats.components_mixed += is_mixed ? 1 : 0;
-      stats.components_stray += match.agreement[c] == Agreement::kWithStrays ? 1 : 0;
+      stats.components_stray += agreement == Agreement::kWithStrays ? 1 : 0;
     }
   }
   const auto is_wanted = [&](std::size_t i, std::uint32_t v) {

@@ -55,11 +55,14 @@ class ComponentSelection {
   struct KeptMesh {
     std::shared_ptr<MatchedMesh> mesh;
     TetSigns signs;  // the signs it was made with; empty once it has pole heights
+    // Of each exact component, as far as it counts: a second mesh with a displaced handle is no better than the first
+    // one, and has more samples.
+    std::vector<Agreement> agreement;
   };
   void drop_superseded();
   void cut_down(KeptMesh& kept, const std::vector<bool>& gives) const;
-  [[nodiscard]] bool may_give(const MatchedMesh& mesh, std::size_t component) const {
-    return best_[component] > Agreement::kPartial && mesh.match.agreement[component] >= best_[component];
+  [[nodiscard]] bool may_give(const KeptMesh& kept, std::size_t component) const {
+    return best_[component] > Agreement::kPartial && kept.agreement[component] >= best_[component];
   }
 
   std::vector<bool> done_;       // of each exact component

@@ -27,6 +27,10 @@ constexpr std::size_t kMostBoxes = 512;
 // this round on angle defects are compared, too.
 constexpr std::int32_t kRoundOfAllDefects = 3;
 
+// So many more for a component whose best mesh has a handle in a wrong place. Most are mended by the first; those that
+// are not lose it and find it again, with half as many samples more each time (a CT head at the skin).
+constexpr std::uint8_t kRoundsDisplaced = 2;
+
 }  // namespace
 
 RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> restricted,
@@ -38,6 +42,7 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
       round_(std::in_place, surface_, cell_levels_, std::move(restricted)),
       samples_(round_->restricted(), options.fixed),
       kept_(surface_.topology.components.size()),
+      rounds_displaced_(surface_.topology.components.size(), 0),
       differences_(cache) {
   if (options.may_give_up) budget_.emplace(surface_);
   round_->take_plain_signs();
@@ -64,13 +69,15 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
 }
 
 // Gives up the components whose samples are many more than their crossings. Not those that have a displaced mesh: these
-// are rare, and mended by few samples more.
+// are rare, and mended by few samples more, or else their mesh is taken after a few rounds.
 void RepairRounds::give_up() {
-  if (!budget_) return;
   std::vector<bool> is_spared = kept_.done();
-  for (std::size_t c = 0; c < is_spared.size(); ++c) {
-    if (kept_.best(c) == Agreement::kDisplaced) is_spared[c] = true;
+  for (std::uint32_t c = 0; c < is_spared.size(); ++c) {
+    if (is_spared[c] || kept_.best(c) != Agreement::kDisplaced) continue;
+    is_spared[c] = true;
+    if (rounds_displaced_[c]++ == kRoundsDisplaced) kept_.give_up(c);
   }
+  if (!budget_) return;
   const std::vector<std::uint32_t> over = budget_->spend(round_->component_of_vertex(), is_spared);
   for (const std::uint32_t c : over) kept_.give_up(c);
   stats_.components_given_up += std::ssize(over);

@@ -71,6 +71,7 @@ class RepairRounds {
   RepairSamples samples_;              // the vertices of its triangulation
   std::shared_ptr<MatchedMesh> mesh_;  // the latest mesh
   ComponentSelection kept_;
+  std::vector<std::uint8_t> rounds_displaced_;  // of each exact component: since its best mesh is a displaced one
   EulerDifferences differences_;
   std::optional<SampleBudget> budget_;  // none if no component may be given up
 };

@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "delaunay/base/rng.h"
 #include "surface/deliso.h"
+#include "surface/intersection/self_intersection.h"
 #include "surface/mesh/mesh_quality.h"
+#include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/triangle_shape.h"
 #include "surface/verification/verification.h"
 #include "tests/support/mesh_fields.h"
+#include "tests/support/surface_fields.h"
 #include "volume/fields/field_slices.h"
 
 namespace deliso {
@@ -123,6 +128,41 @@ TEST(Shape, LeavesGoodMeshesAlone) {
     EXPECT_EQ(before.mesh.triangles, after.mesh.triangles);
   } else {
     EXPECT_EQ(after.shape.bad_after, 0);
+  }
+}
+
+// A vertex of a ball's mesh that has been moved beyond its neighbours: its triangles cross those beyond.
+TEST(Shape, ReplacesTrianglesThatCross) {
+  const ScalarGrid grid = testing::sampled({20, 20, 20}, testing::ball_field({9.3, 9.6, 9.4}, 6));
+  const testing::Scene scene("ball", grid, 0);
+  for (const std::uint32_t moved : {3U, 50U, 200U}) {
+    SCOPED_TRACE(moved);
+    TriangleMesh ball = mesh_isosurface(grid, 0, {}).mesh;
+    SurfaceMesh mesh;
+    mesh.points = std::move(ball.points);
+    mesh.triangles = std::move(ball.triangles);
+    const Vec3 center{9.3, 9.6, 9.4}, from = mesh.points[moved];
+    const Vec3 aside = cross(from - center, {0.48, 0.6, 0.64});
+    const Vec3 outward = from + 3.5 * aside / norm(aside) - center;
+    SearchCounters counters;
+    const Line line{center, outward / norm(outward)};
+    const auto hit = scene.isosurface->nearest_falling_hit(line, 12, counters);
+    ASSERT_TRUE(hit);
+    mesh.points[moved] = line.at(*hit);
+    const SelfIntersections before = self_intersections(mesh.points, mesh.triangles, 1000, 1);
+    ASSERT_GT(before.crossing_pairs, 0);
+    std::vector<std::uint32_t> crossing;
+    for (const TrianglePair& pair : before.crossing) crossing.insert(crossing.end(), {pair.first, pair.second});
+    std::sort(crossing.begin(), crossing.end());
+    crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+    Controls controls({}, {}, {});
+    ShapeStats stats;
+    replace_crossing_triangles(mesh, crossing, scene.surface(), shape_options({}), controls, stats);
+    EXPECT_EQ(self_intersections(mesh.points, mesh.triangles, 0, 1).crossing_pairs, 0);
+    const MeshTopology topology = mesh_topology(mesh.points.size(), mesh.triangles, 1);
+    ASSERT_EQ(topology.components.size(), 1u);
+    EXPECT_EQ(topology.components[0].euler_characteristic(), 2);
+    EXPECT_TRUE(topology.boundary_edges.empty());
   }
 }
 

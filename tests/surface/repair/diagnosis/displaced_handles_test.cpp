@@ -83,7 +83,7 @@ TEST(DisplacedHandles, AreFoundAndWhereTheyDiffer) {
 }
 
 // Noise that twice has been averaged along each axis, in bytes.
-ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed) {
+ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed, const Vec3& spacing = {1, 1, 1}) {
   Rng rng(seed);
   const auto n = static_cast<std::size_t>(size);
   std::vector<double> values(n * n * n);
@@ -101,7 +101,7 @@ ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed) {
   samples.reserve(values.size());
   for (const double value : values)
     samples.push_back(static_cast<std::uint8_t>(std::lround(128 + 100 * (value - 0.5))));
-  return {{size, size, size}, std::move(samples)};
+  return {{size, size, size}, std::move(samples), spacing};
 }
 
 // Of these fields a mesh of repair had the right topology with a handle in a wrong place. Its Euler curves told.
@@ -124,6 +124,15 @@ TEST(DisplacedHandles, OfNoiseAreMended) {
     };
     for (const auto& jumps : jumps_between(curves_of(mesh), curves_of(exact.mesh))) EXPECT_TRUE(jumps.empty());
   }
+}
+
+// No round mends this one: eight of them had twice as many samples, and a handle in a wrong place all the same.
+TEST(DisplacedHandles, ThatStayEndRepairAfterTwoRounds) {
+  const MeshingResult result = mesh_isosurface(smoothed_noise(32, 11, {1, 1, 1.57}), 128.5, {});
+  EXPECT_EQ(result.repair.components_displaced, 1);
+  EXPECT_LE(result.repair.rounds, 3);
+  EXPECT_EQ(result.repair.components_polygonized, 0);
+  EXPECT_TRUE(is_proven(result.certificate));
 }
 
 }  // namespace
