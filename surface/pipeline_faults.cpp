@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "surface/base/sizes.h"
+#include "surface/certificate/final_certificate.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/mesh/equal_vertices.h"
 #include "surface/pipeline.h"
