@@ -24,7 +24,8 @@ struct MeshPiece {
 enum class Agreement {
   kNone,        // no piece, or one of another topology
   kPartial,     // the same (Euler characteristic, boundary loops), but the piece is far from a part of the component
-  kDisplaced,   // the same, but a handle is missing at one place, and at another there is one too many
+  kDisplaced,   // the same, but a handle is missing at one place, and at another there is one too many; or
+                // triangles span what is no isosurface
   kMixed,       // the same, but the piece also has vertices of other components
   kWithStrays,  // the same, and there are smaller pieces on the component
   kExact,       // the same, and there is no other piece

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/rng.h"
 #include "surface/mesh/triangle_mesh.h"
 #include "surface/verification/isosurface_probe.h"
 #include "volume/scalar_grid.h"
@@ -25,6 +26,24 @@ ScalarGrid sampled(const Dims& dims, Field field, const Vec3& spacing = {1, 1, 1
     }
   }
   return ScalarGrid(dims, std::move(samples), spacing, origin);
+}
+
+// Uniform noise that has been averaged along each axis so many times, for a cube of samples.
+inline std::vector<double> smoothed_noise(std::int32_t size, std::uint64_t seed, int passes) {
+  Rng rng(seed);
+  const auto n = static_cast<std::size_t>(size);
+  std::vector<double> values(n * n * n);
+  for (double& value : values) value = rng.uniform();
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const std::size_t stride : {std::size_t{1}, n, n * n}) {
+      const std::vector<double> old = values;
+      for (std::size_t i = 0; i < old.size(); ++i) {
+        const std::size_t at = i / stride % n;
+        values[i] = (old[at > 0 ? i - stride : i] + 2 * old[i] + old[at + 1 < n ? i + stride : i]) / 4;
+      }
+    }
+  }
+  return values;
 }
 
 // Falls outward from `center`; the isosurface of 0 is a sphere but for interpolation.

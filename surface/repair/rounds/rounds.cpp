@@ -59,8 +59,7 @@ bool RepairRounds::mend(std::int32_t max_rounds, const std::function<bool()>& en
     if (ends()) return true;
     controls.report("repair", samples_.size(), static_cast<std::size_t>(mesh_->match.error));
     const std::int64_t round = stats_.rounds + 1;
-    const std::vector<IndexRanges>& boxes =
-        differences_.find(mesh_, kept_.done(), {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
+    const std::vector<IndexRanges> boxes = differing_boxes(round);
     mend_once(defect_cells({surface_, round_->restricted(), *mesh_, cell_levels_, round_->component_of_vertex(),
                             kept_.done(), boxes, round != kRoundOfAllDefects}),
               controls);
@@ -81,6 +80,19 @@ void RepairRounds::give_up() {
   const std::vector<std::uint32_t> over = budget_->spend(round_->component_of_vertex(), is_spared);
   for (const std::uint32_t c : over) kept_.give_up(c);
   stats_.components_given_up += std::ssize(over);
+}
+
+// Of each exact component: where its main piece differs.
+std::vector<IndexRanges> RepairRounds::differing_boxes(std::int64_t round) {
+  std::vector<bool> settled = kept_.done();
+  for (const SpanningTriangle& t : spanning_) settled[t.component] = true;
+  std::vector<IndexRanges> boxes =
+      differences_.find(mesh_, settled, {round == 1 ? kFewBoxes : kMostBoxes, round >= kRoundOfAllDefects});
+  for (const SpanningTriangle& t : spanning_) {
+    boxes[t.component].all.push_back(t.box);
+    boxes[t.component].likely.push_back(t.box);
+  }
+  return boxes;
 }
 
 // Makes a round in which these cells are refined.
@@ -137,7 +149,15 @@ void RepairRounds::resample() {
 // Assembles the mesh for the present signs, and keeps it if it improves some component.
 void RepairRounds::take_mesh() {
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
-  differences_.find_displaced(*mesh_, kept_.done(), kFewBoxes);
+  spanning_ = spanning_triangles(*mesh_, surface_, kept_.done());
+  std::vector<bool> settled = kept_.done();
+  for (const SpanningTriangle& t : spanning_) {
+    if (settled[t.component]) continue;
+    settled[t.component] = true;
+    mesh_->match.agreement[t.component] = Agreement::kDisplaced;
+    ++mesh_->match.error;
+  }
+  differences_.find_displaced(*mesh_, settled, kFewBoxes);
   kept_.keep(mesh_, round_->restricted().signs());
 }
 

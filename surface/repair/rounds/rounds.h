@@ -14,6 +14,7 @@
 #include "surface/repair/diagnosis/euler_differences.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
+#include "surface/repair/diagnosis/spanning_triangles.h"
 #include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/lattice/sample_lattice.h"
 #include "surface/repair/lattice/samples.h"
@@ -58,6 +59,7 @@ class RepairRounds {
   SurfaceMesh unrepaired_mesh();
 
  private:
+  std::vector<IndexRanges> differing_boxes(std::int64_t round);
   void mend_once(std::vector<CellName> cells, Controls& controls);
   void give_up();
   void resample();
@@ -73,7 +75,8 @@ class RepairRounds {
   ComponentSelection kept_;
   std::vector<std::uint8_t> rounds_displaced_;  // of each exact component: since its best mesh is a displaced one
   EulerDifferences differences_;
-  std::optional<SampleBudget> budget_;  // none if no component may be given up
+  std::vector<SpanningTriangle> spanning_;  // of the latest mesh
+  std::optional<SampleBudget> budget_;      // none if no component may be given up
 };
 
 }  // namespace deliso

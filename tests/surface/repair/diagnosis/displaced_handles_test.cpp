@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "delaunay/base/rng.h"
 #include "surface/deliso.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/repair/diagnosis/euler_differences.h"
+#include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -83,24 +83,11 @@ TEST(DisplacedHandles, AreFoundAndWhereTheyDiffer) {
 }
 
 // Noise that twice has been averaged along each axis, in bytes.
-ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed, const Vec3& spacing = {1, 1, 1}) {
-  Rng rng(seed);
-  const auto n = static_cast<std::size_t>(size);
-  std::vector<double> values(n * n * n);
-  for (double& value : values) value = rng.uniform();
-  for (int pass = 0; pass < 2; ++pass) {
-    for (const std::size_t stride : {std::size_t{1}, n, n * n}) {
-      const std::vector<double> old = values;
-      for (std::size_t i = 0; i < old.size(); ++i) {
-        const std::size_t at = i / stride % n;
-        values[i] = (old[at > 0 ? i - stride : i] + 2 * old[i] + old[at + 1 < n ? i + stride : i]) / 4;
-      }
-    }
-  }
+ScalarGrid bytes_of_noise(std::int32_t size, std::uint64_t seed, const Vec3& spacing = {1, 1, 1}) {
   std::vector<std::uint8_t> samples;
-  samples.reserve(values.size());
-  for (const double value : values)
+  for (const double value : testing::smoothed_noise(size, seed, 2)) {
     samples.push_back(static_cast<std::uint8_t>(std::lround(128 + 100 * (value - 0.5))));
+  }
   return {{size, size, size}, std::move(samples), spacing};
 }
 
@@ -108,7 +95,7 @@ ScalarGrid smoothed_noise(std::int32_t size, std::uint64_t seed, const Vec3& spa
 TEST(DisplacedHandles, OfNoiseAreMended) {
   for (const std::uint64_t seed : {4u, 17u, 68u}) {
     SCOPED_TRACE(seed);
-    const ScalarGrid grid = smoothed_noise(32, seed);
+    const ScalarGrid grid = bytes_of_noise(32, seed);
     MeshingResult result = mesh_isosurface(grid, 128.5, {});
     const testing::Scene scene("smoothed noise", grid, result.isovalue_used);
     EXPECT_EQ(result.certificate.verdict, Verdict::kHomeomorphic);
@@ -128,7 +115,7 @@ TEST(DisplacedHandles, OfNoiseAreMended) {
 
 // No round mends this one: eight of them had twice as many samples, and a handle in a wrong place all the same.
 TEST(DisplacedHandles, ThatStayEndRepairAfterTwoRounds) {
-  const MeshingResult result = mesh_isosurface(smoothed_noise(32, 11, {1, 1, 1.57}), 128.5, {});
+  const MeshingResult result = mesh_isosurface(bytes_of_noise(32, 11, {1, 1, 1.57}), 128.5, {});
   EXPECT_EQ(result.repair.components_displaced, 1);
   EXPECT_LE(result.repair.rounds, 3);
   EXPECT_EQ(result.repair.components_polygonized, 0);
