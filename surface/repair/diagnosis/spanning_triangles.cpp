@@ -13,7 +13,6 @@ namespace deliso {
 
 namespace {
 
-constexpr double kFar = 1;  // mesh-space units: the distance that is promised by default
 constexpr std::ptrdiff_t kFew = 64;
 
 bool faces_up_somewhere(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, const Vec3& normal) {
@@ -21,10 +20,10 @@ bool faces_up_somewhere(const Isosurface& isosurface, const std::array<Vec3, 3>&
                      [&](const Vec3& p) { return dot(isosurface.gradient(p), normal) > 0; });
 }
 
-bool is_spanning(const Isosurface& isosurface, const std::array<Vec3, 3>& corners) {
+bool is_spanning(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double max_distance) {
   // A triangle with a part so far from its corners has a longer edge.
   const double longest = longest_edge(corners);
-  if (longest < std::sqrt(3.0) * kFar) return false;
+  if (longest < std::sqrt(3.0) * max_distance) return false;
   const auto& [a, b, c] = corners;
   const Vec3 normal = cross(b - a, c - a);
   const double length = norm(normal);
@@ -33,7 +32,7 @@ bool is_spanning(const Isosurface& isosurface, const std::array<Vec3, 3>& corner
   SearchCounters ignored;
   const auto hit = isosurface.nearest_falling_hit({centroid, normal / length}, longest / 2, ignored);
   if (hit && (*hit > 0) == isosurface.is_above(centroid)) return false;
-  return count_far_parts(isosurface, corners, kFar, 1) > 0;
+  return count_far_parts(isosurface, corners, max_distance, 1) > 0;
 }
 
 IndexBox layers_around(const std::array<Vec3, 3>& corners, const ExactSurface& surface) {
@@ -59,7 +58,7 @@ void drop_many(std::vector<SpanningTriangle>& found) {
 }  // namespace
 
 std::vector<SpanningTriangle> spanning_triangles(const MatchedMesh& mesh, const ExactSurface& surface,
-                                                 const std::vector<bool>& done) {
+                                                 const std::vector<bool>& done, double max_distance) {
   const ComponentMatch& match = mesh.match;
   const SurfaceMesh& triangles = mesh.built.mesh;
   std::vector<std::uint32_t> component_of_piece(match.pieces.size(), kNoComponent);
@@ -71,7 +70,7 @@ std::vector<SpanningTriangle> spanning_triangles(const MatchedMesh& mesh, const 
         const auto& [a, b, c] = triangles.triangles[t];
         const std::uint32_t component = component_of_piece[match.piece_of[a]];
         const std::array<Vec3, 3> corners = {triangles.points[a], triangles.points[b], triangles.points[c]};
-        if (component != kNoComponent && is_spanning(surface.isosurface, corners)) {
+        if (component != kNoComponent && is_spanning(surface.isosurface, corners, max_distance)) {
           some.push_back({component, layers_around(corners, surface)});
         }
       });

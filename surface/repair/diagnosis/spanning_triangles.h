@@ -19,11 +19,11 @@ struct SpanningTriangle {
   IndexBox box{};               // sample layers around the triangle
 };
 
-// Those of the main pieces of components not done whose topology is right. A triangle counts when it has a part more
-// than a voxel from the isosurface, faces higher values at a corner, and the isosurface is not where it faces: no hit
-// along its normal is within half of its longest edge. Components with more than a few of them are left to stage 2.
-// Ascending by component. The same for any number of threads.
+// Those of the main pieces of components not done whose topology is right. A triangle counts when it has a part farther
+// than `max_distance` from the isosurface, faces higher values at a corner, and the isosurface is not where it faces:
+// no hit along its normal is within half of its longest edge. Components with more than a few of them are left to
+// stage 2. Ascending by component. The same for any number of threads.
 std::vector<SpanningTriangle> spanning_triangles(const MatchedMesh& mesh, const ExactSurface& surface,
-                                                 const std::vector<bool>& done);
+                                                 const std::vector<bool>& done, double max_distance);
 
 }  // namespace deliso

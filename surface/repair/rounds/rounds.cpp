@@ -43,7 +43,8 @@ RepairRounds::RepairRounds(const ExactSurfaceCache& cache, std::unique_ptr<Signe
       samples_(round_->restricted(), options.fixed),
       kept_(surface_.topology.components.size()),
       rounds_displaced_(surface_.topology.components.size(), 0),
-      differences_(cache) {
+      differences_(cache),
+      max_distance_(options.max_distance) {
   if (options.may_give_up) budget_.emplace(surface_);
   round_->take_plain_signs();
   take_mesh();
@@ -149,7 +150,7 @@ void RepairRounds::resample() {
 // Assembles the mesh for the present signs, and keeps it if it improves some component.
 void RepairRounds::take_mesh() {
   mesh_ = std::make_shared<MatchedMesh>(round_->assemble());
-  spanning_ = spanning_triangles(*mesh_, surface_, kept_.done());
+  spanning_ = spanning_triangles(*mesh_, surface_, kept_.done(), max_distance_);
   std::vector<bool> settled = kept_.done();
   for (const SpanningTriangle& t : spanning_) {
     if (settled[t.component]) continue;

@@ -29,6 +29,7 @@ struct RoundsOptions {
   std::span<const Vec3> fixed = {};
   // Whether components are given up (sample_budget.h).
   bool may_give_up = true;
+  double max_distance = 1;  // mesh-space units: what is promised
 };
 
 class RepairRounds {
@@ -75,6 +76,7 @@ class RepairRounds {
   ComponentSelection kept_;
   std::vector<std::uint8_t> rounds_displaced_;  // of each exact component: since its best mesh is a displaced one
   EulerDifferences differences_;
+  double max_distance_;
   std::vector<SpanningTriangle> spanning_;  // of the latest mesh
   std::optional<SampleBudget> budget_;      // none if no component may be given up
 };

@@ -68,12 +68,12 @@ TEST_F(ForkAndBall, HaveNone) {
   ASSERT_EQ(scene_.topology.components.size(), 2u);
   EXPECT_EQ(mesh_.match.agreement[0], Agreement::kExact);
   EXPECT_EQ(mesh_.match.agreement[1], Agreement::kExact);
-  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}).empty());
+  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}, 1).empty());
 }
 
 TEST_F(ForkAndBall, HaveThoseThatReachFromProngToProng) {
   stretch(30);
-  const std::vector<SpanningTriangle> found = spanning_triangles(mesh_, scene_.surface(), {false, false});
+  const std::vector<SpanningTriangle> found = spanning_triangles(mesh_, scene_.surface(), {false, false}, 1);
   ASSERT_FALSE(found.empty());
   for (const auto& [component, box] : found) {
     EXPECT_EQ(component, fork_);
@@ -82,15 +82,15 @@ TEST_F(ForkAndBall, HaveThoseThatReachFromProngToProng) {
   }
   std::vector<bool> done = {false, false};
   done[fork_] = true;
-  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), done).empty());
+  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), done, 1).empty());
   mesh_.match.agreement[fork_] = Agreement::kNone;
-  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}).empty());
+  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}, 1).empty());
 }
 
 // Where they are many, stage 2 is to refine the mesh first.
 TEST_F(ForkAndBall, HaveNoneWhereTheyAreMany) {
   stretch(1000);
-  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}).empty());
+  EXPECT_TRUE(spanning_triangles(mesh_, scene_.surface(), {false, false}, 1).empty());
 }
 
 // Without a look for them the mesh of stage 1 kept one of this field, 2.6 voxels long.
@@ -118,7 +118,7 @@ TEST(SpanningTriangles, DoNotStay) {
   }
   mesh.match = match_components(mesh.built.mesh, mesh.component, scene.topology.components);
   const std::vector<bool> done(scene.topology.components.size(), false);
-  EXPECT_TRUE(spanning_triangles(mesh, scene.surface(), done).empty());
+  EXPECT_TRUE(spanning_triangles(mesh, scene.surface(), done, 1).empty());
 }
 
 }  // namespace
