@@ -2,7 +2,7 @@
 //
 // The topology of a piece may be right with such triangles: a handle is closed at one place, and one too many stands at
 // another, along one axis, so that Euler curves do not tell. Stage 2 has no hit to insert there, and no step brings
-// them near the isosurface: stage 1 would have to run again (three of a hundred runs on CT scans, twice as long by it).
+// them near the isosurface: stage 1 would have to run again (four of eighty runs on scans, thrice as long by it).
 #pragma once
 
 #include <cstdint>
