@@ -61,14 +61,13 @@ void PatchImprovement::refine_around(std::span<const std::uint32_t> bad, double 
 void PatchImprovement::try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried) {
   const std::size_t steps_before = patch_.steps(), first_added = patch_.triangle_count();
   const auto counted = stats_.steps;
-  const std::vector<std::uint32_t> bad_before = patch_.triangles_below(goal_);
   const std::optional<double> old_volume = guard_.volume_around(triangle, kMostTurned);
   tried.push_back(triangle);
   const bool is_sound = refine_until_sound(triangle, first_added);
   Replaced old;
   const std::size_t first_tried = tried.size();
-  for (const std::uint32_t t : bad_before) {
-    if (patch_.has(t)) continue;
+  for (const std::uint32_t t : patch_.removed_since(steps_before)) {
+    if (t >= first_added || patch_.quality(t) >= goal_) continue;
     ++old.bad;
     old.least = std::min(old.least, patch_.quality(t));
     tried.push_back(t);

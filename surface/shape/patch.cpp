@@ -124,6 +124,14 @@ std::vector<std::uint32_t> Patch::triangles_below(double quality) const {
   return below;
 }
 
+std::vector<std::uint32_t> Patch::removed_since(std::size_t steps) const {
+  std::vector<std::uint32_t> removed;
+  for (std::size_t i = steps; i < journal_.size(); ++i) {
+    removed.insert(removed.end(), journal_[i].removed.begin(), journal_[i].removed.end());
+  }
+  return removed;
+}
+
 void Patch::leave_stars(std::uint32_t t) {
   for (const std::uint32_t v : triangles_[t]) std::erase(stars_[v], t);
   places_.remove(t, box_of(t));

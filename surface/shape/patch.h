@@ -83,6 +83,8 @@ class Patch {
   // Takes back the latest step that was applied.
   void undo();
   [[nodiscard]] std::size_t steps() const { return journal_.size(); }
+  // The triangles that were replaced by all steps but the first so many.
+  [[nodiscard]] std::vector<std::uint32_t> removed_since(std::size_t steps) const;
 
  private:
   struct Applied {

@@ -48,14 +48,14 @@ class PatchImprovement {
   // many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes
   // have thousands of bad triangles that stay. In all rounds: so many times the former, and as many of the latter as in
   // one. (Level sets after advection, saturated scans and orbitals at 1e-12 spent nine tenths of the run here.)
-  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 100, kSeveralRounds = 10;
+  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 500, kSeveralRounds = 10;
   // So many triangles are tried in one round, and one more of each so many triangles of the patch.
   static constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
 
   bool improve(std::uint32_t triangle);
   bool improve_on_the_way();
   [[nodiscard]] bool improves(const PatchStep& step) const;
-  std::vector<PatchStep> all_steps(std::uint32_t triangle);
+  std::vector<PatchStep> all_steps(std::uint32_t triangle, bool is_thorough);
   bool improve_by_several(std::uint32_t triangle, int depth);
   struct Replaced {
     double least = 1;     // quality

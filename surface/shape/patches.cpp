@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "surface/base/parallel_blocks.h"
@@ -82,6 +83,14 @@ std::vector<PatchPlan> plan_patches(const SurfaceMesh& mesh, std::span<const std
   if (bad.empty()) return {};
   constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
   return plan_pass(mesh, bad, PatchBoxes(mesh, bad, reach, kAny), 0, surface);
+}
+
+std::vector<std::size_t> longest_first(std::span<const PatchPlan> plans) {
+  std::vector<std::size_t> order(plans.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return plans[a].bad.size() > plans[b].bad.size(); });
+  return order;
 }
 
 double mean_edge(const SurfaceMesh& mesh, std::span<const std::uint32_t> triangles) {

@@ -48,6 +48,9 @@ NumberedPatch take_patch(const SurfaceMesh& mesh, const PatchPlan& plan);
 // vertices without triangles.
 void put_back(std::span<const PatchPlan> plans, std::span<const NumberedPatch> patches, SurfaceMesh& mesh);
 
+// The plans' numbers, those with the most bad triangles first, so that no long one is begun last.
+std::vector<std::size_t> longest_first(std::span<const PatchPlan> plans);
+
 // Takes the patches, has each worked on apart from the others, on any thread, and puts them back: work(patch, plan,
 // counted), whose counters are added to `stats` in the order of the plans.
 template <class Work>
@@ -55,7 +58,9 @@ void work_in_patches(SurfaceMesh& mesh, std::span<const PatchPlan> plans, int th
                      const Work& work) {
   std::vector<NumberedPatch> patches(plans.size());
   std::vector<ShapeStats> counted(plans.size());
-  run_tasks(plans.size(), threads, [&](std::size_t k) {
+  const std::vector<std::size_t> order = longest_first(plans);
+  run_tasks(plans.size(), threads, [&](std::size_t i) {
+    const std::size_t k = order[i];
     patches[k] = take_patch(mesh, plans[k]);
     work(patches[k], plans[k], counted[k]);
     if (patches[k].patch.steps() == 0) patches[k].patch = {};
