@@ -60,6 +60,7 @@ class Pipeline {
   void limit_edges(SurfaceMesh& mesh, RefineOptions options);
   void fit_sizes(SurfaceMesh& mesh, const RefineOptions& options);
   void take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom);
+  void replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check);
   void bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);

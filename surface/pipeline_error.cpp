@@ -102,7 +102,8 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
     idle = off < least_off ? 0 : idle + 1;
-    if (off == 0 || idle > kMostIdle) return;
+    if (off == 0) return;
+    if (idle > kMostIdle) break;
     if (!removes_spikes && idle > 0) {
       removes_spikes = true;
       stuck = {};
@@ -119,6 +120,36 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
       bring_near(mesh, *surface_, stuck.others(mesh, now.far_triangles), {check.promise().max_distance, removes_spikes},
                  options_of_steps, controls_, result_.shape);
     });
+  }
+  replace_far_triangles(mesh, check);
+}
+
+// What these steps do not bring near: triangles that are too far count as the worst for the shape stage, which splits
+// what is around them, too. A sliver along a thin edge of a mask, as far off as it is long, is such a one; refinement
+// and stage 1 again take all of the mesh for it.
+void Pipeline::replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check) {
+  constexpr int kMostRounds = 4;
+  constexpr std::size_t kFew = 1000;
+  const auto distances = [&](const SurfaceMesh& of) {
+    return timed(result_.certify_stage, [&] { return check.distances(of); });
+  };
+  const auto off = [](const GeometryCheck& its) { return its.mesh_off + std::ssize(its.missed_points); };
+  ShapeOptions options = shape_options(parameters_);
+  options.max_sample = check.promise().max_distance;
+  GeometryCheck far = distances(mesh);
+  for (int round = 0; round < kMostRounds && !controls_.poll(); ++round) {
+    if (far.far_triangles.empty() || far.far_triangles.size() > kFew) return;
+    SurfaceMesh next = mesh;
+    const ShapeStats shape_before = result_.shape;
+    timed(result_.shape,
+          [&] { replace_wrong_triangles(next, far.far_triangles, *surface_, options, controls_, result_.shape); });
+    GeometryCheck now = distances(next);
+    if (off(now) >= off(far)) {
+      take_back_shape(shape_before);
+      return;
+    }
+    mesh = std::move(next);
+    far = std::move(now);
   }
 }
 

@@ -45,7 +45,7 @@ void Pipeline::uncross_by_steps(SurfaceMesh& mesh) {
     SurfaceMesh next = mesh;
     const ShapeStats shape_before = result_.shape;
     timed(result_.shape, [&] {
-      replace_crossing_triangles(next, crossing, *surface_, shape_options(parameters_), controls_, result_.shape);
+      replace_wrong_triangles(next, crossing, *surface_, shape_options(parameters_), controls_, result_.shape);
     });
     MeshFaults faults = faults_of(next);
     if (faults.count() >= last_.count()) {

@@ -67,13 +67,19 @@ bool PatchImprovement::try_step(const PatchStep& step) {
   const std::size_t first = patch_.triangle_count();
   const std::size_t most_bad = count_bad(step.removed);
   if (!guard_.apply(step)) return false;
-  if (bad_added(first) > most_bad + 1) {
+  if (bad_added(first) > most_bad + 1 || !betters(step, first)) {
     patch_.undo();
     return false;
   }
   ++stats_.steps[static_cast<std::size_t>(step.kind)];
   queue_added(first);
   return true;
+}
+
+// Whether what was added is as good as the step said: a triangle that is too far counts as the worst of all.
+bool PatchImprovement::betters(const PatchStep& step, std::size_t first_added) const {
+  const std::uint32_t worst = worst_added(first_added);
+  return worst == kNoVertex || patch_.quality(worst) >= goal_ || patch_.quality(worst) > least_removed(step);
 }
 
 std::size_t PatchImprovement::count_bad(std::span<const std::uint32_t> triangles) const {

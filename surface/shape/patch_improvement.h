@@ -48,7 +48,7 @@ class PatchImprovement {
   // many triangles of the patch. It takes hundreds of times as long as single steps, and fields over many magnitudes
   // have thousands of bad triangles that stay. In all rounds: so many times the former, and as many of the latter as in
   // one. (Level sets after advection, saturated scans and orbitals at 1e-12 spent nine tenths of the run here.)
-  static constexpr std::size_t kMostSeveral = 5, kTrianglesPerSeveral = 500, kSeveralRounds = 10;
+  static constexpr std::size_t kMostSeveral = 20, kTrianglesPerSeveral = 500, kSeveralRounds = 10;
   // So many triangles are tried in one round, and one more of each so many triangles of the patch.
   static constexpr std::size_t kMostTries = 1000, kTrianglesPerTry = 20;
 
@@ -72,6 +72,7 @@ class PatchImprovement {
   bool split_longest(std::uint32_t triangle);
   bool bisect(std::uint32_t triangle, std::size_t corner);
   bool try_step(const PatchStep& step);
+  [[nodiscard]] bool betters(const PatchStep& step, std::size_t first_added) const;
   [[nodiscard]] bool has_room(const PatchStep& step);
   [[nodiscard]] double least_removed(const PatchStep& step) const;
   void queue_added(std::size_t first);

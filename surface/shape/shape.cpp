@@ -43,23 +43,7 @@ void count_left(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, Sha
   stats.keep_worst(kMostWorst);
 }
 
-// Steps and a refinement in turn, with all freedom, until a refinement would begin with the mesh of the last one, of
-// `steps_before` steps. A neck is widened by several refinements, each of what the last one has left. Where dozens of
-// bad triangles are left, as in noise, it would take long.
-void repeat_last_round(NumberedPatch& patch, PatchImprovement& improvement, double goal, std::size_t steps_before) {
-  constexpr int kMostTurns = 10;
-  constexpr std::size_t kMostBad = 24;
-  for (int turn = 0; turn < kMostTurns && !patch.bad.empty() && patch.bad.size() <= kMostBad; ++turn) {
-    improvement.run(patch.bad, kMostFreedom, kMostDepth);
-    if (patch.patch.steps() == steps_before) return;
-    steps_before = patch.patch.steps();
-    patch.bad = patch.patch.triangles_below(goal);
-    improvement.refine_around(patch.bad, kMostFreedom, true);
-    patch.bad = patch.patch.triangles_below(goal);
-  }
-}
-
-// Steps first; then refinements, one after the other freer to leave the isosurface; then both by turns.
+// Steps first; then refinements, one after the other freer to leave the isosurface.
 void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
   for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
     improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
@@ -70,14 +54,11 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
     double freedom;
     bool may_be_far;
   };
-  std::size_t steps_before = 0;
   for (const auto& [freedom, may_be_far] : {Refinement{4, false}, {kMostFreedom, false}, {kMostFreedom, true}}) {
     if (patch.bad.empty()) return;
-    steps_before = patch.patch.steps();
     improvement.refine_around(patch.bad, freedom, may_be_far);
     patch.bad = patch.patch.triangles_below(goal);
   }
-  repeat_last_round(patch, improvement, goal, steps_before);
 }
 
 }  // namespace
@@ -102,9 +83,9 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   controls.poll();
 }
 
-void replace_crossing_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> crossing, const ExactSurface& surface,
-                                const ShapeOptions& options, Controls& controls, ShapeStats& stats) {
-  work_in_patches(mesh, plan_patches(mesh, crossing, kReach, surface), surface.threads, stats,
+void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> wrong, const ExactSurface& surface,
+                             const ShapeOptions& options, Controls& controls, ShapeStats& stats) {
+  work_in_patches(mesh, plan_patches(mesh, wrong, kReach, surface), surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                     for (const std::uint32_t t : patch.bad) patch.patch.spoil(t);
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,

@@ -20,9 +20,10 @@ namespace deliso {
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats);
 
-// Replaces triangles that cross others: where pinches come side by side, copies of their vertices may not come apart.
-// These count as the worst of all; what is badly shaped around them is improved, too.
-void replace_crossing_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> crossing, const ExactSurface& surface,
-                                const ShapeOptions& options, Controls& controls, ShapeStats& stats);
+// Replaces triangles that cross others, as where pinches come side by side and copies of their vertices do not come
+// apart, or that have parts farther from the isosurface than options.max_sample. These count as the worst of all; what
+// is badly shaped around them is improved, too.
+void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> wrong, const ExactSurface& surface,
+                             const ShapeOptions& options, Controls& controls, ShapeStats& stats);
 
 }  // namespace deliso

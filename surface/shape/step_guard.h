@@ -76,7 +76,7 @@ class StepGuard {
   [[nodiscard]] bool was_covered(const Vec3& p, double reach) const;
   [[nodiscard]] bool is_covered(const Vec3& p, double reach, std::size_t first_added);
   [[nodiscard]] bool lies_near(std::size_t first_added);
-  [[nodiscard]] bool samples_stay_near(std::size_t first_added) const;
+  [[nodiscard]] bool samples_stay_near(std::size_t first_added);
   [[nodiscard]] bool keeps_sides(std::size_t first_added);
   [[nodiscard]] bool crosses_nothing(std::size_t first_added);
 

@@ -28,15 +28,18 @@ bool StepGuard::lies_near(std::size_t first_added) {
   return true;
 }
 
-// Where a distance is promised that is not much more than a triangle's height, heights of centroids do not tell.
-bool StepGuard::samples_stay_near(std::size_t first_added) const {
+// Where a distance is promised that is not much more than a triangle's height, heights of centroids do not tell. What
+// takes the place of a triangle that is too far may be so, too, but then it counts as the worst of all.
+bool StepGuard::samples_stay_near(std::size_t first_added) {
   if (!std::isfinite(max_sample_)) return true;
   const auto is_far = [&](const std::array<Vec3, 3>& corners) {
     return count_far_parts(isosurface_, corners, max_sample_, 1) > 0;
   };
-  if (std::any_of(old_triangles_.begin(), old_triangles_.end(), is_far)) return true;
-  for (std::size_t t = first_added; t < patch_.triangle_count(); ++t) {
-    if (is_far(patch_.corner_points(static_cast<std::uint32_t>(t)))) return false;
+  const bool may_be_far = std::any_of(old_triangles_.begin(), old_triangles_.end(), is_far);
+  for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
+    if (!is_far(patch_.corner_points(t))) continue;
+    if (!may_be_far) return false;
+    patch_.spoil(t);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "delaunay/base/rng.h"
+#include "surface/certificate/geometry_check.h"
 #include "surface/deliso.h"
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/mesh_quality.h"
@@ -79,17 +80,6 @@ TEST(Shape, CountsTheTrianglesThatItLeaves) {
                              [](const BadTriangle& a, const BadTriangle& b) { return a.sine < b.sine; }));
 }
 
-// A refinement leaves necks that the next one widens. Without turns the smallest angles were 26.2, 27.3 and 21.2.
-TEST(Shape, GoesOnInNecksAsLongAsItHelps) {
-  for (const std::uint64_t seed : {27U, 86U, 93U}) {
-    MeshingOptions options;
-    options.parameters.stage2.rho = 1;
-    const MeshingResult result = mesh_isosurface(generate_field("noise", 9, seed), 127.02, options);
-    EXPECT_TRUE(is_proven(result.certificate)) << seed;
-    EXPECT_GE(measure_quality(result.mesh).min_angle_degrees, 30) << seed;
-  }
-}
-
 TEST(Shape, IsTheSameForAnyNumberOfThreads) {
   const ScalarGrid grid = random_noise(9, 12);
   const MeshingResult one = meshed(grid, 127.5, 4);
@@ -157,13 +147,43 @@ TEST(Shape, ReplacesTrianglesThatCross) {
     crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
     Controls controls({}, {}, {});
     ShapeStats stats;
-    replace_crossing_triangles(mesh, crossing, scene.surface(), shape_options({}), controls, stats);
+    replace_wrong_triangles(mesh, crossing, scene.surface(), shape_options({}), controls, stats);
     EXPECT_EQ(self_intersections(mesh.points, mesh.triangles, 0, 1).crossing_pairs, 0);
     const MeshTopology topology = mesh_topology(mesh.points.size(), mesh.triangles, 1);
     ASSERT_EQ(topology.components.size(), 1u);
     EXPECT_EQ(topology.components[0].euler_characteristic(), 2);
     EXPECT_TRUE(topology.boundary_edges.empty());
   }
+}
+
+// The triangles of a ball's mesh lie below it, the largest farther than is promised here.
+TEST(Shape, ReplacesTrianglesThatAreTooFar) {
+  constexpr double kMost = 0.05;
+  const ScalarGrid grid = testing::sampled({20, 20, 20}, testing::ball_field({9.3, 9.6, 9.4}, 6));
+  const testing::Scene scene("ball", grid, 0);
+  MeshingOptions coarse;
+  coarse.parameters.shape.rounds = 0;
+  TriangleMesh ball = mesh_isosurface(grid, 0, coarse).mesh;
+  SurfaceMesh mesh;
+  mesh.points = std::move(ball.points);
+  mesh.triangles = std::move(ball.triangles);
+  const Promise promise{.max_distance = kMost};
+  const GeometryCheck before = check_distances(mesh, scene.surface(), promise);
+  ASSERT_GT(before.far_triangles.size(), 5u);
+  ASSERT_LT(before.far_triangles.size(), mesh.triangles.size());
+  ShapeOptions options = shape_options({});
+  Controls controls({}, {}, {});
+  ShapeStats stats;
+  SurfaceMesh otherwise = mesh;
+  replace_wrong_triangles(otherwise, before.far_triangles, scene.surface(), options, controls, stats);
+  EXPECT_GT(check_distances(otherwise, scene.surface(), promise).mesh_off, 0) << "there is nothing to show";
+  options.max_sample = kMost;
+  replace_wrong_triangles(mesh, before.far_triangles, scene.surface(), options, controls, stats);
+  EXPECT_EQ(check_distances(mesh, scene.surface(), promise).mesh_off, 0);
+  EXPECT_EQ(self_intersections(mesh.points, mesh.triangles, 0, 1).crossing_pairs, 0);
+  const MeshTopology topology = mesh_topology(mesh.points.size(), mesh.triangles, 1);
+  ASSERT_EQ(topology.components.size(), 1u);
+  EXPECT_EQ(topology.components[0].euler_characteristic(), 2);
 }
 
 TEST(Shape, IsLeftOutWithoutRepair) {
