@@ -226,7 +226,7 @@ def little_memory(place):
                 ("render", "v.nrrd", "--isovalue", "0.1", "-o", "p.png", "--size", "60x60", "--threads", "3"),
                 ("generate", "gyroid", "--size", "40", "-o", "g.nrrd"), ("schema",)]
     refused = 0
-    for kilobytes in range(7000, 60000, 151 if place.is_long else 1511):
+    for kilobytes in range(7000, 60000, 151 if place.is_long else 3023):
         limit = (1024 * kilobytes, 1024 * kilobytes)
         limited = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, limit)}
         # Where not even the libraries find room, the system's loader says so, or crashes before the program begins.
