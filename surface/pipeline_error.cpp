@@ -17,6 +17,7 @@
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
 #include "surface/shape/shape_options.h"
+#include "surface/shape/shape.h"
 #include "surface/sizes/error_steps.h"
 #include "surface/sizes/error_targets.h"
 #include "surface/sizes/samples_near_faults.h"
