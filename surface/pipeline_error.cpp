@@ -131,6 +131,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
 void Pipeline::replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check) {
   constexpr int kMostRounds = 4;
   constexpr std::size_t kFew = 1000;
+  if (controls_.stopped()) return;
   const auto distances = [&](const SurfaceMesh& of) {
     return timed(result_.certify_stage, [&] { return check.distances(of); });
   };
