@@ -139,6 +139,9 @@ void Pipeline::certify(SurfaceMesh mesh) {
     squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
   }
   result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest));
+  if (result_.shape.seconds > 0) {
+    count_bad_triangles(mesh, shape_options(parameters_), options_.threads, result_.shape);
+  }
   result_.mesh = to_world(std::move(mesh), *isosurface_);
   SurfaceMesh places;
   for (const DroppedPiece& dropped : result_.dropped) places.points.push_back(dropped.piece.at);

@@ -31,18 +31,6 @@ std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, i
       });
 }
 
-void count_left(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, ShapeStats& stats) {
-  stats.bad_after = static_cast<std::int64_t>(bad.size());
-  stats.worst.clear();
-  for (const std::uint32_t t : bad) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
-    stats.worst.push_back(
-        {sine_of_least_angle(corners[0], corners[1], corners[2]), (corners[0] + corners[1] + corners[2]) / 3});
-  }
-  stats.keep_worst(kMostWorst);
-}
-
 // Steps first; then refinements, one after the other freer to leave the isosurface.
 void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
   for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
@@ -79,8 +67,20 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
                     });
     bad = bad_triangles(mesh, goal, surface.threads);
   }
-  count_left(mesh, bad, stats);
   controls.poll();
+}
+
+void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, int threads, ShapeStats& stats) {
+  const std::vector<std::uint32_t> bad = bad_triangles(mesh, std::sin(options.min_angle), threads);
+  stats.bad_after = static_cast<std::int64_t>(bad.size());
+  stats.worst.clear();
+  for (const std::uint32_t t : bad) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const std::array<Vec3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    stats.worst.push_back(
+        {sine_of_least_angle(corners[0], corners[1], corners[2]), (corners[0] + corners[1] + corners[2]) / 3});
+  }
+  stats.keep_worst(kMostWorst);
 }
 
 void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> wrong, const ExactSurface& surface,

@@ -20,6 +20,9 @@ namespace deliso {
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats);
 
+// Counts the triangles of a mesh that are badly shaped and finds the worst of them: stats.bad_after and worst.
+void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, int threads, ShapeStats& stats);
+
 // Replaces triangles that cross others, as where pinches come side by side and copies of their vertices do not come
 // apart, or that have parts farther from the isosurface than options.max_sample. These count as the worst of all; what
 // is badly shaped around them is improved, too.

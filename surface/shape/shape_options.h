@@ -27,7 +27,7 @@ struct ShapeOptions {
                                                                 // that it replaces was
   double max_sample = std::numeric_limits<double>::infinity();  // mesh-space units: no part of a new triangle is
                                                                 // farther, unless some of what it replaces was
-  double max_distance = 0.75;  // mesh-space units: crossings of the isosurface that the mesh is so near stay so
+  double max_distance = 0.75;   // mesh-space units: crossings of the isosurface that the mesh is so near stay so
   std::vector<Vec3> witnesses;  // other points of the isosurface for which the same holds
 };
 
