@@ -167,9 +167,9 @@ bool PatchImprovement::improve_by_several(std::uint32_t triangle, int depth) {
 // `old`: what the trial has replaced, of the triangles from before it. After the first step fewer are tried, to less
 // good places: that takes a third of the time, and as many trials end well.
 bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth) {
-  constexpr std::size_t kMostFirst = 6, kMostThen = 3;
+  constexpr std::size_t kMostFirst = 6, kMostLater = 3;
   const bool is_first = patch_.triangle_count() == first_added;
-  std::size_t left = is_first ? kMostFirst : kMostThen;
+  std::size_t left = is_first ? kMostFirst : kMostLater;
   for (const PatchStep& step : all_steps(triangle, is_first)) {
     if (left == 0) return false;
     Replaced all = old;
