@@ -165,7 +165,7 @@ bool PatchImprovement::improve_by_several(std::uint32_t triangle, int depth) {
 }
 
 // `old`: what the trial has replaced, of the triangles from before it. After the first step fewer are tried, to less
-// good places: that takes a third of the time, and as many trials end well.
+// good places: that takes half of the time, and 14 to 21 of a hundred trials end well, not 18.
 bool PatchImprovement::try_several(std::uint32_t triangle, const Replaced& old, std::size_t first_added, int depth) {
   constexpr std::size_t kMostFirst = 6, kMostLater = 3;
   const bool is_first = patch_.triangle_count() == first_added;
