@@ -58,6 +58,7 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   stats.bad_before += static_cast<std::int64_t>(bad.size());
   const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
   for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
+    if (pass > 0) bad = bad_triangles(mesh, goal, surface.threads);
     controls.report("shape", mesh.points.size(), bad.size());
     work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats,
                     [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
@@ -65,7 +66,6 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
                                                    controls.for_part(1, mesh.points.size()), part);
                       improve_patch(patch, improvement, goal, options.rounds);
                     });
-    bad = bad_triangles(mesh, goal, surface.threads);
   }
   controls.poll();
 }
