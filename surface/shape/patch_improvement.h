@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/base/rng.h"
 #include "raycast/isosurface.h"
 #include "surface/base/controls.h"
 #include "surface/shape/patch.h"
@@ -30,6 +31,8 @@ class PatchImprovement {
   // Refines the mesh around the given triangles, where that leaves better ones and no more bad ones
   // (local_refinement.cpp). `may_be_far`: on the way.
   void refine_around(std::span<const std::uint32_t> bad, double freedom, bool may_be_far);
+  // Looks for better triangles by steps at random, again and again (iterated_search.cpp).
+  void search_on(int turns);
 
  private:
   struct Queued {
@@ -65,6 +68,9 @@ class PatchImprovement {
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
+  [[nodiscard]] Replaced all_bad() const;
+  void disturb(Rng& random);
+  void make_room();
   void try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried);
   bool is_improved(const Replaced& old, std::optional<double> old_volume, std::size_t first_added);
   bool refine_until_sound(std::uint32_t triangle, std::size_t first_added);

@@ -31,13 +31,16 @@ std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, i
       });
 }
 
-// Steps first; then refinements, one after the other freer to leave the isosurface.
+// One round is freer to leave the isosurface than the one before.
 void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
   for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
     improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
     patch.bad = patch.patch.triangles_below(goal);
   }
-  if (rounds < kMostDepth) return;
+}
+
+// For triangles that are too far, which have to be split before any others can take their place.
+void refine_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal) {
   struct Refinement {
     double freedom;
     bool may_be_far;
@@ -49,6 +52,25 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
   }
 }
 
+// Turns of iterated search, for so many bad triangles of a mesh: masks have some that stay in every few hundred.
+int turns_of_search(std::size_t bad, std::size_t triangles) {
+  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
+  return bad == 0 ? 0 : static_cast<int>(std::min(kMost, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad));
+}
+
+// Has the patches of each pass worked on: work(patch, plan, counted).
+template <class Work>
+void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const ExactSurface& surface, double goal,
+                    Controls& controls, ShapeStats& stats, const Work& work) {
+  const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
+  for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
+    if (pass > 0) bad = bad_triangles(mesh, goal, surface.threads);
+    controls.report("shape", mesh.points.size(), bad.size());
+    work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats, work);
+  }
+}
+
 }  // namespace
 
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
@@ -56,17 +78,21 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   const double goal = std::sin(options.min_angle);
   std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
   stats.bad_before += static_cast<std::int64_t>(bad.size());
-  const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
-  for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
-    if (pass > 0) bad = bad_triangles(mesh, goal, surface.threads);
-    controls.report("shape", mesh.points.size(), bad.size());
-    work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats,
-                    [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
-                      PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
-                                                   controls.for_part(1, mesh.points.size()), part);
-                      improve_patch(patch, improvement, goal, options.rounds);
-                    });
-  }
+  const auto improve = [&](int rounds, int turns) {
+    work_in_passes(mesh, bad, surface, goal, controls, stats,
+                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
+                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
+                                                  controls.for_part(1, mesh.points.size()), part);
+                     improve_patch(patch, improvement, goal, rounds);
+                     improvement.search_on(turns);
+                   });
+  };
+  improve(options.rounds, 0);
+  if (options.rounds < kMostDepth || controls.poll()) return;
+  // What the steps have left is searched for on its own, in smaller patches.
+  bad = bad_triangles(mesh, goal, surface.threads);
+  const int turns = turns_of_search(bad.size(), mesh.triangles.size());
+  if (turns > 0) improve(0, turns);
   controls.poll();
 }
 
@@ -85,12 +111,16 @@ void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, i
 
 void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> wrong, const ExactSurface& surface,
                              const ShapeOptions& options, Controls& controls, ShapeStats& stats) {
+  const double goal = std::sin(options.min_angle);
+  const int turns = turns_of_search(wrong.size(), mesh.triangles.size());
   work_in_patches(mesh, plan_patches(mesh, wrong, kReach, surface), surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                     for (const std::uint32_t t : patch.bad) patch.patch.spoil(t);
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
-                    improve_patch(patch, improvement, std::sin(options.min_angle), options.rounds);
+                    improve_patch(patch, improvement, goal, options.rounds);
+                    refine_patch(patch, improvement, goal);
+                    improvement.search_on(turns);
                   });
 }
 

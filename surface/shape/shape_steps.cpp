@@ -148,18 +148,33 @@ void ShapeSteps::finish(PatchStep step, const Place& best, const std::vector<Vec
   steps.push_back(std::move(step));
 }
 
-void ShapeSteps::move(std::uint32_t v, double enough, std::vector<PatchStep>& steps) {
-  if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return;
+// A vertex with the star that it has, which is in link_ then.
+std::optional<PatchStep> ShapeSteps::star_of(std::uint32_t v) {
+  if (!patch_.is_whole(v) || !patch_.find_link(v, link_)) return std::nullopt;
   PatchStep step{ShapeStep::kMove, link_.triangles, {}, v, {}, 0, {}};
   const std::vector<std::uint32_t>& link = link_.vertices;
   for (std::size_t i = 0; i < link_.triangles.size(); ++i) {
     step.added.push_back({v, link[i], link[(i + 1) % link.size()]});
   }
+  return step;
+}
+
+void ShapeSteps::move(std::uint32_t v, double enough, std::vector<PatchStep>& steps) {
+  auto step = star_of(v);
+  if (!step) return;
   if (link_.is_closed) {
-    place(std::move(step), {patch_.point(v)}, enough, steps);
-  } else if (const auto along = curve(link.back(), link.front(), {v})) {
-    place_on_curve(std::move(step), {patch_.point(v)}, *along, enough, steps);
+    place(std::move(*step), {patch_.point(v)}, enough, steps);
+  } else if (const auto along = curve(link_.vertices.back(), link_.vertices.front(), {v})) {
+    place_on_curve(std::move(*step), {patch_.point(v)}, *along, enough, steps);
   }
+}
+
+void ShapeSteps::displace(std::uint32_t v, std::uint32_t neighbour, double share, std::vector<PatchStep>& steps) {
+  auto step = star_of(v);
+  if (!step || !link_.is_closed || !are_whole(step->removed)) return;
+  const Vec3 &from = patch_.point(v), &to = patch_.point(neighbour);
+  const auto p = search_.on_isosurface(from + share * (to - from), normal_of(step->removed), distance(from, to));
+  if (p) finish(std::move(*step), {*p, 1}, {from}, steps);
 }
 
 // Of the corners of an edge one goes, and the other takes the star over the rim of both stars.

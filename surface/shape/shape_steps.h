@@ -27,6 +27,10 @@ class ShapeSteps {
   // Appends the split of a side in its middle, whatever its quality.
   void bisect(std::uint32_t triangle, std::size_t corner, std::vector<PatchStep>& steps);
 
+  // Appends the move of an inner vertex by this share of its way to a neighbour, onto the isosurface, whatever its
+  // quality.
+  void displace(std::uint32_t v, std::uint32_t neighbour, double share, std::vector<PatchStep>& steps);
+
   // Brings the point of a step half the way back to where its search started, on the isosurface; false when it cannot.
   bool halve(PatchStep& step);
 
@@ -45,6 +49,7 @@ class ShapeSteps {
   void open(const Side& side, double enough, std::vector<PatchStep>& steps);
   void remove_ear(std::uint32_t v, std::vector<PatchStep>& steps);
   void remove(std::uint32_t v, std::vector<PatchStep>& steps);
+  [[nodiscard]] std::optional<PatchStep> star_of(std::uint32_t v);
   void move(std::uint32_t v, double enough, std::vector<PatchStep>& steps);
   void merge(const Side& side, double enough, std::vector<PatchStep>& steps);
   void split(const Side& side, double enough, std::vector<PatchStep>& steps);

@@ -1,4 +1,4 @@
-// Walls and necks thinner than their triangles are long, where no few steps give good angles.
+// Rims of flat parts, walls and necks thinner than their triangles are long, where no few steps give good angles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ ScalarGrid smooth_noise(std::uint64_t seed) {
 }
 
 // Steps alone leave 23 triangles with angles below 30 degrees.
-TEST(LocalRefinement, LeavesNoBadTrianglesInThinParts) {
+TEST(IteratedSearch, LeavesFewBadTrianglesInThinParts) {
   std::int64_t left = 0;
   for (const std::uint64_t seed : {1U, 13U, 15U, 16U, 24U, 27U, 33U, 37U, 45U}) {
     const ScalarGrid grid = smooth_noise(seed);
