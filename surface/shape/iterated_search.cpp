@@ -1,4 +1,4 @@
-// Bad triangles that no few steps improve: iterated local search (Lourenço, Martin and Stützle, Iterated local search,
+// Bad triangles that neither steps nor refinement improve: iterated local search (Lourenço, Martin and Stützle, Iterated local search,
 // 2003).
 //
 // Steps end at triangles that are just good enough and leave those beside them no room: at rims of flat parts, in walls

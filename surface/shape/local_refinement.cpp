@@ -1,4 +1,4 @@
-// Triangles that are too far or cross others and that no step replaces: refined together with what is around them.
+// Triangles that no step improves: refined together with what is around them.
 //
 // In a neck or a wall thinner than its triangles are long no few steps give good angles: the triangles have to be small
 // enough first, on both sides of it. So longest sides are split, as in refinement by longest edges (Rivara, New

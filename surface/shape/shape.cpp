@@ -31,16 +31,13 @@ std::vector<std::uint32_t> bad_triangles(const SurfaceMesh& mesh, double goal, i
       });
 }
 
-// One round is freer to leave the isosurface than the one before.
+// Steps first; then refinements, one after the other freer to leave the isosurface.
 void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal, int rounds) {
   for (int round = 0; round < rounds && !patch.bad.empty(); ++round) {
     improvement.run(patch.bad, std::ldexp(2.0, round), std::min(round + 1, kMostDepth));
     patch.bad = patch.patch.triangles_below(goal);
   }
-}
-
-// For triangles that are too far, which have to be split before any others can take their place.
-void refine_patch(NumberedPatch& patch, PatchImprovement& improvement, double goal) {
+  if (rounds < kMostDepth) return;
   struct Refinement {
     double freedom;
     bool may_be_far;
@@ -52,11 +49,14 @@ void refine_patch(NumberedPatch& patch, PatchImprovement& improvement, double go
   }
 }
 
-// Turns of iterated search, for so many bad triangles of a mesh: masks have some that stay in every few hundred.
+// Turns of iterated search, for so many bad triangles of a mesh. Masks and labels have one in a few hundred: for them
+// it would take longer than all else.
 int turns_of_search(std::size_t bad, std::size_t triangles) {
-  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kFewest = 25, kMost = 100;
   constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
-  return bad == 0 ? 0 : static_cast<int>(std::min(kMost, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad));
+  if (bad == 0) return 0;
+  const std::size_t turns = std::min(kMost, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad);
+  return turns < kFewest ? 0 : static_cast<int>(turns);
 }
 
 // Has the patches of each pass worked on: work(patch, plan, counted).
@@ -89,7 +89,7 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   };
   improve(options.rounds, 0);
   if (options.rounds < kMostDepth || controls.poll()) return;
-  // What the steps have left is searched for on its own, in smaller patches.
+  // What these have left is searched for on its own, in smaller patches.
   bad = bad_triangles(mesh, goal, surface.threads);
   const int turns = turns_of_search(bad.size(), mesh.triangles.size());
   if (turns > 0) improve(0, turns);
@@ -119,7 +119,6 @@ void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> w
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
                     improve_patch(patch, improvement, goal, options.rounds);
-                    refine_patch(patch, improvement, goal);
                     improvement.search_on(turns);
                   });
 }
