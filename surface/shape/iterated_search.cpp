@@ -1,5 +1,5 @@
-// Bad triangles that neither steps nor refinement improve: iterated local search (Lourenço, Martin and Stützle, Iterated local search,
-// 2003).
+// Bad triangles that neither steps nor refinement improve: iterated local search (Lourenço, Martin and Stützle,
+// Iterated local search, 2003).
 //
 // Steps end at triangles that are just good enough and leave those beside them no room: at rims of flat parts, in walls
 // and necks thinner than triangles are long, with a goal of 30 degrees everywhere. So what is around bad triangles is
