@@ -52,7 +52,7 @@ set(unsanitized
   "InsphereHasTheExactSign"
   "IsKeptWithoutFinerCubes"
   "IsTheSameForAnyNumberOfThreads"
-  "IteratedSearch.LeavesFewBad"
+  "IteratedSearch.LeavesNoBad"
   "KeepsNoiseProvenAndNear"
   "LeavesOutSmallOnes"
   "LeavesTrianglesThatCrossWhenRounded"

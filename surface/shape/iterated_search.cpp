@@ -18,7 +18,7 @@ namespace deliso {
 
 namespace {
 
-constexpr double kFreedom = 16;  // to leave the isosurface, as in the last round of steps
+constexpr double kFreedom = 16;  // to leave the isosurface, as in the last refinements
 // Shares of the triangles around at which there is a step at random.
 constexpr double kMoves = 0.5, kSplits = 0.05, kRemovals = 0.05;
 constexpr double kLeastWay = 0.1, kLongestWay = 0.5;  // that a vertex goes to a neighbour
@@ -31,7 +31,6 @@ constexpr double kRaised = 1.3;  // goals
 
 void PatchImprovement::search_on(int turns) {
   guard_.set_freedom(kFreedom);
-  steps_.set_thorough(true);
   for (int turn = 0; turn < turns && !controls_.poll(); ++turn) {
     const Replaced before = all_bad();
     if (before.bad == 0) return;
@@ -83,7 +82,11 @@ void PatchImprovement::disturb(Rng& random) {
     const std::size_t first = patch_.triangle_count();
     if (candidates_.empty() || !has_room(candidates_[0]) || !guard_.apply(candidates_[0])) continue;
     const std::uint32_t worst = worst_added(first);
-    if (worst != kNoVertex && patch_.quality(worst) < kLeastQuality * goal_) patch_.undo();
+    if (worst != kNoVertex && patch_.quality(worst) < kLeastQuality * goal_) {
+      patch_.undo();
+    } else {
+      ++stats_.steps[static_cast<std::size_t>(candidates_[0].kind)];
+    }
   }
 }
 
