@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every quick test. From any folder: tests/run.sh [PRESET ...]
-# Presets: release (default), and with every warning an error dev (the same), asan (clang++ with address and
-# undefined-behaviour sanitizers, and the fuzz targets), tsan (thread sanitizer, tests with several threads), clang
-# (clang++), tidy (clang++ and clang-tidy).
+# Presets: release (default), and with every warning an error dev (the same), clang (clang++), tidy (clang++ and
+# clang-tidy), asan (these with address and undefined-behaviour sanitizers, and the fuzz targets), tsan (thread sanitizer,
+# tests with several threads).
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
