@@ -92,24 +92,25 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
 void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom) {
   constexpr int kStepRounds = 24;
   constexpr int kMostIdle = 2;  // where spikes were, more may be off at first
+  constexpr double kProgress = 0.9;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
   ShapeOptions options_of_steps = shape_options(parameters_);
   options_of_steps.max_height = std::max(options_of_steps.max_height, ShapeOptions{}.max_height);
   std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
   bool removes_spikes = false;
-  int idle = 0;  // rounds since that was less
+  int idle = 0;  // rounds since that was less by a tenth
   StuckTriangles stuck;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
-    idle = off < least_off ? 0 : idle + 1;
+    idle = static_cast<double>(off) <= kProgress * static_cast<double>(least_off) ? 0 : idle + 1;
     if (off == 0) return;
     if (idle > kMostIdle) break;
     if (!removes_spikes && idle > 0) {
       removes_spikes = true;
       stuck = {};
     }
-    least_off = std::min(least_off, off);
+    if (idle == 0) least_off = off;
     timed(result_.shape, [&] {
       // What other steps do not bring near may take a point off it.
       const std::vector<Vec3> targets =

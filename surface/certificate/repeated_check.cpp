@@ -174,11 +174,18 @@ std::optional<KnownBefore> RepeatedCheck::known_of(const SurfaceMesh& mesh) cons
   std::vector<bool> stays(last_.triangles.size(), false);
   KnownBefore known;
   known.far_parts.assign(mesh.triangles.size(), -1);
-  // Most keep their numbers.
-  for (std::size_t t = 0; t < std::min(stays.size(), mesh.triangles.size()); ++t) {
-    if (corners_of(last_, t) != corners_of(mesh, t)) continue;
-    stays[t] = true;
-    known.far_parts[t] = far_parts_[t];
+  // Most keep their order: what is gone makes the numbers of later ones smaller.
+  constexpr std::size_t kMostGone = 8;  // in a row
+  std::size_t next = 0;                 // of the mesh before
+  for (std::size_t t = 0; t < mesh.triangles.size() && next < stays.size(); ++t, ++next) {
+    const std::array<Vec3, 3> corners = corners_of(mesh, t);
+    const std::size_t last = std::min(next + kMostGone, stays.size());
+    std::size_t same = next;
+    while (same < last && corners_of(last_, same) != corners) ++same;
+    if (same == last) continue;
+    next = same;
+    stays[next] = true;
+    known.far_parts[t] = far_parts_[next];
   }
   const auto others = static_cast<std::size_t>(std::count(stays.begin(), stays.end(), false));
   TrianglesByCorners before(others);

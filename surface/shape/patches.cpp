@@ -20,25 +20,30 @@ struct PatchCrossing {
   Vec3 position;
 };
 
+// Calls add(i) for boxes that a triangle may meet, for some several times.
+template <class Add>
+void visit_boxes_near(const Box3& triangle, const BoxSet& boxes, const BoxMap& map, const Add& add) {
+  const Vec3 size = triangle.size();
+  if (std::max({size.x, size.y, size.z}) <= map.reach()) {
+    for (const std::uint32_t i : map.near(triangle.low)) add(i);
+  } else if (!map.visit_near(triangle, add)) {
+    thread_local std::vector<std::uint32_t> near;
+    boxes.for_each_meeting(triangle, near, add);
+  }
+}
+
 std::vector<PatchTriangle> triangles_of_patches(const SurfaceMesh& mesh, const PatchBoxes::Pass& around,
                                                 const BoxMap& map, int threads) {
   const auto append = [&](std::size_t t, std::vector<PatchTriangle>& found) {
     const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
-    const Vec3 size = box.size();
     const std::size_t first = found.size();
-    const auto add = [&](std::uint32_t i) {
+    visit_boxes_near(box, around.boxes, map, [&](std::uint32_t i) {
       const auto is_same = [&](const PatchTriangle& other) { return other.patch == around.patch_of[i]; };
       if (std::none_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_same) &&
           around.boxes.boxes()[i].meets(box)) {
         found.push_back({around.patch_of[i], static_cast<std::uint32_t>(t)});
       }
-    };
-    if (std::max({size.x, size.y, size.z}) <= map.reach()) {
-      for (const std::uint32_t i : map.near(box.low)) add(i);
-    } else if (!map.visit_near(box, add)) {
-      thread_local std::vector<std::uint32_t> near;
-      around.boxes.for_each_meeting(box, near, add);
-    }
+    });
   };
   return collect_in_blocks<PatchTriangle>(mesh.triangles.size(), threads, append);
 }
@@ -57,6 +62,17 @@ std::vector<PatchCrossing> crossings_of_patches(const ExactSurface& surface, con
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> triangles_meeting(const SurfaceMesh& mesh, const BoxSet& boxes, int threads) {
+  const BoxMap map(boxes.boxes());
+  return collect_in_blocks<std::uint32_t>(
+      mesh.triangles.size(), threads, [&](std::size_t t, std::vector<std::uint32_t>& found) {
+        const Box3 box = box_of(mesh, static_cast<std::uint32_t>(t));
+        bool is_met = false;
+        visit_boxes_near(box, boxes, map, [&](std::uint32_t i) { is_met = is_met || boxes.boxes()[i].meets(box); });
+        if (is_met) found.push_back(static_cast<std::uint32_t>(t));
+      });
+}
 
 std::vector<PatchPlan> plan_pass(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, const PatchBoxes& boxes,
                                  std::size_t pass, const ExactSurface& surface) {

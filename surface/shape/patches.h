@@ -24,6 +24,9 @@ struct PatchPlan {
   std::vector<Vec3> crossings;           // of the isosurface with edges of the grid, in the boxes
 };
 
+// The triangles of a mesh that meet one of some boxes, ascending. The same for any number of threads.
+std::vector<std::uint32_t> triangles_meeting(const SurfaceMesh& mesh, const BoxSet& boxes, int threads);
+
 // The patches of a pass: `bad` are the bad triangles of the mesh as earlier passes have left it. The same for any
 // number of threads.
 std::vector<PatchPlan> plan_pass(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, const PatchBoxes& boxes,

@@ -1,5 +1,6 @@
 // Insertion of crossings that the mesh misses.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "surface/mesh/side_adjacency.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
+#include "surface/shape/box_set.h"
 #include "surface/shape/patches.h"
 #include "surface/shape/step_guard.h"
 #include "surface/sizes/error_steps.h"
@@ -98,35 +100,77 @@ void insert_in(NumberedPatch& numbered, const PatchPlan& plan, std::span<const M
   }
 }
 
-// The component of each vertex's piece.
-std::vector<std::uint32_t> components_of_vertices(const SurfaceMesh& mesh, const PieceComponents& pieces) {
-  std::vector<std::uint32_t> component_of(mesh.points.size(), kNoComponent);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) component_of[v] = pieces.component_of(t);
+// Triangles of a mesh as one of their own.
+struct Part {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> vertices, triangles;  // their numbers in the whole mesh, ascending
+};
+
+// The triangles that meet the boxes of this reach around some points.
+Part part_near(const SurfaceMesh& mesh, std::span<const Missed> missed, double reach, int threads) {
+  BoxSet boxes;
+  for (const auto& [p, component] : missed) {
+    Box3 box;
+    box.extend(p - reach * Vec3{1, 1, 1});
+    box.extend(p + reach * Vec3{1, 1, 1});
+    boxes.add(box);
   }
-  return component_of;
+  Part part;
+  part.triangles = triangles_meeting(mesh, boxes, threads);
+  for (const std::uint32_t t : part.triangles) {
+    part.vertices.insert(part.vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  std::sort(part.vertices.begin(), part.vertices.end());
+  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+  for (const std::uint32_t v : part.vertices) part.mesh.points.push_back(mesh.points[v]);
+  for (const std::uint32_t t : part.triangles) {
+    std::array<std::uint32_t, 3> corners = mesh.triangles[t];
+    for (std::uint32_t& v : corners) {
+      v = static_cast<std::uint32_t>(std::lower_bound(part.vertices.begin(), part.vertices.end(), v) -
+                                     part.vertices.begin());
+    }
+    part.mesh.triangles.push_back(corners);
+  }
+  set_side_adjacency(part.mesh);
+  return part;
 }
 
-// The nearest triangles on their own components, ascending, each once.
-std::vector<std::uint32_t> nearest_triangles(const SurfaceMesh& mesh, const PieceComponents& pieces,
-                                             std::span<const Missed> missed, const ExactSurface& surface) {
-  const BoxTree tree(
-      mesh.triangles.size(), [&](std::size_t t) { return box_of(mesh, static_cast<std::uint32_t>(t)); },
-      surface.threads);
-  std::vector<std::uint32_t> nearest;
+// Where points that are missed may be inserted.
+struct NearMissed {
+  std::vector<std::uint32_t> nearest;       // triangles on their own components, ascending, each once
+  std::vector<std::uint32_t> component_of;  // of each vertex of the mesh near them: that of its piece
+};
+
+// Looks near the points, which mostly are few on a large mesh, and in all of the mesh for those with nothing near.
+NearMissed find_near(const SurfaceMesh& mesh, std::vector<Missed> missed, const ExactSurface& surface) {
+  constexpr double kNear = 4, kFarther = 32;  // voxels
+  NearMissed found;
+  found.component_of.assign(mesh.points.size(), kNoComponent);
   const double farthest = surface.isosurface.box().diagonal();
-  for (const Missed& one : missed) {
-    const auto measure = [&](std::uint32_t t) {
-      if (pieces.component_of(t) != one.component) return std::numeric_limits<double>::infinity();
-      const auto& [a, b, c] = mesh.triangles[t];
-      return squared_distance_to_triangle(one.point, mesh.points[a], mesh.points[b], mesh.points[c]);
-    };
-    const std::uint32_t t = tree.nearest(one.point, farthest * farthest, measure).first;
-    if (t != BoxTree::kNone) nearest.push_back(t);
+  for (const double reach : {kNear, kFarther, farthest}) {
+    if (missed.empty()) break;
+    const Part part = part_near(mesh, missed, reach, surface.threads);
+    const PieceComponents pieces = piece_components(part.mesh, surface);
+    for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[part.triangles[t]]) found.component_of[v] = pieces.component_of(t);
+    }
+    const BoxTree tree(
+        part.triangles.size(), [&](std::size_t t) { return box_of(part.mesh, static_cast<std::uint32_t>(t)); },
+        surface.threads);
+    std::erase_if(missed, [&](const Missed& one) {
+      const auto measure = [&](std::uint32_t t) {
+        if (pieces.component_of(t) != one.component) return std::numeric_limits<double>::infinity();
+        const auto& [a, b, c] = mesh.triangles[part.triangles[t]];
+        return squared_distance_to_triangle(one.point, mesh.points[a], mesh.points[b], mesh.points[c]);
+      };
+      const std::uint32_t t = tree.nearest(one.point, reach * reach, measure).first;
+      if (t != BoxTree::kNone) found.nearest.push_back(part.triangles[t]);
+      return t != BoxTree::kNone;
+    });
   }
-  std::sort(nearest.begin(), nearest.end());
-  nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
-  return nearest;
+  std::sort(found.nearest.begin(), found.nearest.end());
+  found.nearest.erase(std::unique(found.nearest.begin(), found.nearest.end()), found.nearest.end());
+  return found;
 }
 
 }  // namespace
@@ -135,20 +179,17 @@ void insert_missed(SurfaceMesh& mesh, const ExactSurface& surface, std::span<con
                    const ShapeOptions& options, const Controls& controls, ShapeStats& stats) {
   Controls own = controls;
   if (points.empty() || own.poll()) return;
-  set_side_adjacency(mesh);
-  const PieceComponents pieces = piece_components(mesh, surface);
   std::vector<Missed> missed;
   for (const Vec3& p : points) {
     if (const auto component = surface.component_at(p)) missed.push_back({p, *component});
   }
-  const std::vector<std::uint32_t> nearest = nearest_triangles(mesh, pieces, missed, surface);
-  const std::vector<std::uint32_t> component_of_vertex = components_of_vertices(mesh, pieces);
-  const std::vector<PatchPlan> plans = plan_patches(mesh, nearest, kMissedReach, surface);
+  const NearMissed near = find_near(mesh, missed, surface);
+  const std::vector<PatchPlan> plans = plan_patches(mesh, near.nearest, kMissedReach, surface);
   work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& counted) {
                     StepGuard guard(patch.patch, plan.crossings, surface.isosurface, options, counted.search);
                     guard.set_freedom(freedom);
-                    insert_in(patch, plan, missed, component_of_vertex, surface.isosurface.box(), guard, counted);
+                    insert_in(patch, plan, missed, near.component_of, surface.isosurface.box(), guard, counted);
                   });
 }
 
