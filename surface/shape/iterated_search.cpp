@@ -2,13 +2,14 @@
 // Iterated local search, 2003).
 //
 // Steps end at triangles that are just good enough and leave those beside them no room: at rims of flat parts, in walls
-// and necks thinner than triangles are long, with a goal of 30 degrees everywhere. So what is around bad triangles is
+// and necks thinner than triangles are long, with a goal of 30 degrees everywhere. So what is around a bad triangle is
 // disturbed at random, vertices going some way to a neighbour, sides split, vertices removed; single steps follow.
-// Where then fewer triangles are bad, or as many of which the worst is no worse, that stays; else all of it is taken
-// back.
+// Where then fewer triangles are bad, or as many that are no worse, that stays; else all of it is taken back. One
+// triangle after the other: what mends one of many would be taken back with what spoils another.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "delaunay/base/rng.h"
@@ -23,45 +24,77 @@ constexpr double kFreedom = 16;  // to leave the isosurface, as in the last refi
 constexpr double kMoves = 0.5, kSplits = 0.05, kRemovals = 0.05;
 constexpr double kLeastWay = 0.1, kLongestWay = 0.5;  // that a vertex goes to a neighbour
 constexpr double kLeastQuality = 0.4;                 // of what such a step adds, in goals
-// One turn in eight first improves what is just good enough, one in ten tries several steps together.
-constexpr int kRaisedTurns = 8, kDeepTurns = 10, kDepth = 3;
+// One turn in four disturbs what is around bad triangles beside it, too, one in eight first improves what is just good
+// enough, one in ten tries several steps together.
+constexpr int kWideTurns = 4, kRaisedTurns = 8, kDeepTurns = 10, kDepth = 3;
 constexpr double kRaised = 1.3;  // goals
 
 }  // namespace
 
-void PatchImprovement::search_on(int turns) {
+void PatchImprovement::search_on(int turns, double goal) {
   guard_.set_freedom(kFreedom);
-  for (int turn = 0; turn < turns && !controls_.poll(); ++turn) {
-    const Replaced before = all_bad();
-    if (before.bad == 0) return;
-    const std::size_t steps_before = patch_.steps();
-    const auto counted = stats_.steps;
+  const double whole_goal = std::exchange(goal_, goal);
+  for (int turn = 0; turn < turns; ++turn) {
+    const std::vector<std::uint32_t> bad = patch_.triangles_below(goal_);
+    if (bad.empty()) break;
     Rng random(static_cast<std::uint64_t>(turn));
-    disturb(random);
-    if (turn % kRaisedTurns == 0) make_room();
-    run(patch_.triangles_below(goal_), kFreedom, turn % kDeepTurns == kDeepTurns - 1 ? kDepth : 1);
-    const Replaced now = all_bad();
-    if (now.bad < before.bad || (now.bad == before.bad && now.least >= before.least)) continue;
-    while (patch_.steps() > steps_before) patch_.undo();
-    stats_.steps = counted;
+    for (const std::uint32_t t : bad) {
+      if (controls_.poll()) break;
+      if (patch_.has(t)) search_around(t, turn, random);
+    }
   }
+  goal_ = whole_goal;
+  // With a lower goal, what is just above it may have been added.
+  if (goal < goal_) run(patch_.triangles_below(goal_), kFreedom, 1);
 }
 
-PatchImprovement::Replaced PatchImprovement::all_bad() const {
-  Replaced all;
+void PatchImprovement::search_around(std::uint32_t triangle, int turn, Rng& random) {
+  const BadLeft before = bad_left();
+  const std::size_t steps_before = patch_.steps(), first_added = patch_.triangle_count();
+  const auto counted = stats_.steps;
+  disturb(triangle, turn % kWideTurns == kWideTurns - 1, random);
+  const auto added_below = [&](double goal) {
+    std::vector<std::uint32_t> below;
+    if (patch_.has(triangle)) below.push_back(triangle);
+    for (auto t = static_cast<std::uint32_t>(first_added); t < patch_.triangle_count(); ++t) {
+      if (patch_.has(t) && patch_.quality(t) < goal) below.push_back(t);
+    }
+    return below;
+  };
+  if (turn % kRaisedTurns == 0) {
+    const double goal = std::exchange(goal_, std::min(1.0, kRaised * goal_));
+    run(added_below(goal_), kFreedom, 1);
+    goal_ = goal;
+  }
+  run(added_below(goal_), kFreedom, turn % kDeepTurns == kDeepTurns - 1 ? kDepth : 1);
+  const BadLeft now = bad_left();
+  if (now.count < before.count || (now.count == before.count && now.logarithms >= before.logarithms)) return;
+  while (patch_.steps() > steps_before) patch_.undo();
+  stats_.steps = counted;
+}
+
+PatchImprovement::BadLeft PatchImprovement::bad_left() const {
+  constexpr double kLeast = 1e-6;  // quality of one that is too far
+  BadLeft left;
   for (const std::uint32_t t : patch_.triangles_below(goal_)) {
-    all.least = std::min(all.least, patch_.quality(t));
-    ++all.bad;
+    ++left.count;
+    left.logarithms += std::log(std::max(patch_.quality(t), kLeast) / goal_);
   }
-  return all;
+  return left;
 }
 
-// Steps at random at the triangles that share a corner with a bad one.
-void PatchImprovement::disturb(Rng& random) {
+// Steps at random at the triangles that share a corner with a bad one; with `is_wide` also with bad ones among these.
+void PatchImprovement::disturb(std::uint32_t triangle, bool is_wide, Rng& random) {
   std::vector<std::uint32_t> around;
-  for (const std::uint32_t t : patch_.triangles_below(goal_)) {
+  const auto add_around = [&](std::uint32_t t) {
     for (const std::uint32_t v : patch_.corners(t)) {
       around.insert(around.end(), patch_.star(v).begin(), patch_.star(v).end());
+    }
+  };
+  add_around(triangle);
+  if (is_wide) {
+    for (const std::uint32_t t : std::vector(around)) {
+      if (patch_.quality(t) < goal_) add_around(t);
     }
   }
   std::sort(around.begin(), around.end());
@@ -88,14 +121,6 @@ void PatchImprovement::disturb(Rng& random) {
       ++stats_.steps[static_cast<std::size_t>(candidates_[0].kind)];
     }
   }
-}
-
-// Triangles just good enough get better, where single steps help: so there is room to move them.
-void PatchImprovement::make_room() {
-  const double goal = goal_;
-  goal_ = std::min(1.0, kRaised * goal);
-  run(patch_.triangles_below(goal_), kFreedom, 1);
-  goal_ = goal;
 }
 
 }  // namespace deliso

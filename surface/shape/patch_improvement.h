@@ -31,8 +31,9 @@ class PatchImprovement {
   // Refines the mesh around the given triangles, where that leaves better ones and no more bad ones
   // (local_refinement.cpp). `may_be_far`: on the way.
   void refine_around(std::span<const std::uint32_t> bad, double freedom, bool may_be_far);
-  // Looks for better triangles by steps at random, again and again (iterated_search.cpp).
-  void search_on(int turns);
+  // Looks for better triangles by steps at random, again and again (iterated_search.cpp). `goal`: a sine, at most that
+  // of min_angle.
+  void search_on(int turns, double goal);
 
  private:
   struct Queued {
@@ -68,9 +69,14 @@ class PatchImprovement {
   [[nodiscard]] std::size_t count_bad(std::span<const std::uint32_t> triangles) const;
   [[nodiscard]] std::size_t bad_added(std::size_t first_added) const;
   [[nodiscard]] std::uint32_t worst_added(std::size_t first_added) const;
-  [[nodiscard]] Replaced all_bad() const;
-  void disturb(Rng& random);
-  void make_room();
+  // All triangles below the goal: how many, and their qualities, in goals. As logarithms, for the worst count most.
+  struct BadLeft {
+    std::size_t count = 0;
+    double logarithms = 0;  // their sum
+  };
+  [[nodiscard]] BadLeft bad_left() const;
+  void search_around(std::uint32_t triangle, int turn, Rng& random);
+  void disturb(std::uint32_t triangle, bool is_wide, Rng& random);
   void try_refinement(std::uint32_t triangle, std::vector<std::uint32_t>& tried);
   bool is_improved(const Replaced& old, std::optional<double> old_volume, std::size_t first_added);
   bool refine_until_sound(std::uint32_t triangle, std::size_t first_added);

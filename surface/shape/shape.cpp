@@ -49,14 +49,31 @@ void improve_patch(NumberedPatch& patch, PatchImprovement& improvement, double g
   }
 }
 
-// Turns of iterated search, for so many bad triangles of a mesh. Masks and labels have one in a few hundred: for them
-// it would take longer than all else.
+// Turns of iterated search for each of so many bad triangles of a mesh: no fewer than these, or none.
+constexpr std::size_t kFewestTurns = 25;
+constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
+
 int turns_of_search(std::size_t bad, std::size_t triangles) {
-  constexpr std::size_t kFewest = 25, kMost = 100;
-  constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
+  constexpr std::size_t kMostTurns = 100;
   if (bad == 0) return 0;
-  const std::size_t turns = std::min(kMost, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad);
-  return turns < kFewest ? 0 : static_cast<int>(turns);
+  const std::size_t turns = std::min(kMostTurns, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad);
+  return turns < kFewestTurns ? 0 : static_cast<int>(turns);
+}
+
+// The goal that is missed by no more triangles than can be searched for. Masks and labels have one bad triangle in a
+// few hundred: for all of them it would take longer than all else, for the worst of them it does not.
+double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double goal) {
+  const std::size_t most = (kTurnsAtLeast + mesh.triangles.size() / kTrianglesPerTurn) / kFewestTurns;
+  if (bad.size() <= most) return goal;
+  std::vector<double> sines;
+  sines.reserve(bad.size());
+  for (const std::uint32_t t : bad) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    sines.push_back(sine_of_least_angle(mesh.points[a], mesh.points[b], mesh.points[c]));
+  }
+  const auto first_without = sines.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(sines.begin(), first_without, sines.end());
+  return *first_without;
 }
 
 // Has the patches of each pass worked on: work(patch, plan, counted).
@@ -75,7 +92,7 @@ void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const Exa
 
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
                    ShapeStats& stats) {
-  const double goal = std::sin(options.min_angle);
+  double goal = std::sin(options.min_angle);
   std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
   stats.bad_before += static_cast<std::int64_t>(bad.size());
   const auto improve = [&](int rounds, int turns) {
@@ -84,12 +101,14 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
                      PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                   controls.for_part(1, mesh.points.size()), part);
                      improve_patch(patch, improvement, goal, rounds);
-                     improvement.search_on(turns);
+                     improvement.search_on(turns, goal);
                    });
   };
   improve(options.rounds, 0);
   if (options.rounds < kMostDepth || controls.poll()) return;
   // What these have left is searched for on its own, in smaller patches.
+  bad = bad_triangles(mesh, goal, surface.threads);
+  goal = goal_of_search(mesh, bad, goal);
   bad = bad_triangles(mesh, goal, surface.threads);
   const int turns = turns_of_search(bad.size(), mesh.triangles.size());
   if (turns > 0) improve(0, turns);
@@ -119,7 +138,7 @@ void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> w
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
                     improve_patch(patch, improvement, goal, options.rounds);
-                    improvement.search_on(turns);
+                    improvement.search_on(turns, goal);
                   });
 }
 
