@@ -92,18 +92,21 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
 void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom) {
   constexpr int kStepRounds = 24;
   constexpr int kMostIdle = 2;  // where spikes were, more may be off at first
-  constexpr double kProgress = 0.9;
+  // What is left is mended by finer cubes; where an error is stated, by all stages again, which any round is better
+  // than.
+  const double progress = is_sized(parameters_) ? 1 : 0.9;
   // A step may leave a triangle as far as where no error is stated: what counts is how much is far after some of them.
   ShapeOptions options_of_steps = shape_options(parameters_);
   options_of_steps.max_height = std::max(options_of_steps.max_height, ShapeOptions{}.max_height);
   std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
   bool removes_spikes = false;
-  int idle = 0;  // rounds since that was less by a tenth
+  int idle = 0;  // rounds since that was less enough
   StuckTriangles stuck;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
-    idle = static_cast<double>(off) <= kProgress * static_cast<double>(least_off) ? 0 : idle + 1;
+    const bool is_less = off < least_off && static_cast<double>(off) <= progress * static_cast<double>(least_off);
+    idle = is_less ? 0 : idle + 1;
     if (off == 0) return;
     if (idle > kMostIdle) break;
     if (!removes_spikes && idle > 0) {
