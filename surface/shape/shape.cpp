@@ -108,8 +108,9 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   if (options.rounds < kMostDepth || controls.poll()) return;
   // What these have left is searched for on its own, in smaller patches.
   bad = bad_triangles(mesh, goal, surface.threads);
-  goal = goal_of_search(mesh, bad, goal);
-  bad = bad_triangles(mesh, goal, surface.threads);
+  const double lower = goal_of_search(mesh, bad, goal);
+  if (lower < goal) bad = bad_triangles(mesh, lower, surface.threads);
+  goal = lower;
   const int turns = turns_of_search(bad.size(), mesh.triangles.size());
   if (turns > 0) improve(0, turns);
   controls.poll();
