@@ -78,7 +78,6 @@ Place PlaceSearch::best(std::span<const RimSegment> rim, std::span<const Vec3> s
   constexpr double kFirstStep = 0.3, kLastStep = 0.03;  // mean distances from the rim
   constexpr double kLeastStepGain = 1.005;
   constexpr int kMostSteps = 40;
-  constexpr double kOffSurface = 0.8;  // what is worse by this factor before it is brought to the isosurface is left
   Place best;
   for (const Vec3& p : starts) {
     const double quality = star_quality(p, rim, best.quality);
@@ -104,7 +103,8 @@ Place PlaceSearch::best(std::span<const RimSegment> rim, std::span<const Vec3> s
     for (std::size_t tried = 0; tried < directions.size(); ++tried) {
       const std::size_t k = (first + tried) % directions.size();
       const Vec3 off = from + step * directions[k];
-      if (star_quality(off, rim, kOffSurface * best.quality) == 0) continue;
+      // What is no better before it is brought to the isosurface seldom is then.
+      if (star_quality(off, rim, best.quality) == 0) continue;
       const auto p = on_isosurface(off, normal, radius);
       const double quality = p ? star_quality(*p, rim, kLeastStepGain * best.quality) : 0;
       if (quality == 0) continue;

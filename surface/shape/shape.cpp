@@ -54,7 +54,7 @@ constexpr std::size_t kFewestTurns = 25;
 constexpr std::size_t kTrianglesPerTurn = 50, kTurnsAtLeast = 400;  // of all bad triangles together
 
 int turns_of_search(std::size_t bad, std::size_t triangles) {
-  constexpr std::size_t kMostTurns = 100;
+  constexpr std::size_t kMostTurns = 200;
   if (bad == 0) return 0;
   const std::size_t turns = std::min(kMostTurns, (kTurnsAtLeast + triangles / kTrianglesPerTurn) / bad);
   return turns < kFewestTurns ? 0 : static_cast<int>(turns);
@@ -63,6 +63,8 @@ int turns_of_search(std::size_t bad, std::size_t triangles) {
 // The goal that is missed by no more triangles than can be searched for. Masks and labels have one bad triangle in a
 // few hundred: for all of them it would take longer than all else, for the worst of them it does not.
 double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> bad, double goal) {
+  // Of a sine: its square, which is compared, may be rounded to more than that of the same triangle.
+  constexpr double kJustBelow = 1 - 1e-12;
   const std::size_t most = (kTurnsAtLeast + mesh.triangles.size() / kTrianglesPerTurn) / kFewestTurns;
   if (bad.size() <= most) return goal;
   std::vector<double> sines;
@@ -73,7 +75,7 @@ double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> ba
   }
   const auto first_without = sines.begin() + static_cast<std::ptrdiff_t>(most);
   std::nth_element(sines.begin(), first_without, sines.end());
-  return *first_without;
+  return kJustBelow * *first_without;
 }
 
 // Has the patches of each pass worked on: work(patch, plan, counted).
