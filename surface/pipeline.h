@@ -14,6 +14,7 @@
 #include "surface/certificate/repeated_check.h"
 #include "surface/deliso.h"
 #include "surface/extract/recovered_surface.h"
+#include "surface/mesh/known_triangles.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/finish/last_resort.h"
@@ -93,7 +94,8 @@ class Pipeline {
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
   Promise promise_;
-  MeshFaults last_;  // of the mesh that RefineGeom has made
+  MeshFaults last_;          // of the mesh that RefineGeom has made
+  KnownTriangles left_bad_;  // by the shape stage
 };
 
 }  // namespace deliso

@@ -82,7 +82,7 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
   timed(result_.shape, [&] {
     ShapeOptions options = shape_options(parameters_);
     options.rounds = std::min(options.rounds, most_rounds);
-    improve_shape(mesh, *surface_, options, controls_, result_.shape);
+    improve_shape(mesh, *surface_, options, controls_, result_.shape, left_bad_);
     if (controls_.observer() != nullptr) controls_.observer()->reshaped(mesh);
   });
 }

@@ -1,18 +1,17 @@
 // A run in which an error is stated: until the mesh is as near to the isosurface as that, both ways.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "surface/base/sizes.h"
 #include "surface/certificate/geometry_check.h"
+#include "surface/mesh/known_triangles.h"
 #include "surface/mesh/side_adjacency.h"
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
@@ -26,26 +25,16 @@ namespace deliso {
 
 namespace {
 
-// Far triangles that steps have been tried for: most stay as they are, whatever changes near them.
-class StuckTriangles {
- public:
-  // Those of some triangles that are none, which then are; all of them where there are no others.
-  std::vector<std::uint32_t> others(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    std::vector<std::uint32_t> others;
-    for (const std::uint32_t t : triangles) {
-      std::array<std::array<double, 3>, 3> corners{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3& p = mesh.points[mesh.triangles[t].at(i)];
-        corners.at(i) = {p.x, p.y, p.z};
-      }
-      if (known_.insert(corners).second) others.push_back(t);
-    }
-    return others.empty() ? triangles : others;
+// Those of some far triangles that steps have not been tried for yet, which they then have; all of them where there are
+// none: most stay as they are, whatever changes near them.
+std::vector<std::uint32_t> not_tried(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles,
+                                     KnownTriangles& tried) {
+  std::vector<std::uint32_t> others;
+  for (const std::uint32_t t : triangles) {
+    if (tried.add(mesh, t)) others.push_back(t);
   }
-
- private:
-  std::set<std::array<std::array<double, 3>, 3>> known_;  // by their corners, for numbers change
-};
+  return others.empty() ? triangles : others;
+}
 
 }  // namespace
 
@@ -101,7 +90,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
   std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
   bool removes_spikes = false;
   int idle = 0;  // rounds since that was less enough
-  StuckTriangles stuck;
+  KnownTriangles tried;
   for (int round = 0; round < kStepRounds && !controls_.poll(); ++round) {
     const GeometryCheck before = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     const std::int64_t off = before.mesh_off + std::ssize(before.missed_points);
@@ -111,7 +100,7 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
     if (idle > kMostIdle) break;
     if (!removes_spikes && idle > 0) {
       removes_spikes = true;
-      stuck = {};
+      tried = {};
     }
     if (idle == 0) least_off = off;
     timed(result_.shape, [&] {
@@ -122,8 +111,8 @@ void Pipeline::take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double
     });
     const GeometryCheck now = timed(result_.certify_stage, [&] { return check.distances(mesh); });
     timed(result_.shape, [&] {
-      bring_near(mesh, *surface_, stuck.others(mesh, now.far_triangles), {check.promise().max_distance, removes_spikes},
-                 options_of_steps, controls_, result_.shape);
+      bring_near(mesh, *surface_, not_tried(mesh, now.far_triangles, tried),
+                 {check.promise().max_distance, removes_spikes}, options_of_steps, controls_, result_.shape);
     });
   }
   replace_far_triangles(mesh, check);

@@ -179,7 +179,8 @@ void Pipeline::improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnes
   ShapeOptions options = shape_options(parameters_);
   options.max_height = options.max_distance = options.max_sample = promise_.max_distance;
   options.witnesses.assign(witnesses.begin(), witnesses.end());
-  timed(result_.shape, [&] { improve_shape(mesh, *surface_, options, controls_, result_.shape); });
+  KnownTriangles left;
+  timed(result_.shape, [&] { improve_shape(mesh, *surface_, options, controls_, result_.shape, left); });
 }
 
 }  // namespace deliso

@@ -93,9 +93,11 @@ void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const Exa
 }  // namespace
 
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
-                   ShapeStats& stats) {
+                   ShapeStats& stats, KnownTriangles& left) {
   double goal = std::sin(options.min_angle);
   std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
+  const auto forget_tried = [&] { std::erase_if(bad, [&](std::uint32_t t) { return left.has(mesh, t); }); };
+  forget_tried();
   stats.bad_before += static_cast<std::int64_t>(bad.size());
   const auto improve = [&](int rounds, int turns) {
     work_in_passes(mesh, bad, surface, goal, controls, stats,
@@ -110,12 +112,17 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   if (options.rounds < kMostDepth || controls.poll()) return;
   // What these have left is searched for on its own, in smaller patches.
   bad = bad_triangles(mesh, goal, surface.threads);
+  forget_tried();
   const double lower = goal_of_search(mesh, bad, goal);
-  if (lower < goal) bad = bad_triangles(mesh, lower, surface.threads);
+  if (lower < goal) {
+    bad = bad_triangles(mesh, lower, surface.threads);
+    forget_tried();
+  }
   goal = lower;
   const int turns = turns_of_search(bad.size(), mesh.triangles.size());
   if (turns > 0) improve(0, turns);
-  controls.poll();
+  if (controls.poll()) return;
+  for (const std::uint32_t t : bad_triangles(mesh, std::sin(options.min_angle), surface.threads)) left.add(mesh, t);
 }
 
 void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, int threads, ShapeStats& stats) {

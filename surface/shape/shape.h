@@ -10,15 +10,17 @@
 
 #include "surface/base/controls.h"
 #include "surface/base/exact_surface.h"
+#include "surface/mesh/known_triangles.h"
 #include "surface/mesh/surface_mesh.h"
 #include "surface/shape/shape_options.h"
 
 namespace deliso {
 
 // Improves the triangles of a mesh in mesh space with angles below options.min_angle. Only points and triangles are
-// used and kept. The same for any number of threads.
+// used and kept. The same for any number of threads. `left`: those left by earlier calls, which are tried no more; with
+// all rounds what this one leaves is added.
 void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOptions& options, Controls& controls,
-                   ShapeStats& stats);
+                   ShapeStats& stats, KnownTriangles& left);
 
 // Counts the triangles of a mesh that are badly shaped and finds the worst of them: stats.bad_after and worst.
 void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, int threads, ShapeStats& stats);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/mesh/triangle_distance.h"
+
 namespace deliso {
 
 namespace {
@@ -16,6 +18,12 @@ double solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& p) {
   const double volume = dot(a, cross(b, c));
   const double sum = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
   return volume == 0 ? 0 : 2 * std::atan2(volume, sum);
+}
+
+bool lies_on(std::span<const std::array<Vec3, 3>> triangles, const Vec3& p) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](const std::array<Vec3, 3>& triangle) {
+    return squared_distance_to_triangle(p, triangle[0], triangle[1], triangle[2]) == 0;
+  });
 }
 
 // Whether a sample's neighbours all lie on the other side: then a bubble of the isosurface stands around it.
@@ -42,6 +50,9 @@ bool sweeps_lone_sample(std::span<const std::array<Vec3, 3>> removed, std::span<
                         const Isosurface& isosurface) {
   // A sample inside sees the whole sphere; one in the face of the box at which the swept part is open sees half of it.
   constexpr double kHalfway = std::numbers::pi;
+  // Bubbles of stage 1 may have their sample on an edge: of these it sees but twice the angle between the faces there.
+  // They may go around it, but not leave it.
+  constexpr double kLoss = 1;
   Box3 box;
   for (const auto& triangles : {removed, added}) {
     for (const std::array<Vec3, 3>& corners : triangles) {
@@ -64,7 +75,8 @@ bool sweeps_lone_sample(std::span<const std::array<Vec3, 3>> removed, std::span<
         double angle = 0;
         for (const std::array<Vec3, 3>& triangle : added) angle += solid_angle(triangle, p);
         for (const std::array<Vec3, 3>& triangle : removed) angle -= solid_angle(triangle, p);
-        if (std::abs(angle) > kHalfway) return true;
+        const double gain = isosurface.is_above(p) ? angle : -angle;
+        if (gain < -kLoss || (gain > kHalfway && !lies_on(removed, p))) return true;
       }
     }
   }

@@ -12,7 +12,8 @@
 namespace deliso {
 
 // True when such a sample lies between the triangles that a step removes and those that it adds, which have the same
-// rim (at the boundary: up to a part of a face of the box). Measured by solid angles.
+// rim (at the boundary: up to a part of a face of the box), and when it lies on them and its bubble leaves it. Measured
+// by solid angles.
 bool sweeps_lone_sample(std::span<const std::array<Vec3, 3>> removed, std::span<const std::array<Vec3, 3>> added,
                         const Isosurface& isosurface);
 

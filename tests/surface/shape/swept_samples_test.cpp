@@ -53,6 +53,20 @@ TEST(SweptSamples, ABubbleMustKeepItsSample) {
   EXPECT_TRUE(sweeps_lone_sample(around, cut, isosurface));
 }
 
+// As the bubbles of four crossings have it, of which two lie on one line of the grid.
+TEST(SweptSamples, ABubbleWithItsSampleOnAnEdgeMayGoAroundItAndMustNotLeaveIt) {
+  const ScalarGrid grid = grid_with({kMiddle});
+  const Isosurface isosurface(grid, 0.9, {});
+  const Vec3 low{2, 2, 1.9}, high{2, 2, 2.1}, x{2.1, 2, 2}, y{2, 2.1, 2};
+  const auto tetrahedron = [&](const Vec3& bottom, const Vec3& top) {
+    return Triangles{{bottom, y, x}, {top, x, y}, {bottom, x, top}, {top, y, bottom}};
+  };
+  const Triangles bubble = tetrahedron(low, high);
+  EXPECT_TRUE(sweeps_lone_sample(bubble, tetrahedron({2.01, 2.01, 1.9}, {2.01, 2.01, 2.1}), isosurface));
+  EXPECT_FALSE(sweeps_lone_sample(bubble, tetrahedron({1.99, 1.99, 1.9}, {1.99, 1.99, 2.1}), isosurface));
+  EXPECT_FALSE(sweeps_lone_sample(bubble, tetrahedron(low, {2, 2, 2.05}), isosurface));
+}
+
 TEST(SweptSamples, ASampleWithANeighbourOnItsSideDoesNotCount) {
   const ScalarGrid grid = grid_with({kMiddle, kMiddle + 1});
   const Isosurface isosurface(grid, 0.9, {});
