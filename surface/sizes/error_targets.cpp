@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "surface/base/parallel_blocks.h"
 #include "surface/certificate/triangle_nearness.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
@@ -13,39 +16,51 @@ namespace deliso {
 
 namespace {
 
+constexpr std::size_t kTrianglesAtOnce = 64;
+
 // Infinite for a triangle without area.
 double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
   return distance(a, b) * distance(b, c) * distance(c, a) / (2 * norm(cross(b - a, c - a)));
+}
+
+// Of the places of a triangle that are too far, and not too many: the point of the isosurface farthest above or below
+// one.
+std::optional<Vec3> farthest_above(const SurfaceMesh& mesh, std::uint32_t t, const Isosurface& isosurface,
+                                   double most) {
+  constexpr std::int64_t kMostPlaces = 16;
+  const auto& [ia, ib, ic] = mesh.triangles[t];
+  const std::array<Vec3, 3> corners = {mesh.points[ia], mesh.points[ib], mesh.points[ic]};
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double length = norm(normal), longest = std::sqrt(squared_longest_edge(mesh, t));
+  if (!(length > 0)) return std::nullopt;
+  std::vector<Vec3> places;
+  count_far_parts(isosurface, corners, most, kMostPlaces, &places);
+  SearchCounters counters;
+  double farthest = 0;
+  std::optional<Vec3> point;
+  for (const Vec3& p : places) {
+    const Line line{p, normal / length};
+    const auto hit = isosurface.nearest_falling_hit(line, longest, counters);
+    if (!hit || std::abs(*hit) <= farthest || !isosurface.box().contains(line.at(*hit))) continue;
+    farthest = std::abs(*hit);
+    point = line.at(*hit);
+  }
+  return point;
 }
 
 }  // namespace
 
 std::vector<Vec3> error_targets(const SurfaceMesh& mesh, const ExactSurface& surface, const GeometryCheck& check,
                                 double most) {
-  const Isosurface& isosurface = surface.isosurface;
   std::vector<Vec3> targets = check.missed_points;
-  SearchCounters counters;
-  constexpr std::int64_t kMostPlaces = 16;  // looked at of a triangle
-  std::vector<Vec3> places;
-  for (const std::uint32_t t : check.far_triangles) {
-    const auto& [ia, ib, ic] = mesh.triangles[t];
-    const std::array<Vec3, 3> corners = {mesh.points[ia], mesh.points[ib], mesh.points[ic]};
-    const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const double length = norm(normal), longest = std::sqrt(squared_longest_edge(mesh, t));
-    if (!(length > 0)) continue;
-    places.clear();
-    count_far_parts(isosurface, corners, most, kMostPlaces, &places);
-    double farthest = 0;
-    Vec3 point;
-    for (const Vec3& p : places) {
-      const Line line{p, normal / length};
-      const auto hit = isosurface.nearest_falling_hit(line, longest, counters);
-      if (!hit || std::abs(*hit) <= farthest || !isosurface.box().contains(line.at(*hit))) continue;
-      farthest = std::abs(*hit);
-      point = line.at(*hit);
-    }
-    if (farthest > 0) targets.push_back(point);
-  }
+  const std::vector<Vec3> above = collect_in_blocks<Vec3>(
+      check.far_triangles.size(), surface.threads,
+      [&](std::size_t i, std::vector<Vec3>& found) {
+        const auto target = farthest_above(mesh, check.far_triangles[i], surface.isosurface, most);
+        if (target) found.push_back(*target);
+      },
+      kTrianglesAtOnce);
+  targets.insert(targets.end(), above.begin(), above.end());
   return targets;
 }
 
