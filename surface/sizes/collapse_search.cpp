@@ -55,7 +55,7 @@ std::optional<double> CollapseSearch::find(std::uint32_t vertex, bool is_last) {
     ++measured;
     double error = distance_of_isosurface(kSampleShare * limit) / kSampleShare;
     if (error <= limit) error = std::max(error, distance_of_mesh(limit));
-    if (!(error <= limit) || (is_last && !(meets_nothing() && keeps_volume() && stays_near()))) continue;
+    if (!(error <= limit) || (is_last && !(meets_nothing() && keeps_volume(tried_, vertex_) && stays_near()))) continue;
     least = limit = error;
     std::swap(best_, tried_);
     if (least <= candidates_[i].score) break;
@@ -271,17 +271,16 @@ bool CollapseSearch::meets_nothing() {
   return true;
 }
 
-// A small closed component keeps half of what it encloses, and its sign.
-bool CollapseSearch::keeps_volume() {
+bool CollapseSearch::keeps_volume(const PatchStep& step, std::uint32_t vertex) {
   constexpr std::size_t kSmall = 40;  // triangles
   constexpr double kLeastShare = 0.5;
-  if (component_.exceeds(mesh_, tried_.removed.front(), kSmall)) return true;
-  const Vec3& apex = mesh_.point(vertex_);
+  if (component_.exceeds(mesh_, step.removed.front(), kSmall)) return true;
+  const Vec3& apex = mesh_.point(vertex);
   const auto volume_of = [&](const std::array<Vec3, 3>& p) {
     return dot(p[0] - apex, cross(p[1] - apex, p[2] - apex)) / 6;
   };
   double volume = 0;
-  near_.assign(1, tried_.removed.front());
+  near_.assign(1, step.removed.front());
   for (std::size_t i = 0; i < near_.size(); ++i) {
     volume += volume_of(mesh_.corner_points(near_[i]));
     const auto& corners = mesh_.corners(near_[i]);
@@ -292,7 +291,7 @@ bool CollapseSearch::keeps_volume() {
     }
   }
   double change = 0;  // triangles at the apex enclose nothing with it
-  for (const auto& corners : tried_.added) change += volume_of(points_of(corners));
+  for (const auto& corners : step.added) change += volume_of(points_of(corners));
   return (volume + change) / volume >= kLeastShare;
 }
 

@@ -29,6 +29,9 @@ class CollapseSearch {
   // The one found last.
   [[nodiscard]] const PatchStep& step() const { return best_; }
   [[nodiscard]] double mean_edge() const { return mean_edge_; }
+  // Whether the mesh as it is now keeps half of what a small closed component encloses, and its sign, when a vertex
+  // goes.
+  [[nodiscard]] bool keeps_volume(const PatchStep& step, std::uint32_t vertex);
 
  private:
   struct Candidate {
@@ -45,7 +48,6 @@ class CollapseSearch {
   [[nodiscard]] double distance_at(const Vec3& p, const Vec3& normal, double limit);
   [[nodiscard]] bool stays_near() const;
   [[nodiscard]] bool meets_nothing();
-  [[nodiscard]] bool keeps_volume();
   [[nodiscard]] std::array<Vec3, 3> points_of(const std::array<std::uint32_t, 3>& corners) const {
     return {mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])};
   }
