@@ -66,7 +66,8 @@ class Pipeline {
   void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void begin_again(SurfaceMesh& mesh);
-  bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells);
+  bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, SurfaceMesh& recovered,
+                        CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
   void improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses);

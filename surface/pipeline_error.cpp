@@ -36,6 +36,10 @@ std::vector<std::uint32_t> not_tried(const SurfaceMesh& mesh, const std::vector<
   return others.empty() ? triangles : others;
 }
 
+bool is_same(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.points == b.points && a.triangles == b.triangles && a.pole_heights == b.pole_heights;
+}
+
 }  // namespace
 
 // The height of stage 2 is measured at one point of each triangle. Where the mesh is too far at others, its triangles
@@ -187,12 +191,13 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
   cells.add(mesh, last_.geometry);
   std::size_t cells_before = 0;
   int idle = 0;  // times in a row that brought neither a nearer mesh nor another place
+  SurfaceMesh recovered;
   for (int time = 0; time < kMostTimes && !last_.geometry.is_near() && !controls_.stopped(); ++time) {
     if (time > 0 && (time % 2 == 0 || cells.count() == cells_before)) spacing /= 2;
     cells_before = cells.count();
     const std::vector<Vec3> samples = cells.samples(spacing);
     if (samples.size() > kMostSamples) break;
-    const bool is_nearer = take_nearer_mesh(samples, mesh, cells);
+    const bool is_nearer = take_nearer_mesh(samples, mesh, recovered, cells);
     idle = is_nearer || cells.count() > cells_before ? 0 : idle + 1;
     if (idle == kMostIdle) break;
   }
@@ -201,11 +206,19 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
 }
 
 // Takes the mesh that these samples give to stage 1, if it is nearer to the isosurface: whether it is. Adds the cells
-// where it is not near.
-bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, CellsNearFaults& cells) {
+// where it is not near. `recovered`: what stage 1 has made the time before: the same again would become the same.
+bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, SurfaceMesh& recovered,
+                                CellsNearFaults& cells) {
   const MeshFaults last_before = last_;
   RepairStats repair_before = std::exchange(result_.repair, {});  // its counters decide on rounds
+  const std::vector<Vec3> targets_before = coverage_targets_;
   SurfaceMesh again = stage1(samples);
+  if (is_same(again, recovered) && coverage_targets_ == targets_before) {
+    std::swap(result_.repair, repair_before);
+    result_.repair.seconds += repair_before.seconds;
+    return false;
+  }
+  recovered = again;
   controls_.enter("refine");
   RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
   timed(result_.refine, [&] { refine_geometry(again, *isosurface_, options, controls_, result_.refine); });

@@ -141,14 +141,16 @@ void count_bad_triangles(const SurfaceMesh& mesh, const ShapeOptions& options, i
 void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> wrong, const ExactSurface& surface,
                              const ShapeOptions& options, Controls& controls, ShapeStats& stats) {
   const double goal = std::sin(options.min_angle);
-  const int turns = turns_of_search(wrong.size(), mesh.triangles.size());
-  work_in_patches(mesh, plan_patches(mesh, wrong, kReach, surface), surface.threads, stats,
+  const std::size_t triangles = mesh.triangles.size();
+  const std::vector<PatchPlan> plans = plan_patches(mesh, wrong, kReach, surface);
+  work_in_patches(mesh, plans, surface.threads, stats,
                   [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                     for (const std::uint32_t t : patch.bad) patch.patch.spoil(t);
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
                     improve_patch(patch, improvement, goal, options.rounds);
-                    improvement.search_on(turns, goal);
+                    // All that are bad are searched for, in masks many more than are wrong. In each patch as many.
+                    improvement.search_on(turns_of_search(plans.size() * patch.bad.size(), triangles), goal);
                   });
 }
 
