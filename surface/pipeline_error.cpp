@@ -214,6 +214,7 @@ bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
   const std::vector<Vec3> targets_before = coverage_targets_;
   SurfaceMesh again = stage1(samples);
   if (is_same(again, recovered) && coverage_targets_ == targets_before) {
+    last_ = last_before;
     std::swap(result_.repair, repair_before);
     result_.repair.seconds += repair_before.seconds;
     return false;
