@@ -149,7 +149,8 @@ void replace_wrong_triangles(SurfaceMesh& mesh, std::span<const std::uint32_t> w
                     PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                  controls.for_part(1, mesh.points.size()), part);
                     improve_patch(patch, improvement, goal, options.rounds);
-                    // All that are bad are searched for, in masks many more than are wrong. In each patch as many.
+                    // The search is for all that are bad in a patch, on masks many more than are wrong. The turns are
+                    // shared as if the other patches had as many.
                     improvement.search_on(turns_of_search(plans.size() * patch.bad.size(), triangles), goal);
                   });
 }

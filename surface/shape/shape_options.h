@@ -51,13 +51,11 @@ struct ShapeStats : StageStats {
   std::int64_t bad_after = 0;
   std::vector<BadTriangle> worst;  // of those left, the worst first
   std::array<std::int64_t, static_cast<std::size_t>(ShapeStep::kCount)> steps{};
-  std::int64_t pairs = 0;  // of steps that only together were an improvement
   SearchCounters search;
 
   // Adds the counters of steps and searches of a patch.
   void add(const ShapeStats& part) {
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += part.steps[i];
-    pairs += part.pairs;
     search += part.search;
   }
   void keep_worst(std::size_t most) {
