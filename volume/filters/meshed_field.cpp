@@ -15,6 +15,9 @@ namespace {
 
 void check_isovalue_of(const ScalarGrid& grid, double isovalue, const FieldParameters& parameters, bool is_closed) {
   if (!std::isfinite(isovalue)) throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
+  if (std::abs(isovalue) > kLargestSample)
+    throw InputError("isovalue " + shortest_text(isovalue) + ": expected one from -1e290 to 1e290; " +
+                     isovalue_range_text(grid, isovalue));
   if (is_closed ? has_solid(grid, isovalue, inside_of(parameters)) : has_isosurface(grid, isovalue)) return;
   const std::string of_smoothed = parameters.smooth ? " (of the smoothed field)" : "";
   throw InputError("isovalue " + shortest_text(isovalue) +

@@ -9,6 +9,7 @@
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
 #include "volume/filters/closing.h"
+#include "volume/isovalue_range.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {
@@ -24,6 +25,7 @@ void expect_on_the_box(const ScalarGrid& grid, double isovalue, Inside inside) {
   EXPECT_EQ(closed.grid.walls()->low, grid.box().low);
   EXPECT_EQ(closed.grid.walls()->high, grid.box().high);
   const double layer = closed.grid.at(0, 0, 0), used = closed.isovalue;
+  EXPECT_TRUE(std::isfinite(layer));
   EXPECT_EQ(layer < used, inside == Inside::kAbove);
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
@@ -56,6 +58,10 @@ TEST(Closing, RunsAlongTheFacesOfTheBox) {
     expect_on_the_box(ScalarGrid(dims, integers), 12345, inside);
     expect_on_the_box(ScalarGrid(dims, floats), 5e35, inside);
     expect_on_the_box(ScalarGrid(dims, doubles), 3e-198, inside);
+    // The largest that check_samples takes.
+    std::vector<double> largest(doubles.size(), -kLargestSample);
+    largest[largest.size() / 2] = kLargestSample;
+    expect_on_the_box(ScalarGrid(dims, largest), 0.99 * kLargestSample, inside);
   }
   EXPECT_EQ(closed_grid(ScalarGrid(dims, bytes), 100, Inside::kAbove).grid.type_name(), "f32");
   EXPECT_EQ(closed_grid(ScalarGrid(dims, floats), 5e35, Inside::kAbove).grid.type_name(), "f64");

@@ -110,5 +110,12 @@ TEST(MeshedField, DoesInOrderWhatItIsAskedFor) {
   EXPECT_THROW(meshed_field(ScalarGrid({7, 7, 7}, speck), 0.5, parameters, false, {1, 1, 1}, 1), InputError);
 }
 
+// The layer that closes a solid would be infinite.
+TEST(MeshedField, RefusesIsovaluesTooLargeToCloseTheSolid) {
+  const ScalarGrid grid({16, 16, 16}, blocks(16, 3));
+  EXPECT_NO_THROW(meshed_field(grid, -1e290, {}, true, {1, 1, 1}, 1));
+  EXPECT_THROW(meshed_field(grid, -1.1e290, {}, true, {1, 1, 1}, 1), InputError);
+}
+
 }  // namespace
 }  // namespace deliso
