@@ -22,18 +22,15 @@ inline std::string isovalue_range_text(const ScalarGrid& grid, double isovalue) 
   return isovalue <= low ? range + ", and an isovalue must lie above the minimum" : range;
 }
 
-// The largest magnitude of a sample: samples of the layer that closes a solid are 2^30 times as large (closing.h).
-inline constexpr double kLargestSample = 1e290;
-
 // Differences of samples are multiplied, and divided by each other: throws InputError when these would overflow or
 // vanish.
 inline void check_samples(const ScalarGrid& grid) {
-  constexpr double kSmallest = 1e-300;
+  constexpr double kSmallest = 1e-300, kLargest = 1e300;
   const auto [low, high] = grid.range();
-  const bool is_large = -low > kLargestSample || high > kLargestSample, is_small = low < high && high - low < kSmallest;
+  const bool is_large = -low > kLargest || high > kLargest, is_small = low < high && high - low < kSmallest;
   if (!is_large && !is_small) return;
   throw InputError("the samples range from " + shortest_text(low) + " to " + shortest_text(high) +
-                   (is_large ? ": expected samples from -1e290 to 1e290" : ": expected a range of 1e-300 or more") +
+                   (is_large ? ": expected samples from -1e300 to 1e300" : ": expected a range of 1e-300 or more") +
                    ", scale them");
 }
 

@@ -142,9 +142,9 @@ TEST(ScalarGrid, RefusesGeometryBeyondWhatDoublesCanTell) {
 
 TEST(IsovalueRange, RefusesSamplesTooLargeOrTooCloseToComputeWith) {
   std::vector<double> samples(8, 0.0);
-  for (const double bad : {1.1e290, -1.1e290, 1.7e308}) {
+  for (const double bad : {1.1e300, -1.1e300, 1.7e308}) {
     samples[3] = bad;
-    expect_input_error([&] { check_samples(ScalarGrid({2, 2, 2}, samples)); }, {"range", "-1e290 to 1e290", "scale"});
+    expect_input_error([&] { check_samples(ScalarGrid({2, 2, 2}, samples)); }, {"range", "-1e300 to 1e300", "scale"});
   }
   samples[3] = 1e-301;
   expect_input_error([&] { check_samples(ScalarGrid({2, 2, 2}, samples)); }, {"0 to 1e-301", "1e-300 or more"});

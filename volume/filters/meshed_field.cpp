@@ -1,5 +1,6 @@
 #include "volume/filters/meshed_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,13 +16,21 @@ namespace {
 
 void check_isovalue_of(const ScalarGrid& grid, double isovalue, const FieldParameters& parameters, bool is_closed) {
   if (!std::isfinite(isovalue)) throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
-  if (std::abs(isovalue) > kLargestSample)
-    throw InputError("isovalue " + shortest_text(isovalue) + ": expected one from -1e290 to 1e290; " +
-                     isovalue_range_text(grid, isovalue));
   if (is_closed ? has_solid(grid, isovalue, inside_of(parameters)) : has_isosurface(grid, isovalue)) return;
   const std::string of_smoothed = parameters.smooth ? " (of the smoothed field)" : "";
   throw InputError("isovalue " + shortest_text(isovalue) +
                    " gives a surface with no point: " + isovalue_range_text(grid, isovalue) + of_smoothed);
+}
+
+// The layer that closes a solid is 2^30 times as far from the isovalue as the farthest sample (closing.h): throws
+// InputError when it would overflow.
+void check_closable(const ScalarGrid& grid, double isovalue) {
+  constexpr double kLargest = 1e290;
+  const auto [low, high] = grid.range();
+  if (std::max({-low, high, std::abs(isovalue)}) <= kLargest) return;
+  throw InputError("isovalue " + shortest_text(isovalue) + " and samples from " + shortest_text(low) + " to " +
+                   shortest_text(high) +
+                   ": expected them from -1e290 to 1e290 where the surface is closed, scale them");
 }
 
 }  // namespace
@@ -37,6 +46,7 @@ MeshedField meshed_field(const ScalarGrid& grid, double isovalue, const FieldPar
   }
   check_isovalue_of(field.grid, field.isovalue, parameters, is_closed);
   if (!is_closed) return field;
+  check_closable(field.grid, field.isovalue);
   ClosedGrid closed = closed_grid(field.grid, field.isovalue, inside_of(parameters));
   return {std::move(closed.grid), closed.isovalue};
 }

@@ -111,10 +111,15 @@ TEST(MeshedField, DoesInOrderWhatItIsAskedFor) {
 }
 
 // The layer that closes a solid would be infinite.
-TEST(MeshedField, RefusesIsovaluesTooLargeToCloseTheSolid) {
+TEST(MeshedField, RefusesWhatIsTooLargeToBeClosed) {
   const ScalarGrid grid({16, 16, 16}, blocks(16, 3));
   EXPECT_NO_THROW(meshed_field(grid, -1e290, {}, true, {1, 1, 1}, 1));
   EXPECT_THROW(meshed_field(grid, -1.1e290, {}, true, {1, 1, 1}, 1), InputError);
+  std::vector<double> samples(8, 0.0);
+  samples[3] = 1.1e290;
+  const ScalarGrid large({2, 2, 2}, std::move(samples));
+  EXPECT_THROW(meshed_field(large, 1, {}, true, {1, 1, 1}, 1), InputError);
+  EXPECT_NO_THROW(meshed_field(large, 1, {}, false, {1, 1, 1}, 1));
 }
 
 }  // namespace
