@@ -70,7 +70,8 @@ std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options, const
     check_field_options(field);
     VolumeOptions volume;
     volume.path = options.volume;
-    const ChosenField chosen = choose_field(options.volume, load_volume(volume), field, meshing.parameters.field);
+    const ChosenField chosen = choose_field(options.volume, load_volume(volume), field, meshing.parameters.field,
+                                            region_of(meshing.parameters.region));
     runs.push_back(
         run_observed(std::filesystem::path(options.volume).filename().string(), chosen.grid, chosen.isovalue, meshing));
   }

@@ -44,7 +44,8 @@ void check_isovalue_of_label(const std::string& isovalue) {
                    isovalue + "', leave it out");
 }
 
-double isovalue_in(const Volume& volume, const FieldOptions& options, const FieldParameters& parameters) {
+double isovalue_in(const Volume& volume, const FieldOptions& options, const FieldParameters& parameters,
+                   const SampleRegion& region) {
   if (parameters.label) {
     if (!options.isovalue.empty()) check_isovalue_of_label(options.isovalue);
     return kLabelIsovalue;
@@ -52,15 +53,17 @@ double isovalue_in(const Volume& volume, const FieldOptions& options, const Fiel
   if (options.isovalue.empty()) throw InputError("--isovalue is required (or --label N for the surface of a label)");
   const std::optional<NamedIsovalue> name = name_of_isovalue(options.isovalue);
   if (!name) return parse_number(options.isovalue, "--isovalue");
-  return isovalue_of(volume.as_read ? finite_samples(*volume.as_read) : volume.grid.samples(), *name);
+  const Samples& all = volume.as_read ? *volume.as_read : volume.grid.samples();
+  const Samples samples = region.is_all() ? all : cropped(all, volume.grid.dims(), region);
+  return isovalue_of(volume.as_read ? finite_samples(samples) : samples, *name);
 }
 
 // The samples with finite ones in place of the others.
 ScalarGrid finite_grid(const Volume& volume, const FieldOptions& options, const FieldParameters& parameters,
-                       double isovalue) {
+                       const SampleRegion& region, double isovalue) {
   const ScalarGrid& grid = volume.grid;
   const bool is_above = (options.nan == "inside") != parameters.invert;
-  const auto [lowest, highest] = grid.range();
+  const auto [lowest, highest] = region.is_all() ? grid.range() : cropped(grid, region).range();
   double low = std::min(lowest, 2 * isovalue - highest), high = std::max(highest, 2 * isovalue - lowest);
   double nan = is_above ? high : low;
   if (parameters.label) {
@@ -150,16 +153,16 @@ void apply_field_options(const FieldOptions& options, const Volume* volume, Fiel
 }
 
 ChosenField choose_field(const std::string& path, const Volume& volume, const FieldOptions& options,
-                         const FieldParameters& parameters) {
+                         const FieldParameters& parameters, const SampleRegion& region) {
   if (volume.as_read && options.nan == "refuse") {
     throw InputError(path + ": " + first_not_finite_text(*volume.as_read, volume.grid.dims()) +
                      ": every sample must be a finite number (" + std::to_string(volume.not_finite.count()) +
                      (volume.not_finite.count() == 1 ? " is" : " are") +
                      " not); --nan outside or --nan inside takes NaN for that side");
   }
-  const double isovalue = isovalue_in(volume, options, parameters);
+  const double isovalue = isovalue_in(volume, options, parameters, region);
   if (!volume.as_read) return {volume.grid, isovalue, parameters};
-  return {finite_grid(volume, options, parameters, isovalue), isovalue, parameters};
+  return {finite_grid(volume, options, parameters, region, isovalue), isovalue, parameters};
 }
 
 FieldOfOptions field_of_options(const std::string& path, const Volume& volume, const FieldOptions& options,

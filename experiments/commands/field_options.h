@@ -12,6 +12,7 @@
 #include "volume/filters/labels.h"
 #include "volume/filters/meshed_field.h"
 #include "volume/io/base/volume.h"
+#include "volume/region.h"
 
 namespace deliso {
 
@@ -42,9 +43,10 @@ struct ChosenField {
   FieldParameters parameters;
 };
 // NaN lies outside or inside, as far beyond the isovalue as the farthest sample is on the other side, and infinities on
-// their own side. Throws InputError when there are such samples and none are wanted, or the isovalue is missing.
+// their own side. Where only a region of the volume is meshed, its samples alone decide. Throws InputError when there
+// are such samples and none are wanted, or the isovalue is missing.
 ChosenField choose_field(const std::string& path, const Volume& volume, const FieldOptions& options,
-                         const FieldParameters& parameters);
+                         const FieldParameters& parameters, const SampleRegion& region = {});
 // choose_field and meshed_field; the spacing is the grid's.
 struct FieldOfOptions {
   ChosenField chosen;

@@ -177,7 +177,8 @@ ExitCode exit_code_of(const MeshingOptions& options, const MeshingResult& result
 Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const World& world, MeshingOptions meshing,
                 std::optional<std::int32_t> label) {
   if (label) meshing.parameters.field.label = label;
-  ChosenField chosen = choose_field(options.volume.path, volume, options.field, meshing.parameters.field);
+  ChosenField chosen = choose_field(options.volume.path, volume, options.field, meshing.parameters.field,
+                                    region_of(meshing.parameters.region));
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;

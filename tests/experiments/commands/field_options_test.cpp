@@ -208,6 +208,19 @@ TEST_F(Fields, NaNIsRefusedOrTakenAsAsked) {
             told["named_isovalues"]["otsu"]);
 }
 
+// The names of isovalues, and what stands for NaN, follow from the samples of the region alone, for all commands.
+TEST_F(Fields, OfARegionAreOfItsSamples) {
+  std::string bytes = holed_volume();
+  for (const std::size_t byte : {0u, 1u, 2u, 3u}) bytes[bytes.size() - 4 + byte] = "\0\0\x7a\x44"[byte];  // 1000
+  write_file(volume_, bytes);
+  EXPECT_EQ(info()["volume"]["range"][1], 1000);
+  for (const char* name : {"otsu", "25%", "75%"}) {
+    const Json report =
+        expect_proven({"--isovalue", name, "--nan", "outside", "--region", ":10,:10,:10"}, {"--isovalue", name});
+    EXPECT_LT(report["isovalue"], 4) << name;
+  }
+}
+
 TEST_F(Fields, ClosedIsNotedInTheFileOfTheMesh) {
   write_field<float>(volume_, [](int, double d) { return d - 9; });
   const Json report = expect_proven({"--isovalue", "0", "--invert", "--set", "boundary=closed"}, {"--isovalue", "0"});
