@@ -180,8 +180,10 @@ std::unique_ptr<RecoveredSurface> Pipeline::mended(DelS del_s1, std::span<const 
   del_s1.reset();
   release_free_memory();
   // Where an error is stated, the samples of a lattice come in useful; marching cubes would have to be brought nearer.
-  const RoundsOptions options{
-      .fixed = samples, .may_give_up = !is_sized(parameters_), .max_distance = promise_.max_distance};
+  RoundsOptions options{.fixed = samples, .may_give_up = !is_sized(parameters_), .max_distance = promise_.max_distance};
+  if (is_sized(parameters_) || !samples.empty()) {
+    options.nearness = {.max_distance = promise_.max_distance, .samples = samples, .parts = cube_parts_};
+  }
   auto repair = std::make_unique<Repair>(*cache_, std::move(signs_alone), parameters_.repair.max_rounds, options,
                                          controls_, result_.repair);
   repair->mend_topology();

@@ -94,6 +94,7 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
+  std::int32_t cube_parts_ = 2;  // of cells of marching cubes, where these have to be nearer
   Promise promise_;
   MeshFaults last_;          // of the mesh that RefineGeom has made
   KnownTriangles left_bad_;  // by the shape stage

@@ -197,6 +197,7 @@ void Pipeline::begin_again(SurfaceMesh& mesh) {
     cells_before = cells.count();
     const std::vector<Vec3> samples = cells.samples(spacing);
     if (samples.size() > kMostSamples) break;
+    ++cube_parts_;
     const bool is_nearer = take_nearer_mesh(samples, mesh, recovered, cells);
     idle = is_nearer || cells.count() > cells_before ? 0 : idle + 1;
     if (idle == kMostIdle) break;

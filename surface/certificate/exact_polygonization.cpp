@@ -13,9 +13,16 @@
 namespace deliso {
 
 ExactPolygonization exact_polygonization(const ExactSurface& exact) {
+  ExactPolygonization surface = cubes_without(exact, [](const CellIndex&) { return false; });
+  set_side_adjacency(surface.mesh);
+  take_strips_off(surface, exact.isosurface);
+  return surface;
+}
+
+ExactPolygonization cubes_without(const ExactSurface& exact, const std::function<bool(const CellIndex&)>& is_left_out) {
   const IsosurfaceTopology& topology = exact.topology;
-  MarchingCubesMesh cubes =
-      marching_cubes(exact.grid(), exact.isosurface.isovalue(), topology.index, topology.crossings, &kExactTests);
+  MarchingCubesMesh cubes = marching_cubes(exact.grid(), exact.isosurface.isovalue(), topology.index,
+                                           topology.crossings, &kExactTests, is_left_out);
   ExactPolygonization surface;
 
   // A triangle belongs to the component of its crossings; a triangle with only inner points to that of a neighbouring
@@ -49,8 +56,6 @@ ExactPolygonization exact_polygonization(const ExactSurface& exact) {
   surface.mesh.points = std::move(cubes.points);
   surface.mesh.pole_heights.assign(surface.mesh.points.size(), 1);
   surface.mesh.triangles = std::move(cubes.triangles);
-  set_side_adjacency(surface.mesh);
-  take_strips_off(surface, exact.isosurface);
   return surface;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "surface/base/exact_surface.h"
@@ -16,6 +17,10 @@ struct ExactPolygonization {
   std::vector<std::uint32_t> component;
 };
 ExactPolygonization exact_polygonization(const ExactSurface& exact);
+
+// The same without the triangles of some cells, before neighbours are found and take_strips_off; vertices that are
+// crossings have their numbers.
+ExactPolygonization cubes_without(const ExactSurface& exact, const std::function<bool(const CellIndex&)>& is_left_out);
 
 // Where the volume has walls there are strips of triangles in the layer outside them: puts what lies next to a wall
 // onto it, takes the strips out, and finds neighbours anew. Elsewhere nothing changes.

@@ -83,13 +83,6 @@ std::optional<std::uint32_t> same_component(std::uint32_t component, const Exact
   return std::nullopt;
 }
 
-// Crossings that round to a sample would coincide there, and their triangles cross. At a distance from it, far less
-// than vertices may be off the isosurface, they do not.
-void keep_apart(IsosurfaceTopology& topology) {
-  constexpr double kLeast = 2e-4;  // of an edge
-  for (EdgeCrossing& crossing : topology.crossings) crossing.t = std::clamp(crossing.t, kLeast, 1 - kLeast);
-}
-
 // Appends the cubes of a component in its part of the grid.
 void append_cubes_of(std::uint32_t component, const SamplePart& part, const ExactSurface& surface,
                      const GridFactors& factors, ExactPolygonization& all) {
@@ -113,6 +106,11 @@ void append_cubes_of(std::uint32_t component, const SamplePart& part, const Exac
 }
 
 }  // namespace
+
+void keep_apart(IsosurfaceTopology& topology) {
+  constexpr double kLeast = 2e-4;  // of an edge
+  for (EdgeCrossing& crossing : topology.crossings) crossing.t = std::clamp(crossing.t, kLeast, 1 - kLeast);
+}
 
 GridFactors factors_within(double max_distance, const Isosurface& isosurface) {
   constexpr double kDiagonal = 0.9;  // of the distance

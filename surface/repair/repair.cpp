@@ -19,6 +19,7 @@ Repair::Repair(const ExactSurfaceCache& cache, std::unique_ptr<SignedDelaunay> r
     : cache_(cache),
       surface_(cache.surface()),
       max_rounds_(max_rounds),
+      nearness_(options.nearness),
       controls_(controls),
       stats_(stats),
       rounds_(cache, std::move(restricted), stats, options) {}
@@ -49,8 +50,8 @@ void Repair::mend(SurfaceMesh& mesh) {
   mend_vertices();
   // A piece with foreign vertices may lie on the whole of another component, or have most of its vertices there.
   const bool may_be_misplaced = stats_.components_mixed > 0 && !controls_.poll();
-  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, is_polygonized_)) is_crossing_free_ = false;
-  if (!is_crossing_free_) polygonize_crossing_pieces(result_.mesh, cache_, is_polygonized_, controls_);
+  if (may_be_misplaced && polygonize_misplaced_pieces(result_.mesh, cache_, nearness_, is_polygonized_)) is_crossing_free_ = false;
+  if (!is_crossing_free_) polygonize_crossing_pieces(result_.mesh, cache_, nearness_, is_polygonized_, controls_);
   stats_.components_polygonized = std::count(is_polygonized_.begin(), is_polygonized_.end(), true);
   stats_.vertices_after = static_cast<std::int64_t>(result_.mesh.points.size());
   mesh = std::move(result_.mesh);
@@ -89,7 +90,7 @@ bool Repair::assemble() {
 // Takes the components that have no mesh from marching cubes.
 void Repair::polygonize_rest() {
   if (std::find(is_polygonized_.begin(), is_polygonized_.end(), true) == is_polygonized_.end()) return;
-  append_cubes(cache_, is_polygonized_, result_.mesh, &result_.component);
+  append_cubes(cache_, is_polygonized_, nearness_, result_.mesh, &result_.component);
 }
 
 // Removes foreign vertices, unless the removal itself makes triangles cross. Returns whether no foreign vertex is left

@@ -57,6 +57,7 @@ class Repair : public RecoveredSurface {
   const ExactSurfaceCache& cache_;
   const ExactSurface& surface_;
   std::int32_t max_rounds_;
+  const std::optional<CubeNearness> nearness_;
   Controls& controls_;
   RepairStats& stats_;
   RepairRounds rounds_;

@@ -16,6 +16,12 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
 
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                  std::span<const EdgeCrossing> crossings, const ExactTests* tests) {
+  return marching_cubes(grid, isovalue, index, crossings, tests, [](const CellIndex&) { return false; });
+}
+
+MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                 std::span<const EdgeCrossing> crossings, const ExactTests* tests,
+                                 const std::function<bool(const CellIndex&)>& is_left_out) {
   MarchingCubesMesh mesh;
   mesh.points.reserve(crossings.size());
   for (const EdgeCrossing& crossing : crossings) mesh.points.push_back(crossing_position(grid, crossing));
@@ -23,6 +29,7 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
   mesh.triangles.reserve(2 * mesh.crossing_count);
   CellTriangulation cells(grid, isovalue, index, crossings, tests);
   index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+    if (is_left_out(cell)) return;
     const MarchingCubesPatch& patch = cells.triangulate(cell, pattern);
     mesh.points.insert(mesh.points.end(), patch.points.begin() + static_cast<std::ptrdiff_t>(patch.crossing_count),
                        patch.points.end());

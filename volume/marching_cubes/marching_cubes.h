@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,5 +35,9 @@ MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const 
 // The same for callers that already have the index of the crossings and their list (list_crossings).
 MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
                                  std::span<const EdgeCrossing> crossings, const ExactTests* tests = nullptr);
+// The same without the triangles of some cells.
+MarchingCubesMesh marching_cubes(const ScalarGrid& grid, double isovalue, const CrossingIndex& index,
+                                 std::span<const EdgeCrossing> crossings, const ExactTests* tests,
+                                 const std::function<bool(const CellIndex&)>& is_left_out);
 
 }  // namespace deliso

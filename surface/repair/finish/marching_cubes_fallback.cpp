@@ -40,14 +40,15 @@ void raise_pole_heights(SurfaceMesh& mesh, std::size_t first, const ExactSurface
 
 // Takes these components from marching cubes instead. Pieces on no component go, too.
 void replace(const std::vector<bool>& components, const PieceComponents& pieces, const ExactSurfaceCache& cache,
-             SurfaceMesh& mesh) {
+             const std::optional<CubeNearness>& nearness, SurfaceMesh& mesh) {
   drop_pieces(mesh, pieces, [&](std::uint32_t c) { return c == kNoComponent || components[c]; });
-  append_cubes(cache, components, mesh);
+  append_cubes(cache, components, nearness, mesh);
 }
 
 }  // namespace
 
-void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components, SurfaceMesh& mesh,
+void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& components,
+                  const std::optional<CubeNearness>& nearness, SurfaceMesh& mesh,
                   std::vector<std::uint32_t>* component_of) {
   const std::size_t first = mesh.points.size();
   const auto append = [&](const ExactPolygonization& cubes, const std::vector<bool>& wanted) {
@@ -63,21 +64,26 @@ void append_cubes(const ExactSurfaceCache& cache, const std::vector<bool>& compo
     append(finer, components);
     for (const std::uint32_t c : finer.component) rest[c] = false;
   }
-  if (std::find(rest.begin(), rest.end(), true) != rest.end()) append(cache.polygonized(), rest);
+  if (std::find(rest.begin(), rest.end(), true) != rest.end()) {
+    append(nearness ? nearer_cubes(rest, surface, *nearness) : cache.polygonized(), rest);
+  }
   raise_pole_heights(mesh, first, surface);
 }
 
-bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized) {
+bool polygonize_misplaced_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache,
+                                 const std::optional<CubeNearness>& nearness, std::vector<bool>& is_polygonized) {
   const AssignmentFaults faults = assignment_faults(mesh, cache.surface());
   if (faults.is_empty()) return false;
   std::vector<bool> replaced(is_polygonized.size(), false);
   faults.mark(replaced);
   faults.mark(is_polygonized);
-  replace(replaced, piece_components(mesh, cache.surface()), cache, mesh);
+  if (nearness) replaced = is_polygonized;
+  replace(replaced, piece_components(mesh, cache.surface()), cache, nearness, mesh);
   return true;
 }
 
-void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache, std::vector<bool>& is_polygonized,
+void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cache,
+                                const std::optional<CubeNearness>& nearness, std::vector<bool>& is_polygonized,
                                 Controls& controls) {
   while (!controls.poll()) {
     const SelfIntersections found =
@@ -98,7 +104,9 @@ void polygonize_crossing_pieces(SurfaceMesh& mesh, const ExactSurfaceCache& cach
       mesh = cache.polygonized().mesh;
       return;
     }
-    replace(replaced, pieces, cache, mesh);
+    // Two components that share a cell are divided there together, or cross.
+    if (nearness) replaced = is_polygonized;
+    replace(replaced, pieces, cache, nearness, mesh);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "surface/repair/diagnosis/exact_surface_cache.h"
 #include "surface/repair/diagnosis/matched_mesh.h"
 #include "surface/repair/diagnosis/spanning_triangles.h"
+#include "surface/repair/finish/nearer_cubes.h"
 #include "surface/repair/lattice/cell_levels.h"
 #include "surface/repair/lattice/sample_lattice.h"
 #include "surface/repair/lattice/samples.h"
@@ -30,6 +31,8 @@ struct RoundsOptions {
   // Whether components are given up (sample_budget.h).
   bool may_give_up = true;
   double max_distance = 1;  // mesh-space units: what is promised
+  // Of components that come from marching cubes in the end: none where whole cells will do.
+  std::optional<CubeNearness> nearness = {};
 };
 
 class RepairRounds {

@@ -43,7 +43,7 @@ TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
 
   std::vector<bool> is_polygonized(components, false);
   Controls controls(BudgetParameters{}, nullptr, {});
-  polygonize_crossing_pieces(mesh, cache, is_polygonized, controls);
+  polygonize_crossing_pieces(mesh, cache, {}, is_polygonized, controls);
   EXPECT_TRUE(is_polygonized[0] && is_polygonized[1]);
   EXPECT_EQ(self_intersections(mesh.points, mesh.triangles).crossing_pairs, 0);
   EXPECT_EQ(mesh.pole_heights.size(), mesh.points.size());
@@ -52,7 +52,7 @@ TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
 
   // Nothing is left to do.
   const std::vector<Vec3> before = mesh.points;
-  polygonize_crossing_pieces(mesh, ExactSurfaceCache(scene->surface(2)), is_polygonized, controls);
+  polygonize_crossing_pieces(mesh, ExactSurfaceCache(scene->surface(2)), {}, is_polygonized, controls);
   EXPECT_EQ(mesh.points, before);
 }
 
@@ -60,7 +60,7 @@ TEST(MarchingCubesFallback, ReplacesPiecesUntilNothingCrosses) {
 TEST(MarchingCubesFallback, PoleHeightsOfASphereAreNearItsRadius) {
   const auto scene = testing::field_scene("sphere", 40);
   SurfaceMesh mesh;
-  append_cubes(ExactSurfaceCache(scene->surface()), {true}, mesh);
+  append_cubes(ExactSurfaceCache(scene->surface()), {true}, {}, mesh);
   const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
                                                [](const Vec3& a, const Vec3& b) { return a.x < b.x; });
   const double radius = (high->x - low->x) / 2;
@@ -71,7 +71,8 @@ TEST(MarchingCubesFallback, PoleHeightsOfASphereAreNearItsRadius) {
 TEST(MarchingCubesFallback, PoleHeightsOfNoiseAreAVoxelOrMore) {
   const auto scene = testing::noise_scene({9, 8, 9}, 2);
   SurfaceMesh mesh;
-  append_cubes(ExactSurfaceCache(scene->surface()), std::vector<bool>(scene->topology.components.size(), true), mesh);
+  append_cubes(ExactSurfaceCache(scene->surface()), std::vector<bool>(scene->topology.components.size(), true), {},
+               mesh);
   const auto voxels = std::count(mesh.pole_heights.begin(), mesh.pole_heights.end(), 1.0);
   EXPECT_GT(voxels, std::ssize(mesh.points) * 9 / 10);
   for (const double height : mesh.pole_heights) EXPECT_GE(height, 1);
@@ -85,7 +86,7 @@ TEST(MarchingCubesFallback, PoleHeightsOfOtherComponentsStay) {
   SurfaceMesh mesh;
   append_pieces(cache.polygonized().mesh, cache.polygonized().component, {true}, mesh);
   const std::size_t first = mesh.points.size();
-  append_cubes(cache, others, mesh);
+  append_cubes(cache, others, {}, mesh);
   for (std::size_t v = 0; v < first; ++v) EXPECT_EQ(mesh.pole_heights[v], 1);
   EXPECT_GT(*std::max_element(mesh.pole_heights.begin(), mesh.pole_heights.end()), 1);
 }
@@ -96,7 +97,7 @@ TEST(MarchingCubesFallback, PointsOnALineAreNoError) {
   samples[2 + 5 * (2 + 5 * 2)] = 1;
   const testing::Scene scene("sample", {{5, 5, 5}, std::move(samples)}, 1 - 0x1p-53);
   SurfaceMesh mesh;
-  append_cubes(ExactSurfaceCache(scene.surface()), {true}, mesh);
+  append_cubes(ExactSurfaceCache(scene.surface()), {true}, {}, mesh);
   EXPECT_EQ(mesh.points.size(), 6u);
   for (const double height : mesh.pole_heights) EXPECT_EQ(height, 1);
 }
