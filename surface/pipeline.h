@@ -65,7 +65,9 @@ class Pipeline {
   void bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
+  void take_nearer_cubes(SurfaceMesh& mesh);
   void begin_again(SurfaceMesh& mesh);
+  void bring_again_near(SurfaceMesh& mesh);
   bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, SurfaceMesh& recovered,
                         CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);

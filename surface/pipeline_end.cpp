@@ -28,7 +28,10 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   // Of a run that was stopped no distance is promised, and its few large triangles would take long to measure.
   if (!parameters_.certify || controls_.stopped()) return;
   if (is_sized(parameters_)) {
-    if (!refine_to_error(mesh, options) && !controls_.stopped()) begin_again(mesh);
+    if (!refine_to_error(mesh, options)) {
+      take_nearer_cubes(mesh);
+      begin_again(mesh);
+    }
   } else {
     come_near(mesh, options);
   }

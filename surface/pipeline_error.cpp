@@ -36,6 +36,8 @@ std::vector<std::uint32_t> not_tried(const SurfaceMesh& mesh, const std::vector<
   return others.empty() ? triangles : others;
 }
 
+std::int64_t places_off(const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_points); }
+
 bool is_same(const SurfaceMesh& a, const SurfaceMesh& b) {
   return a.points == b.points && a.triangles == b.triangles && a.pole_heights == b.pole_heights;
 }
@@ -132,7 +134,6 @@ void Pipeline::replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check) {
   const auto distances = [&](const SurfaceMesh& of) {
     return timed(result_.certify_stage, [&] { return check.distances(of); });
   };
-  const auto off = [](const GeometryCheck& its) { return its.mesh_off + std::ssize(its.missed_points); };
   ShapeOptions options = shape_options(parameters_);
   options.max_sample = check.promise().max_distance;
   GeometryCheck far = distances(mesh);
@@ -143,7 +144,7 @@ void Pipeline::replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check) {
     timed(result_.shape,
           [&] { replace_wrong_triangles(next, far.far_triangles, *surface_, options, controls_, result_.shape); });
     GeometryCheck now = distances(next);
-    if (off(now) >= off(far)) {
+    if (places_off(now) >= places_off(far)) {
       take_back_shape(shape_before);
       return;
     }
@@ -172,6 +173,47 @@ void Pipeline::improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check) {
   mesh = std::move(before);
   take_back_shape(shape_before);
   last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+}
+
+// Triangles may lie across a fold or between sheets that nearly meet, where no insertion of stage 2 and no step brings
+// them near. Components that have such triangles come from marching cubes, with some cells divided: that is near at
+// once.
+void Pipeline::take_nearer_cubes(SurfaceMesh& mesh) {
+  if (!repairs(parameters_) || parameters_.algorithm != Algorithm::kTwoStage) return;
+  Observer* const observer = controls_.observer();
+  controls_.set_observer(nullptr);  // what it would learn may be taken back
+  CellsNearFaults cells(*isosurface_);
+  for (const std::int32_t parts : {2, 4}) {
+    if (last_.geometry.is_near() || controls_.stopped()) break;
+    const MeshFaults last_before = last_;
+    SurfaceMesh next = mesh;
+    const std::vector<Vec3> samples = cells.samples(1);
+    const std::int64_t replaced = timed(result_.repair, [&] {
+      return replace_by_nearer_cubes(next, *surface_, last_,
+                                     {.max_distance = promise_.max_distance, .samples = samples, .parts = parts});
+    });
+    if (replaced == 0) break;
+    bring_again_near(next);
+    cells.add(next, last_.geometry);
+    const bool is_nearer = !controls_.stopped() && places_off(last_.geometry) < places_off(last_before.geometry);
+    if (is_nearer) {
+      mesh = std::move(next);
+    } else {
+      last_ = last_before;
+    }
+  }
+  controls_.set_observer(observer);
+}
+
+// Stage 2 and what follows it, for a mesh that stage 1 or marching cubes have made anew.
+void Pipeline::bring_again_near(SurfaceMesh& mesh) {
+  controls_.enter("refine");
+  RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
+  timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
+  options.smoothing_passes = 0;
+  if (parameters_.size.max_edge) limit_edges(mesh, options);
+  improve(mesh, parameters_.shape.rounds);
+  refine_to_error(mesh, options);
 }
 
 // Triangles may lie across a fold or between sheets that nearly meet, and tips may be out of reach: what stage 1 makes
@@ -221,21 +263,14 @@ bool Pipeline::take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh
     return false;
   }
   recovered = again;
-  controls_.enter("refine");
-  RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
-  timed(result_.refine, [&] { refine_geometry(again, *isosurface_, options, controls_, result_.refine); });
-  options.smoothing_passes = 0;
-  if (parameters_.size.max_edge) limit_edges(again, options);
-  improve(again, parameters_.shape.rounds);
-  refine_to_error(again, options);
+  bring_again_near(again);
   if (!is_sized(parameters_)) {
     RepeatedCheck check(*surface_, promise_);
     last_.geometry = timed(result_.certify_stage, [&] { return check(again); });
     improve_while_near(again, check);
   }
   cells.add(again, last_.geometry);
-  const auto off = [](const GeometryCheck& check) { return check.mesh_off + std::ssize(check.missed_points); };
-  const bool is_nearer = !controls_.stopped() && off(last_.geometry) < off(last_before.geometry);
+  const bool is_nearer = !controls_.stopped() && places_off(last_.geometry) < places_off(last_before.geometry);
   if (is_nearer) {
     mesh = std::move(again);
   } else {

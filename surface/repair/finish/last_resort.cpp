@@ -33,8 +33,10 @@ std::vector<bool> faulty_triangles(const SurfaceMesh& mesh, const MeshFaults& fa
 }
 
 // Adds the components that have faults.
-void mark_components(const SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
-                     std::vector<bool>& is_marked) {
+void mark_faulty(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                 std::vector<bool>& is_marked) {
+  mesh.pole_heights.assign(mesh.points.size(), 1);
+  set_side_adjacency(mesh);
   const PieceComponents pieces = piece_components(mesh, surface);
   const std::vector<bool> is_faulty = faulty_triangles(mesh, faults);
   for (std::uint32_t t = 0; t < is_faulty.size(); ++t) {
@@ -55,10 +57,9 @@ void take_foreign_vertices_out(const ExactSurface& surface, SurfaceMesh& mesh) {
   remove_foreign_vertices(mesh, components_at(mesh, all, surface));
 }
 
-// Takes the marked components from the finer cubes, as far as they have a mesh there. Returns how many.
-std::int64_t replace_marked(const ExactSurface& surface, const std::vector<bool>& is_marked, double max_distance,
-                            SurfaceMesh& mesh) {
-  const ExactPolygonization finer = finer_cubes(is_marked, surface, factors_within(max_distance, surface.isosurface));
+// Takes components from cubes of them. Returns how many.
+std::int64_t replace_by(const ExactPolygonization& finer, const ExactSurface& surface,
+                        const std::vector<bool>& is_marked, SurfaceMesh& mesh) {
   std::vector<bool> is_replaced(is_marked.size(), false);
   for (const std::uint32_t component : finer.component) is_replaced[component] = true;
   const std::int64_t count = std::count(is_replaced.begin(), is_replaced.end(), true);
@@ -79,10 +80,16 @@ SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& i
 std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
                                        double cube, std::vector<bool>& is_marked) {
   is_marked.resize(surface.topology.components.size(), false);
-  mesh.pole_heights.assign(mesh.points.size(), 1);
-  set_side_adjacency(mesh);
-  mark_components(mesh, surface, faults, is_marked);
-  return replace_marked(surface, is_marked, cube, mesh);
+  mark_faulty(mesh, surface, faults, is_marked);
+  const GridFactors factors = factors_within(cube, surface.isosurface);
+  return replace_by(finer_cubes(is_marked, surface, factors), surface, is_marked, mesh);
+}
+
+std::int64_t replace_by_nearer_cubes(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                                     const CubeNearness& wanted) {
+  std::vector<bool> is_marked(surface.topology.components.size(), false);
+  mark_faulty(mesh, surface, faults, is_marked);
+  return replace_by(nearer_cubes(is_marked, surface, wanted), surface, is_marked, mesh);
 }
 
 }  // namespace deliso

@@ -8,6 +8,7 @@
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"
+#include "surface/repair/finish/nearer_cubes.h"
 
 namespace deliso {
 
@@ -31,5 +32,10 @@ SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& i
 // components replaced. In mesh space. `cube`: how long the diagonals of the cubes may be.
 std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
                                        double cube, std::vector<bool>& is_marked);
+
+// Replaces the components that have faults by marching cubes that are finer where that brings them near enough
+// (nearer_cubes.h). Returns the number of components replaced. In mesh space.
+std::int64_t replace_by_nearer_cubes(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
+                                     const CubeNearness& wanted);
 
 }  // namespace deliso

@@ -16,7 +16,9 @@ namespace deliso {
 
 namespace {
 
-constexpr int kMostRounds = 6;
+constexpr int kMostRounds = 8;
+constexpr std::int32_t kMostParts = 4;  // of a cell, because many are too far
+constexpr std::size_t kFew = 20;        // one cell in so many may be
 constexpr std::size_t kMostCrossings = 4096;
 
 // The cells that are to be divided.
@@ -93,13 +95,19 @@ ExactPolygonization nearer_cubes(const std::vector<bool>& components, const Exac
     ExactPolygonization part = part_of(*graded, components);
     const SelfIntersections found =
         self_intersections(part.mesh.points, part.mesh.triangles, kMostCrossings, surface.threads);
-    if (found.crossing_pairs == 0) return part;
     const std::size_t before = cells.count();
     for (const TrianglePair& pair : found.crossing) {
       cells.add_cell_of(part.mesh, pair.first);
       cells.add_cell_of(part.mesh, pair.second);
     }
-    if (cells.count() == before) break;
+    if (cells.count() > before) continue;
+    if (found.crossing_pairs > 0) break;
+    DividedCells far(surface);
+    add_far_cells(part.mesh, components, surface, wanted.max_distance, far);
+    const bool is_near = far.count() * kFew <= cells.count() || parts >= kMostParts;
+    whole = std::move(part);
+    if (is_near) break;
+    ++parts;
   }
   return whole;
 }

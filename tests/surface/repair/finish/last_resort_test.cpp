@@ -40,6 +40,24 @@ TEST(LastResort, ReplacesComponentsWhosePiecesAreNotInPlace) {
   }
 }
 
+// Marching cubes of noise, a part of which has no mesh: what takes its place is near, but for little.
+TEST(LastResort, CubesWithDividedCellsAreNear) {
+  const auto scene = testing::noise_scene({10, 10, 10}, 5);
+  const ExactSurface surface = scene->surface();
+  const Promise promise{.max_distance = 0.3, .within_cells = true};
+  SurfaceMesh mesh = exact_polygonization(surface).mesh;
+  MeshFaults faults;
+  faults.geometry = check_geometry(mesh, surface, promise);
+  faults.places = assignment_faults(mesh, surface);
+  const std::int64_t before = faults.count();
+  ASSERT_GT(before, 100);
+  EXPECT_GT(replace_by_nearer_cubes(mesh, surface, faults, {.max_distance = 0.3}), 0);
+  faults.geometry = check_geometry(mesh, surface, promise);
+  faults.places = assignment_faults(mesh, surface);
+  EXPECT_LT(10 * faults.count(), before);
+  EXPECT_EQ(crossing_in_world(mesh, surface.isosurface, 1).crossing_pairs, 0);
+}
+
 // RefineGeom made a piece of one component grow onto another, and the piece of this one onto the first; a third had
 // taken three vertices of it. Of ANEURISM's noise.
 TEST(LastResort, MendsPiecesThatHaveGrownOntoOthers) {

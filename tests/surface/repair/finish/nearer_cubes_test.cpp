@@ -23,8 +23,8 @@ std::int64_t off(const SurfaceMesh& mesh, const testing::Scene& scene, double ma
 
 TEST(NearerCubes, OfNoiseLeaveLittleFarAndDoNotCross) {
   Rng rng(8);
-  for (int field = 0; field < 4; ++field) {
-    const testing::Scene scene("noise", testing::noise_grid({12, 12, 12}, {1, 1, 1}, rng), 127.5);
+  for (int field = 0; field < 2; ++field) {
+    const testing::Scene scene("noise", testing::noise_grid({10, 10, 10}, {1, 1, 1}, rng), 127.5);
     const std::vector<bool> all(scene.topology.components.size(), true);
     const ExactPolygonization whole = exact_polygonization(scene.surface());
     const ExactPolygonization near = nearer_cubes(all, scene.surface(), {.max_distance = 0.3});
