@@ -183,6 +183,7 @@ void Pipeline::take_nearer_cubes(SurfaceMesh& mesh) {
   Observer* const observer = controls_.observer();
   controls_.set_observer(nullptr);  // what it would learn may be taken back
   CellsNearFaults cells(*isosurface_);
+  std::int64_t& polygonized = result_.repair.components_polygonized;
   for (const std::int32_t parts : {2, 4}) {
     if (last_.geometry.is_near() || controls_.stopped()) break;
     const MeshFaults last_before = last_;
@@ -198,6 +199,7 @@ void Pipeline::take_nearer_cubes(SurfaceMesh& mesh) {
     const bool is_nearer = !controls_.stopped() && places_off(last_.geometry) < places_off(last_before.geometry);
     if (is_nearer) {
       mesh = std::move(next);
+      polygonized = std::max(polygonized, replaced);
     } else {
       last_ = last_before;
     }

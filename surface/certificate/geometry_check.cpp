@@ -16,7 +16,6 @@
 #include "surface/certificate/far_crossings.h"
 #include "surface/certificate/point_nearness.h"
 #include "surface/certificate/triangle_nearness.h"
-#include "surface/mesh/solid_angle.h"
 
 namespace deliso {
 
@@ -158,9 +157,18 @@ int facing_by_gradient(const Isosurface& isosurface, const Corners& corners) {
 
 // Whether a component faces lower values that is far smaller than a voxel, where points beside one triangle may lie
 // beyond others. Extremes of the interpolant are at samples, so it winds around the sample nearest to it, or on the box
-// half around it. Nothing where that does not tell.
+// half around it. Nothing where it is larger.
 std::optional<bool> grain_faces_lower(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles,
-                                      const Vec3& sample, const Isosurface& isosurface) {
+                                      const Isosurface& isosurface) {
+  Box3 box;
+  for (const std::size_t t : triangles) {
+    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
+  }
+  if (!(norm(box.size()) <= kFarthestBeside)) return std::nullopt;
+  Vec3 sample = (box.low + box.high) / 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sample[axis] = std::round(sample[axis] / isosurface.step()[axis]) * isosurface.step()[axis];
+  }
   double volume = 0;
   for (const std::size_t t : triangles) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -170,45 +178,9 @@ std::optional<bool> grain_faces_lower(const SurfaceMesh& mesh, const std::vector
   return (volume > 0) == isosurface.is_above(sample);
 }
 
-// Whether a component faces lower values by the samples that it winds around: those above the isovalue, or against its
-// direction those below. Where walls are thinner than the mesh may be off, points beside most of its triangles may lie
-// beyond the other side of the wall. Few samples alone are asked.
-bool winds_around_its_side(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles,
-                           const Isosurface& isosurface) {
-  constexpr double kMostSolidAngles = 1e7, kLeast = 1;
-  Box3 box;
-  for (const std::size_t t : triangles) {
-    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
-  }
-  const Vec3& step = isosurface.step();
-  if (norm(box.size()) <= kFarthestBeside) {
-    const Vec3 centre = (box.low + box.high) / 2;
-    const Vec3 nearest{std::round(centre.x / step.x), std::round(centre.y / step.y), std::round(centre.z / step.z)};
-    return grain_faces_lower(mesh, triangles, scaled(nearest, step), isosurface).value_or(false);
-  }
-  CellIndex first{}, last{};
-  auto angles = static_cast<double>(triangles.size());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    first[axis] = static_cast<std::int32_t>(std::ceil(box.low[axis] / step[axis]));
-    last[axis] = static_cast<std::int32_t>(std::floor(box.high[axis] / step[axis]));
-    angles *= std::max(0, last[axis] - first[axis] + 1);
-  }
-  if (angles > kMostSolidAngles) return false;
-  double sum = 0;
-  for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-    for (std::int32_t j = first[1]; j <= last[1]; ++j) {
-      for (std::int32_t i = first[0]; i <= last[0]; ++i) {
-        const Vec3 p = scaled({double(i), double(j), double(k)}, step);
-        const double side = isosurface.is_above(p) ? 1 : -1;
-        for (const std::size_t t : triangles) sum += side * solid_angle(Corners(mesh, t).p, p);
-      }
-    }
-  }
-  return sum > kLeast;
-}
-
-// Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces; all of them
-// and samples where these few are against it.
+// Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces. Where these
+// are against it all are asked: beside walls thinner than the mesh may be off the first ones may all lie on the other
+// side.
 void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, GeometryCheck& check) {
   constexpr int kEnough = 64;  // triangles that tell
   std::vector<std::uint32_t> parent(mesh.points.size());
@@ -253,8 +225,9 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
   for (const auto& [component, triangles] : against) {
     Votes all;
     for (const std::size_t t : triangles) add(all, facing(surface.isosurface, Corners(mesh, t)));
-    if (all.sum > 0 || winds_around_its_side(mesh, triangles, surface.isosurface)) continue;
-    check.reversed_vertices.push_back(component);
+    if (all.sum <= 0 && !grain_faces_lower(mesh, triangles, surface.isosurface).value_or(false)) {
+      check.reversed_vertices.push_back(component);
+    }
   }
   check.reversed_components = static_cast<std::int64_t>(check.reversed_vertices.size());
 }

@@ -4,12 +4,21 @@
 #include <cmath>
 #include <numbers>
 
-#include "surface/mesh/solid_angle.h"
 #include "surface/mesh/triangle_distance.h"
 
 namespace deliso {
 
 namespace {
+
+// The signed solid angle that a triangle fills, seen from p (van Oosterom and Strackee, The solid angle of a plane
+// triangle, 1983); 0 for a triangle that p lies on.
+double solid_angle(const std::array<Vec3, 3>& triangle, const Vec3& p) {
+  const Vec3 a = triangle[0] - p, b = triangle[1] - p, c = triangle[2] - p;
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  const double volume = dot(a, cross(b, c));
+  const double sum = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return volume == 0 ? 0 : 2 * std::atan2(volume, sum);
+}
 
 bool lies_on(std::span<const std::array<Vec3, 3>> triangles, const Vec3& p) {
   return std::any_of(triangles.begin(), triangles.end(), [&](const std::array<Vec3, 3>& triangle) {

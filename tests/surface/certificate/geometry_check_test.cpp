@@ -13,6 +13,8 @@
 #include "surface/mesh/side_adjacency.h"
 #include "surface/verification/surface_distance.h"
 #include "surface/verification/verification.h"
+#include "tests/support/mesh_examples.h"
+#include "tests/support/mesh_fields.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
@@ -98,6 +100,34 @@ TEST(GeometryCheck, TellsReversedComponents) {
     if (exact.component[t[0]] == 1) std::swap(t[0], t[1]);
   }
   EXPECT_EQ(check_geometry(mesh, scene->surface(), {}).reversed_components, 1);
+}
+
+// A ball with a hollow shell in it. The triangles of the ball's mesh that are asked first lie on the shell's outer
+// side, which faces the other way; most of the others do not. All of that side, turned around, is reversed.
+TEST(GeometryCheck, ComponentsOfWhichTheFirstTrianglesLieElsewhereAreNotCalledReversed) {
+  const Vec3 centre{12, 12, 12};
+  constexpr double kBall = 10, kOuter = 8.5, kInner = 7;
+  const Scene scene("shell",
+                    testing::sampled({25, 25, 25},
+                                     [&](const Vec3& p) {
+                                       const double r = distance(p, centre);
+                                       return std::min(kBall - r, std::max(r - kOuter, kInner - r));
+                                     }),
+                    0.01);
+  const auto check = [&](std::size_t count) {
+    SurfaceMesh mesh;
+    const TriangleMesh sphere = testing::sphere_mesh(4, kBall, centre);
+    mesh.points = sphere.points;
+    mesh.triangles = sphere.triangles;
+    for (std::size_t t = 0; t < count; ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        mesh.points[v] = centre + kOuter / distance(mesh.points[v], centre) * (mesh.points[v] - centre);
+      }
+    }
+    return check_geometry(mesh, scene.surface(), {}).reversed_components;
+  };
+  EXPECT_EQ(check(100), 0);
+  EXPECT_EQ(check(testing::sphere_mesh(4).triangles.size()), 1);
 }
 
 // An octahedron without one of its vertices: two triangles in place of the four around it.
