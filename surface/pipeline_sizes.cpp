@@ -63,10 +63,10 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
   }
   if (!last_.geometry.is_near()) find_last_faults(mesh);
   // Between the points that decimation keeps near the mesh, the isosurface may have come to be farther off: then
-  // decimation begins again with points there. And where it leaves triangles that cross when rounded, as along straight
-  // creases, with a smaller error: with that it takes other vertices out. Where that has not helped twice the error
-  // gets much smaller: finer cubes of a whole component would have twenty times as many vertices.
-  constexpr int kMostTimes = 5;
+  // decimation begins again with points there, and the last time with a much smaller error, since finer cubes of a
+  // whole component would have twenty times as many vertices. Where it leaves triangles that cross when rounded, as
+  // along straight creases, with a smaller error: with that it takes other vertices out.
+  constexpr int kMostTimes = 4;
   constexpr double kSmaller = 0.95, kMuchSmaller = 0.7;
   const bool is_near = last_.geometry.is_near();
   const SurfaceMesh before = mesh;
@@ -81,10 +81,10 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
     const bool crosses = last_.crossing.crossing_pairs > 0;
     if (!is_near || (last_.geometry.missed_points.empty() && !crosses)) break;
     missed.insert(missed.end(), last_.geometry.missed_points.begin(), last_.geometry.missed_points.end());
-    if (time > 0) {
-      share *= kMuchSmaller;
-    } else if (crosses) {
+    if (crosses) {
       share *= kSmaller;
+    } else if (time + 2 == kMostTimes) {
+      share *= kMuchSmaller;
     }
   }
 }
