@@ -48,8 +48,8 @@ class GradedCubes {
   ExactPolygonization all_;
   std::vector<Triangle> finer_;                 // of the cells
   std::map<FineEdge, std::uint32_t> on_faces_;  // the vertices on faces, but not on edges, of the cells
-  std::map<Edge, std::vector<std::uint32_t>>
-      chains_;  // what lies between the ends of an edge of the cell across a face
+  // What lies between the ends of an edge of the cell across a face.
+  std::map<Edge, std::vector<std::uint32_t>> chains_;
 };
 
 std::optional<GradedCubes::CellCubes> GradedCubes::cubes_of(const CellIndex& cell) const {

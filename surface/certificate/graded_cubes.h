@@ -17,8 +17,8 @@ namespace deliso {
 // the same topology in the cell, and meets the cell's faces in chains of edges between the crossings of its own edges.
 // Cells are divided by themselves: two that share a face make the same chain there, and a triangle of a cell that is
 // not divided becomes a fan over the chain in place of its edge. The mesh may cross itself where such a chain bends far
-// into a cell: then that cell has to be divided, too. Nothing where the rounding of samples gives a cell other
-// crossings than the grid has.
+// into a cell: then that cell has to be divided, too. Nothing where a sample of a part would equal the isovalue, for
+// which other factors may do, or where the rounding of samples gives a cell other crossings than the grid has.
 std::optional<ExactPolygonization> graded_cubes(const ExactSurface& surface, const std::vector<CellIndex>& cells,
                                                 const GridFactors& factors);
 

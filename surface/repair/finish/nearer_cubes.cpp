@@ -102,11 +102,11 @@ ExactPolygonization nearer_cubes(const std::vector<bool>& components, const Exac
     }
     if (cells.count() > before) continue;
     if (found.crossing_pairs > 0) break;
-    DividedCells far(surface);
-    add_far_cells(part.mesh, components, surface, wanted.max_distance, far);
-    const bool is_near = far.count() * kFew <= cells.count() || parts >= kMostParts;
     whole = std::move(part);
-    if (is_near) break;
+    if (parts >= kMostParts) break;
+    DividedCells far(surface);
+    add_far_cells(whole.mesh, components, surface, wanted.max_distance, far);
+    if (far.count() * kFew <= cells.count()) break;
     ++parts;
   }
   return whole;
