@@ -79,7 +79,8 @@ void MeshFiles::add(const std::string& name, const TriangleMesh& mesh, std::opti
   if (label) file->labels.push_back(*label);
 }
 
-void MeshFiles::write() const {
+std::vector<std::string> MeshFiles::write() const {
+  std::vector<std::string> remarks;
   for (const File& file : files_) {
     MeshFileOptions options = file.options;
     if (!file.labels.empty()) options.comments.push_back(label_note(file.labels));
@@ -90,8 +91,12 @@ void MeshFiles::write() const {
     } else {
       options.attributes.triangles.push_back(label_attribute(mesh));
     }
-    write_mesh_output(mesh, file.name, options);
+    const std::string needed = write_mesh_output(mesh, file.name, options);
+    if (needed.empty()) continue;
+    remarks.push_back(file.name + ": the header of a binary STL file has no room for all that verify needs, which " +
+                      "has to be given " + needed + " (other formats and --ascii have the room)");
   }
+  return remarks;
 }
 
 TriangleMesh part_with_label(const TriangleMesh& mesh, std::optional<std::int32_t> label) {

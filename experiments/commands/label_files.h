@@ -30,7 +30,8 @@ class MeshFiles {
   // The options are those of the first mesh of a file, but for the attributes, which are those of all.
   void add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
            const MeshFileOptions& options);
-  void write() const;
+  // Returns what stderr must tell of options that a file has no room for, a line each.
+  [[nodiscard]] std::vector<std::string> write() const;
 
  private:
   struct File {

@@ -112,7 +112,6 @@ MeshFileOptions file_options(const MeshCommandOptions& options, const Meshed& me
   file.ascii = options.ascii;
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
-  // What a verification needs comes first: STL has no room for more.
   std::vector<std::string> notes = kept_comments(parameters, meshed.result);
   append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, notes);
   file.comments = mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used,
@@ -150,7 +149,9 @@ void write_outputs(const MeshCommandOptions& options, const std::vector<Meshed>&
     list = one_or_all(std::move(list));
     if (is_special(name)) write_text(json_text(list), name);
   }
-  meshes.write();
+  for (const std::string& remark : meshes.write()) {
+    if (!options.quiet) std::cerr << "deliso: " << remark << '\n';
+  }
   for (const auto& [name, report] : reports) {
     if (!is_special(name)) write_text(json_text(report), name);
   }

@@ -34,6 +34,16 @@ Json measure_json(const ComponentMeasure& measure) {
               {"box", box_json(measure.box)}};
 }
 
+MeshFile read_file_or_stream(const std::string& path, std::optional<MeshFormat> format) {
+  if (!is_standard_stream(path)) return read_mesh_file(path, format);
+  const std::string bytes = read_text(standard_input_file());
+  const std::optional<MeshFormat> found = format ? format : mesh_format_of_content(bytes, bytes.size());
+  if (!found)
+    throw InputError("standard input: its beginning tells no format of meshes, expected --format " +
+                     std::string(kReadFormatNames));
+  return parse_mesh(bytes, *found, "standard input");
+}
+
 }  // namespace
 
 void add_mesh_output_options(Command& command, MeshFormatOptions& options) {
@@ -76,20 +86,27 @@ GmshVersion gmsh_version(const MeshFormatOptions& options) {
   return options.gmsh_version == "2.2" ? GmshVersion::k2 : GmshVersion::k4;
 }
 
-void write_mesh_output(const TriangleMesh& mesh, const std::string& path, const MeshFileOptions& options) {
-  if (!is_standard_stream(path)) return write_mesh(mesh, path, options);
-  std::cout << mesh_bytes(mesh, options.format.value_or(MeshFormat::kPly), options, "standard output");
+std::string write_mesh_output(const TriangleMesh& mesh, const std::string& path, MeshFileOptions options) {
+  const bool is_stream = is_standard_stream(path);
+  if (!options.format) options.format = is_stream ? MeshFormat::kPly : mesh_format_of(path);
+  std::string options_needed;
+  if (options.format == MeshFormat::kStl && !options.ascii) {
+    StlNotes notes = short_stl_notes(options.comments);
+    options.comments = std::move(notes.comments);
+    options_needed = std::move(notes.options_needed);
+  }
+  if (is_stream) {
+    std::cout << mesh_bytes(mesh, *options.format, options, "standard output");
+  } else {
+    write_mesh(mesh, path, options);
+  }
+  return options_needed;
 }
 
 MeshFile read_mesh_input(const std::string& path, const MeshFormatOptions& options) {
-  const std::optional<MeshFormat> format = typed_format(options, kReadFormatNames);
-  if (!is_standard_stream(path)) return read_mesh_file(path, format);
-  const std::string bytes = read_text(standard_input_file());
-  const std::optional<MeshFormat> found = format ? format : mesh_format_of_content(bytes, bytes.size());
-  if (!found)
-    throw InputError("standard input: its beginning tells no format of meshes, expected --format " +
-                     std::string(kReadFormatNames));
-  return parse_mesh(bytes, *found, "standard input");
+  MeshFile file = read_file_or_stream(path, typed_format(options, kReadFormatNames));
+  if (file.format == MeshFormat::kStl) file.comments = long_stl_notes(file.comments);
+  return file;
 }
 
 Json surface_json(const TriangleMesh& mesh, int threads) {

@@ -45,8 +45,8 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
 // Metres in a unit of the world; none where the units are unknown.
 std::optional<double> metres_in_unit(const std::string& units);
 
-// What a mesh file says of its origin: program and isovalue, promise, space and units, volume, hash, one line each. The
-// promise comes early: the header of a binary STL file holds 80 letters.
+// What a mesh file says of its origin: program and isovalue, promise, space and units, volume, hash, one line each. A
+// binary STL file holds them in a short form (short_stl_notes).
 // `promised`: promise.max_distance, in voxels. `more`: further lines, after the promise.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
                                        double promised, const World& world, const std::vector<std::string>& more = {});

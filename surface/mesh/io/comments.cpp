@@ -55,10 +55,9 @@ MeshComments of_hash_lines(std::string_view bytes) {
 
 // Ours are joined by "; " in the name of a solid.
 MeshComments of_stl(std::string_view bytes) {
-  constexpr std::size_t kBinaryHeader = 80;
   constexpr std::string_view kSolid = "solid ", kOurs = "deliso ";
   const bool is_text = bytes.starts_with(kSolid) && bytes.find("facet") < bytes.size();
-  std::string_view line = is_text ? take_row(bytes).substr(kSolid.size()) : bytes.substr(0, kBinaryHeader);
+  std::string_view line = is_text ? take_row(bytes).substr(kSolid.size()) : bytes.substr(0, kStlHeaderLetters);
   if (is_text && line.starts_with(kOurs)) line.remove_prefix(kOurs.size());
   MeshComments comments;
   while (!line.empty()) {

@@ -1,6 +1,7 @@
 // How a mesh is written, and what goes into the file beside it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ enum class MeshFormat { kPly, kOff, kObj, kStl, kMedit, kLegacyVtk, kVtp, kGmsh,
 
 // Lines that say where a mesh comes from.
 using MeshComments = std::vector<std::string>;
+
+// The header of a binary STL file. Those comments are in it, joined by "; ", for which there is room as a whole.
+constexpr std::size_t kStlHeaderLetters = 80;
 
 enum class GmshVersion { k2, k4 };  // 2.2, 4.1
 

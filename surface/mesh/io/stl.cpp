@@ -19,8 +19,8 @@ namespace deliso {
 
 namespace {
 
-constexpr std::size_t kHeaderSize = 84;  // 80 bytes of text and the number of triangles
-constexpr std::size_t kRecordSize = 50;  // normal, three corners (floats), two bytes of attributes
+constexpr std::size_t kHeaderSize = kStlHeaderLetters + 4;  // the text and the number of triangles
+constexpr std::size_t kRecordSize = 50;                     // normal, three corners (floats), two bytes of attributes
 
 struct PointHash {
   std::size_t operator()(const Vec3& p) const noexcept {

@@ -230,16 +230,16 @@ TEST_F(WorldTest, MeshesSayWhereTheyComeFrom) {
   mesh("a.nrrd", "b.stl", {}, false);
   // Whole notes, as far as there is room; what a verification needs comes first.
   EXPECT_TRUE(read_file(folder_ / "b.stl")
-                  .starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; volume a.nrrd                "));
+                  .starts_with("DelIso LPS; isovalue 40; version 0.2.0; volume a.nrrd                           "));
   mesh("a.nrrd", "c.stl", {"--closed"}, false);
   EXPECT_TRUE(
-      read_file(folder_ / "c.stl").starts_with("DelIso 0.2.0, isovalue 40; promise.max_distance 1; boundary closed "));
+      read_file(folder_ / "c.stl").starts_with("DelIso LPS closed; isovalue 40; version 0.2.0; volume a.nrrd "));
 }
 
 // Space and local origin of a mesh need not be said again; what is said again counts.
 TEST_F(WorldTest, TheVerificationTakesSpaceAndLocalOriginFromTheMesh) {
   write_file(folder_ / "a.nrrd", nrrd_file(kAskew));
-  for (const std::string name : {"m.ply", "m.off", "m.vtp"}) {
+  for (const std::string name : {"m.ply", "m.off", "m.vtp", "m.stl"}) {
     mesh("a.nrrd", name, {"--space", "RAS", "--local-origin"}, false);
     const auto verify = [&](const std::vector<std::string>& more) {
       std::vector<std::string> arguments = {"verify",  folder_ / name, folder_ / "a.nrrd", "--isovalue",
@@ -262,9 +262,7 @@ TEST_F(WorldTest, TheLocalOriginIsThatOfTheWholeVolume) {
   write_file(folder_ / "a.nrrd", nrrd_file(kAskew));
   for (const std::string name : {"m.ply", "m.vtp", "m.stl"}) {
     mesh("a.nrrd", name, {"--region", "1:9,2:8,1:7", "--local-origin"}, false);
-    std::vector<std::string> arguments = {"verify", folder_ / name, folder_ / "a.nrrd", "--isovalue", kIsovalue};
-    if (name == "m.stl") arguments.insert(arguments.end(), {"--region", "1:9,2:8,1:7", "--local-origin"});
-    const ProgramResult verified = run_deliso(arguments);
+    const ProgramResult verified = run_deliso({"verify", folder_ / name, folder_ / "a.nrrd", "--isovalue", kIsovalue});
     EXPECT_EQ(verified.exit_code, 0) << name << verified.out << verified.err;
   }
 }
