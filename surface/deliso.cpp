@@ -57,7 +57,8 @@ Pipeline::Pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshin
       parameters_(options.parameters),
       controls_(parameters_.budget, options.stop, options.progress),
       result_(result),
-      promise_{.max_distance = promised_distance(parameters_), .within_cells = parameters_.size.max_error.has_value()} {
+      promise_{.max_distance = promised_distance(parameters_),
+               .within_cells = parameters_.size.max_error || promised_distance(parameters_) < 1} {
   controls_.set_observer(options.observer);
   result_.promised_distance = promise_.max_distance;
 }
@@ -88,7 +89,7 @@ void Pipeline::find_exact_surface(double isovalue) {
     return std::make_unique<Isosurface>(grid_, result_.isovalue_used, parameters_.search,
                                         spacing_to_use(parameters_, grid_.spacing()), options_.threads);
   });
-  surface_.emplace(ExactSurface{*isosurface_, topology_, options_.threads});
+  surface_.emplace(ExactSurface{*isosurface_, topology_, options_.threads, {}, &controls_});
   r_min_box_ = r_min_box(*isosurface_, parameters_.r_min_of);
 }
 

@@ -54,6 +54,7 @@ class Pipeline {
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
   void come_near(SurfaceMesh& mesh, const RefineOptions& options);
+  void improve_near(SurfaceMesh& mesh);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check);
   void bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check);
   void improve_while_near(SurfaceMesh& mesh, RepeatedCheck& check);
@@ -72,10 +73,10 @@ class Pipeline {
                         CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
-  void improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
+  void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void look_in_world(SurfaceMesh& mesh);
   void uncross_by_steps(SurfaceMesh& mesh);
-  bool find_last_faults(SurfaceMesh& mesh);
+  void find_last_faults(SurfaceMesh& mesh);
   MeshFaults shaped_cubes(SurfaceMesh& mesh);
   void take_back_shape(const ShapeStats& before);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);

@@ -27,21 +27,22 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   improve(mesh, parameters_.shape.rounds);
   // Of a run that was stopped no distance is promised, and its few large triangles would take long to measure.
   if (!parameters_.certify || controls_.stopped()) return;
-  if (is_sized(parameters_)) {
+  if (!is_sized(parameters_)) come_near(mesh, options);
+  // What is off within cells only is reached as where an error is stated.
+  if (is_sized(parameters_) || (promise_.within_cells && !last_.geometry.is_near())) {
     if (!refine_to_error(mesh, options)) {
       take_nearer_cubes(mesh);
       begin_again(mesh);
     }
-  } else {
-    come_near(mesh, options);
+    if (!is_sized(parameters_)) improve_near(mesh);
   }
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
   if (controls_.stopped()) return;
-  const bool has_cubes = find_last_faults(mesh);
+  find_last_faults(mesh);
   // Finer cubes of a component that fills a large volume would be too many. There, as where an error is stated, stage 1
   // runs again with more samples near what is too far.
-  if (has_cubes || last_.geometry.is_near() || is_sized(parameters_) || controls_.stopped()) return;
+  if (last_.geometry.is_near() || is_sized(parameters_) || controls_.stopped()) return;
   begin_again(mesh);
   find_last_faults(mesh);
 }
@@ -90,6 +91,17 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
   });
 }
 
+// The angles of what has been brought as near as a stated error, where no decimation follows.
+void Pipeline::improve_near(SurfaceMesh& mesh) {
+  SurfaceMesh better = mesh;
+  const ShapeStats shape_before = result_.shape;
+  improve_within_promise(better, {});
+  GeometryCheck now = timed(result_.certify_stage, [&] { return check_geometry(better, *surface_, promise_); });
+  if (!now.is_near()) return take_back_shape(shape_before);
+  mesh = std::move(better);
+  last_.geometry = std::move(now);
+}
+
 // Refinement gives the better triangles where much is far off, but it measures all of the mesh again and refines places
 // that are near. So a few that are far are left to steps, if these bring all of them near.
 void Pipeline::come_near(SurfaceMesh& mesh, const RefineOptions& options) {
@@ -135,6 +147,7 @@ void Pipeline::drop_crossings() {
 }
 
 void Pipeline::certify(SurfaceMesh mesh) {
+  controls_.poll();  // checks may have ended early
   // Elsewhere the last look for faults has found them.
   if (parameters_.certify && (!result_.build.bounds_a_solid || controls_.stopped())) find_places(mesh, last_);
   double squared_longest = 0;

@@ -73,6 +73,7 @@ bool Pipeline::refine_to_error(SurfaceMesh& mesh, RefineOptions options) {
       refine_geometry(mesh, *isosurface_, options, controls_, result_.refine);
     });
   }
+  if (controls_.poll()) return false;
   constexpr double kFreedom = 16;
   take_steps_nearer(mesh, check, kFreedom);
   last_.geometry = timed(result_.certify_stage, [&] {
@@ -189,9 +190,11 @@ void Pipeline::take_nearer_cubes(SurfaceMesh& mesh) {
     const MeshFaults last_before = last_;
     SurfaceMesh next = mesh;
     const std::vector<Vec3> samples = cells.samples(1);
+    std::vector<bool> is_marked;
     const std::int64_t replaced = timed(result_.repair, [&] {
       return replace_by_nearer_cubes(next, *surface_, last_,
-                                     {.max_distance = promise_.max_distance, .samples = samples, .parts = parts});
+                                     {.max_distance = promise_.max_distance, .samples = samples, .parts = parts},
+                                     is_marked);
     });
     if (replaced == 0) break;
     bring_again_near(next);

@@ -2,15 +2,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "surface/base/sizes.h"
 #include "surface/certificate/final_certificate.h"
+#include "surface/certificate/finer_cubes.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/mesh/equal_vertices.h"
 #include "surface/pipeline.h"
 #include "surface/repair/finish/last_resort.h"
+#include "surface/repair/lattice/cell_pieces.h"
 #include "surface/shape/shape.h"
 
 namespace deliso {
@@ -57,31 +60,34 @@ void Pipeline::uncross_by_steps(SurfaceMesh& mesh) {
   }
 }
 
-// What is wrong with the mesh in the end. Components with faults come from finer cubes. Returns whether there are such
-// for one of them.
-bool Pipeline::find_last_faults(SurfaceMesh& mesh) {
+// What is wrong with the mesh in the end. Components with faults come from marching cubes that are finer where they
+// have to be; from such as are finer everywhere where these have faults, too, and where cells are longer than wide.
+void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
     look_in_world(mesh);
     find_places(mesh, last_);
   });
   uncross_by_steps(mesh);
-  if (!repairs(parameters_) || last_.count() == 0) return false;
+  if (!repairs(parameters_) || last_.count() == 0) return;
   // With a smaller error promised, cubes that are no smaller will mostly do.
-  constexpr int kMostRounds = 4;
+  constexpr int kMostRounds = 4, kNearerRounds = 2;
   constexpr double kTimes = 4, kLargest = 0.9;
   const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
   const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
   std::vector<bool> is_marked;
   std::int64_t most = 0;
-  bool has_cubes = false;
+  const int nearer_rounds = cell_pieces(*isosurface_) == GridFactors{1, 1, 1} ? kNearerRounds : 0;
   for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
     const ShapeStats shape_before = result_.shape;
     SurfaceMesh next = mesh;
     const std::int64_t replaced = timed(result_.repair, [&] {
-      return replace_faulty_components(next, *surface_, last_, cube / (1 + round), is_marked);
+      if (round >= nearer_rounds) {
+        return replace_faulty_components(next, *surface_, last_, cube / (1 + round - nearer_rounds), is_marked);
+      }
+      return replace_by_nearer_cubes(next, *surface_, last_,
+                                     {.max_distance = promise_.max_distance, .parts = 2 + round}, is_marked);
     });
     if (replaced == 0) break;
-    has_cubes = true;
     MeshFaults faults = shaped_cubes(next);
     if (is_sized(parameters_)) bring_cubes_near(next, faults);
     if (faults.count() >= last_.count()) {
@@ -93,7 +99,6 @@ bool Pipeline::find_last_faults(SurfaceMesh& mesh) {
     most = std::max(most, replaced);
   }
   result_.repair.components_polygonized += most;
-  return has_cubes;
 }
 
 // What the stage says is of the mesh that is kept, but for its time.
@@ -104,25 +109,37 @@ void Pipeline::take_back_shape(const ShapeStats& before) {
 }
 
 // Finer cubes have slivers where the isosurface passes near a sample, and strips along closed walls that are nothing
-// when written. Their faults after the steps that better their angles; as they were, if they had fewer then.
+// when written. Their faults after the steps that better their angles; if they had fewer before, after steps that keep
+// to the distance promised at what the others have left too far; or as they were.
 MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
+  constexpr int kMostTimes = 3;
   merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh);
   const ShapeStats shape_before = result_.shape;
-  SurfaceMesh shaped = mesh;
   Observer* const observer = controls_.observer();
   controls_.set_observer(nullptr);  // the mesh may be taken back
-  improve(shaped, parameters_.shape.rounds);
-  controls_.set_observer(observer);
-  merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
-  MeshFaults faults = faults_of(shaped);
-  if (faults.count() > 0) {
-    MeshFaults unshaped = faults_of(mesh);
-    if (unshaped.count() < faults.count()) {
-      take_back_shape(shape_before);
-      return unshaped;
+  std::optional<MeshFaults> unshaped;
+  std::vector<Vec3> missed;
+  MeshFaults faults;
+  for (int time = 0; time < kMostTimes; ++time) {
+    SurfaceMesh shaped = mesh;
+    if (time == 0) {
+      improve(shaped, parameters_.shape.rounds);
+    } else {
+      improve_within_promise(shaped, missed);
     }
+    merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
+    faults = faults_of(shaped);
+    if (faults.count() > 0 && !unshaped) unshaped = faults_of(mesh);
+    if (!unshaped || faults.count() <= unshaped->count()) {
+      mesh = std::move(shaped);
+      break;
+    }
+    const std::vector<Vec3>& now = faults.geometry.missed_points;
+    missed.insert(missed.end(), now.begin(), now.end());
+    take_back_shape(shape_before);
+    faults = *unshaped;
   }
-  mesh = std::move(shaped);
+  controls_.set_observer(observer);
   return faults;
 }
 

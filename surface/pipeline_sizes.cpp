@@ -75,7 +75,7 @@ void Pipeline::fit_sizes(SurfaceMesh& mesh, const RefineOptions& options) {
   for (int time = 0; time < kMostTimes && !controls_.poll(); ++time) {
     if (time > 0) mesh = before;
     decimate_mesh(mesh, missed, share);
-    improve_decimated(mesh, missed);
+    improve_within_promise(mesh, missed);
     bring_decimated_near(mesh, missed);
     timed(result_.certify_stage, [&] { look_in_world(mesh); });
     const bool crosses = last_.crossing.crossing_pairs > 0;
@@ -157,7 +157,7 @@ void Pipeline::bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> wit
     take_steps_nearer(mesh, check, kFreedom);
     if (!look()) return;
     SurfaceMesh near = mesh;
-    improve_decimated(mesh, witnesses);
+    improve_within_promise(mesh, witnesses);
     if (look()) return;
     if (round + 1 == kMostRounds) {
       mesh = std::move(near);
@@ -177,9 +177,9 @@ void Pipeline::widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check
   result_.promised_distance = promise_.max_distance;
 }
 
-// Decimation makes no angle smaller than it was, but some were small where steps had brought triangles near, and in
-// what comes from finer cubes. With fewer vertices they have room to get better, within the distance promised.
-void Pipeline::improve_decimated(SurfaceMesh& mesh, std::span<const Vec3> witnesses) {
+// Better angles for what the other steps would take too far: where steps had brought triangles near, and in what comes
+// from cubes. Decimation makes no angle smaller than it was; with fewer vertices these have room to get better.
+void Pipeline::improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses) {
   if (!improves_shape(parameters_) || controls_.stopped()) return;
   ShapeOptions options = shape_options(parameters_);
   options.max_height = options.max_distance = options.max_sample = promise_.max_distance;

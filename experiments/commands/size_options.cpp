@@ -101,6 +101,10 @@ void add_size_options(Command& command, SizeOptions& options) {
 void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters) {
   if (!options.max_error.empty()) {
     parameters.size.max_error = positive_length(options.max_error, "--max-error", volume);
+    if (*parameters.size.max_error < kLeastDistance) {
+      throw InputError("--max-error: expected a length of 1e-6 voxels or more, found '" + options.max_error +
+                       "', which is " + shortest_text(*parameters.size.max_error) + " voxels");
+    }
   }
   if (!options.max_edge.empty()) parameters.size.max_edge = positive_length(options.max_edge, "--max-edge", volume);
   set_number(options.min_angle, "--min-angle", "size.min_angle", parameters);

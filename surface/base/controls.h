@@ -51,11 +51,11 @@ class Controls {
     return false;
   }
   // The same between larger pieces of work without insertions: checks the clock and the stop flag.
-  bool poll() {
-    if (stopped_) return true;
-    const bool is_over = (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
-                         (budget_.seconds && watch_.seconds() > *budget_.seconds);
-    return is_over && stop();
+  bool poll() { return stopped_ || (is_over() && stop()); }
+  // Whether the next poll would say so. For several threads at once, while none polls.
+  [[nodiscard]] bool is_over() const {
+    return stopped_ || (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) ||
+           (budget_.seconds && watch_.seconds() > *budget_.seconds);
   }
   void report(std::string_view stage, std::size_t vertices, std::size_t queued) const {
     if (progress_) progress_({stage, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(queued)});

@@ -7,6 +7,7 @@
 
 #include "delaunay/base/vec3.h"
 #include "raycast/isosurface.h"
+#include "surface/base/controls.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 
@@ -19,6 +20,10 @@ struct ExactSurface {
   int threads = 1;                     // only the time depends on it
   // Whether each component is left out on purpose, so that the mesh need not come near it; empty: none is.
   std::vector<std::uint8_t> is_dropped = {};
+  // Of the run: once it is to stop, checks end early with what they have found; poll before it counts. Null: of none.
+  const Controls* controls = nullptr;
+
+  [[nodiscard]] bool is_over() const { return controls != nullptr && controls->is_over(); }
 
   [[nodiscard]] bool wants(const EdgeCrossing& crossing) const {
     return is_dropped.empty() || is_dropped[crossing.component] == 0;

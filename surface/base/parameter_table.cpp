@@ -125,6 +125,7 @@ constexpr ParameterField row(std::string_view path, ParameterRange range, std::s
 constexpr ParameterRange kAny{};
 constexpr ParameterRange kPositive{0, true};
 constexpr ParameterRange kNotNegative{0, false};
+constexpr ParameterRange kDistance{kLeastDistance, false};
 constexpr ParameterRange kAtLeastOne{1, false};
 constexpr ParameterRange kAtLeastThree{3, false};
 constexpr ParameterRange kAtLeastFour{4, false};
@@ -230,10 +231,10 @@ constexpr std::array kTable = {
                                              "improve badly shaped triangles at most this often, each time in wider "
                                              "surroundings; 0: never, nor if repair.max_rounds is 0"),
     row<&P::promise, &PromiseParameters::max_distance>(
-        "promise.max_distance", kPositive, "voxels",
+        "promise.max_distance", kDistance, "voxels",
         "a proven mesh and its isosurface are within this of each other; where they are not, refinement goes on "
         "(unless repair.max_rounds is 0)"),
-    row<&P::size, &SizeParameters::max_error>("size.max_error", kPositive, "voxels",
+    row<&P::size, &SizeParameters::max_error>("size.max_error", kDistance, "voxels",
                                               "mesh and isosurface are within this of each other: promised in place of "
                                               "promise.max_distance; the mesh gets as "
                                               "few vertices as that allows, without criteria 1 and 2 of stage 2"),

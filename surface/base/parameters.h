@@ -130,6 +130,9 @@ inline bool improves_shape(const Parameters& parameters) {
 // Throws InputError when some parameters contradict each other.
 void check_parameters(const Parameters& parameters);
 
+// The least distance that can be promised, in voxels: for less a mesh of a few cells has millions of vertices.
+inline constexpr double kLeastDistance = 1e-6;
+
 // The region as the grid takes it.
 SampleRegion region_of(const RegionParameters& region);
 

@@ -58,6 +58,7 @@ std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactS
   using Far = std::pair<std::uint32_t, std::int64_t>;  // a triangle and how many of its samples are far
   const auto append_if_far = [&](std::size_t i, std::vector<Far>& far) {
     const std::uint32_t t = large[i];
+    if (surface.is_over()) return;
     const bool is_known = known != nullptr && known->far_parts[t] >= 0;
     const std::int64_t count =
         is_known ? known->far_parts[t]
@@ -238,6 +239,7 @@ GeometryCheck check_distances(const SurfaceMesh& mesh, const ExactSurface& surfa
                               const KnownBefore* known) {
   GeometryCheck check;
   const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, known, check));
+  if (surface.is_over()) return check;
   check_cells(mesh, surface, promise, known, check);
   check_crossings(points, surface, known, check);
   list_missed_points(surface, check);
@@ -248,6 +250,7 @@ GeometryCheck check_geometry(const SurfaceMesh& mesh, const ExactSurface& surfac
                              const KnownBefore* known) {
   GeometryCheck check;
   const MeshPoints points(mesh, promise.max_distance, check_triangles(mesh, surface, promise, known, check));
+  if (surface.is_over()) return check;
   check_vertices(points, surface, promise, check);
   check_cells(mesh, surface, promise, known, check);
   // Two of these have no parts for several threads.

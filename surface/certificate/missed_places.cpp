@@ -242,7 +242,7 @@ std::vector<MissedPlace> missed_places(const SurfaceMesh& mesh, const ExactSurfa
       cells.size(), surface.threads,
       [&](std::size_t first, std::size_t last) {
         CellSearch search(mesh, boxes, tree, surface.isosurface, most);
-        for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t i = first; i < last && !surface.is_over(); ++i) {
           const EdgeCrossing lowest{cells[i], 0, 0, 0};
           const auto missed = search.missed_in(sample_of(lowest, dims));
           if (missed) found[first / kCellsAtOnce].push_back({cells[i], *missed});

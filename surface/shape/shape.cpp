@@ -78,13 +78,20 @@ double goal_of_search(const SurfaceMesh& mesh, std::span<const std::uint32_t> ba
   return kJustBelow * *first_without;
 }
 
+void forget_known(const SurfaceMesh& mesh, const KnownTriangles& known, std::vector<std::uint32_t>& triangles) {
+  std::erase_if(triangles, [&](std::uint32_t t) { return known.has(mesh, t); });
+}
+
 // Has the patches of each pass worked on: work(patch, plan, counted).
 template <class Work>
-void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const ExactSurface& surface, double goal,
-                    Controls& controls, ShapeStats& stats, const Work& work) {
+void work_in_passes(SurfaceMesh& mesh, std::vector<std::uint32_t> bad, const KnownTriangles& left,
+                    const ExactSurface& surface, double goal, Controls& controls, ShapeStats& stats, const Work& work) {
   const PatchBoxes boxes(mesh, bad, kReach, kMostBoxes);
   for (std::size_t pass = 0; pass < boxes.passes().size() && !controls.poll(); ++pass) {
-    if (pass > 0) bad = bad_triangles(mesh, goal, surface.threads);
+    if (pass > 0) {
+      bad = bad_triangles(mesh, goal, surface.threads);
+      forget_known(mesh, left, bad);
+    }
     controls.report("shape", mesh.points.size(), bad.size());
     work_in_patches(mesh, plan_pass(mesh, bad, boxes, pass, surface), surface.threads, stats, work);
   }
@@ -96,11 +103,10 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
                    ShapeStats& stats, KnownTriangles& left) {
   double goal = std::sin(options.min_angle);
   std::vector<std::uint32_t> bad = bad_triangles(mesh, goal, surface.threads);
-  const auto forget_tried = [&] { std::erase_if(bad, [&](std::uint32_t t) { return left.has(mesh, t); }); };
-  forget_tried();
+  forget_known(mesh, left, bad);
   stats.bad_before += static_cast<std::int64_t>(bad.size());
   const auto improve = [&](int rounds, int turns) {
-    work_in_passes(mesh, bad, surface, goal, controls, stats,
+    work_in_passes(mesh, bad, left, surface, goal, controls, stats,
                    [&](NumberedPatch& patch, const PatchPlan& plan, ShapeStats& part) {
                      PatchImprovement improvement(patch.patch, plan, surface.isosurface, options,
                                                   controls.for_part(1, mesh.points.size()), part);
@@ -112,11 +118,11 @@ void improve_shape(SurfaceMesh& mesh, const ExactSurface& surface, const ShapeOp
   if (options.rounds < kMostDepth || controls.poll()) return;
   // What these have left is searched for on its own, in smaller patches.
   bad = bad_triangles(mesh, goal, surface.threads);
-  forget_tried();
+  forget_known(mesh, left, bad);
   const double lower = goal_of_search(mesh, bad, goal);
   if (lower < goal) {
     bad = bad_triangles(mesh, lower, surface.threads);
-    forget_tried();
+    forget_known(mesh, left, bad);
   }
   goal = lower;
   const int turns = turns_of_search(bad.size(), mesh.triangles.size());

@@ -56,6 +56,7 @@ std::vector<Vec3> error_targets(const SurfaceMesh& mesh, const ExactSurface& sur
   const std::vector<Vec3> above = collect_in_blocks<Vec3>(
       check.far_triangles.size(), surface.threads,
       [&](std::size_t i, std::vector<Vec3>& found) {
+        if (surface.is_over()) return;
         const auto target = farthest_above(mesh, check.far_triangles[i], surface.isosurface, most);
         if (target) found.push_back(*target);
       },

@@ -86,8 +86,8 @@ std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& su
 }
 
 std::int64_t replace_by_nearer_cubes(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
-                                     const CubeNearness& wanted) {
-  std::vector<bool> is_marked(surface.topology.components.size(), false);
+                                     const CubeNearness& wanted, std::vector<bool>& is_marked) {
+  is_marked.resize(surface.topology.components.size(), false);
   mark_faulty(mesh, surface, faults, is_marked);
   return replace_by(nearer_cubes(is_marked, surface, wanted), surface, is_marked, mesh);
 }

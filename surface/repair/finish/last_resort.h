@@ -33,9 +33,8 @@ SelfIntersections crossing_in_world(const SurfaceMesh& mesh, const Isosurface& i
 std::int64_t replace_faulty_components(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
                                        double cube, std::vector<bool>& is_marked);
 
-// Replaces the components that have faults by marching cubes that are finer where that brings them near enough
-// (nearer_cubes.h). Returns the number of components replaced. In mesh space.
+// The same by marching cubes that are finer only where that brings them near enough (nearer_cubes.h).
 std::int64_t replace_by_nearer_cubes(SurfaceMesh& mesh, const ExactSurface& surface, const MeshFaults& faults,
-                                     const CubeNearness& wanted);
+                                     const CubeNearness& wanted, std::vector<bool>& is_marked);
 
 }  // namespace deliso

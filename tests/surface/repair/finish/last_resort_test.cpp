@@ -51,7 +51,8 @@ TEST(LastResort, CubesWithDividedCellsAreNear) {
   faults.places = assignment_faults(mesh, surface);
   const std::int64_t before = faults.count();
   ASSERT_GT(before, 100);
-  EXPECT_GT(replace_by_nearer_cubes(mesh, surface, faults, {.max_distance = 0.3}), 0);
+  std::vector<bool> is_marked;
+  EXPECT_GT(replace_by_nearer_cubes(mesh, surface, faults, {.max_distance = 0.3}, is_marked), 0);
   faults.geometry = check_geometry(mesh, surface, promise);
   faults.places = assignment_faults(mesh, surface);
   EXPECT_LT(10 * faults.count(), before);
