@@ -28,6 +28,26 @@ Sample converted(double value) {
   return static_cast<Sample>(std::clamp(value, -most, most));
 }
 
+// The first sample in the grid's order, with the numbers that the file has for it.
+std::string not_finite_text(const Samples& samples, const Dims& dims, const std::array<bool, 3>& backwards,
+                            const std::array<std::int32_t, 3>& first) {
+  return visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& s) {
+    const auto found =
+        std::find_if(s.begin(), s.end(), [](Sample v) { return !std::isfinite(static_cast<double>(v)); });
+    auto n = static_cast<std::size_t>(found - s.begin());
+    std::string numbers;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto length = static_cast<std::size_t>(dims[axis]);
+      const auto place = static_cast<std::int64_t>(n % length);
+      n /= length;
+      const std::int64_t number = first[axis] + (backwards[axis] ? dims[axis] - 1 - place : place);
+      numbers += (axis > 0 ? ", " : "") + std::to_string(number);
+    }
+    const auto value = static_cast<double>(*found);
+    return "sample (" + numbers + ") is " + (std::isnan(value) ? "NaN" : value > 0 ? "infinite" : "minus infinity");
+  });
+}
+
 }  // namespace
 
 NotFiniteCounts count_not_finite(const Samples& samples) {
@@ -45,18 +65,12 @@ NotFiniteCounts count_not_finite(const Samples& samples) {
 }
 
 std::string first_not_finite_text(const Samples& samples, const Dims& dims) {
-  return visit_samples(samples, [&]<class Sample>(const SampleArray<Sample>& s) {
-    const auto first =
-        std::find_if(s.begin(), s.end(), [](Sample v) { return !std::isfinite(static_cast<double>(v)); });
-    const auto n = static_cast<std::size_t>(first - s.begin());
-    const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
-    const auto value = static_cast<double>(*first);
-    return "sample (" + std::to_string(n % nx) + ", " + std::to_string(n / nx % ny) + ", " +
-           std::to_string(n / nx / ny) + ") is " +
-           (std::isnan(value) ? "NaN"
-            : value > 0       ? "infinite"
-                              : "minus infinity");
-  });
+  return not_finite_text(samples, dims, {}, {});
+}
+
+std::string first_not_finite_text(const Samples& samples, const ScalarGrid& grid,
+                                  const std::array<std::int32_t, 3>& first) {
+  return not_finite_text(samples, grid.dims(), grid.backwards(), first);
 }
 
 Samples finite_samples(const Samples& samples) {

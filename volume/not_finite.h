@@ -1,6 +1,7 @@
 // NaN and infinities among samples, which no grid holds: counted, named, replaced.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -18,6 +19,9 @@ NotFiniteCounts count_not_finite(const Samples& samples);
 
 // "sample (3, 0, 1) is NaN" of the first that is not finite. Precondition: there is one.
 std::string first_not_finite_text(const Samples& samples, const Dims& dims);
+// The same of samples at the grid's places, as their file counts them: `first` is its number of the first of them.
+std::string first_not_finite_text(const Samples& samples, const ScalarGrid& grid,
+                                  const std::array<std::int32_t, 3>& first);
 
 // The finite samples alone, in their order.
 Samples finite_samples(const Samples& samples);

@@ -37,6 +37,15 @@ Samples crop(const SampleArray<Sample>& samples, const Dims& of_all, const std::
   return SampleArray<Sample>(std::move(kept));
 }
 
+// The part as the grid counts its samples.
+SamplePart part_of_grid(const ScalarGrid& grid, const SampleRegion& region) {
+  SamplePart part = part_of(grid.dims(), region);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (grid.backwards()[axis]) part.low[axis] = grid.dims()[axis] - part.low[axis] - part.dims[axis];
+  }
+  return part;
+}
+
 }  // namespace
 
 bool SampleRegion::is_all() const {
@@ -91,16 +100,18 @@ SamplePart part_of(const Dims& all, const SampleRegion& region) {
   return part;
 }
 
-Samples cropped(const Samples& samples, const Dims& dims, const SampleRegion& region) {
-  const SamplePart part = part_of(dims, region);
-  return visit_samples(samples, [&](const auto& all) { return crop(all, dims, part.low, part.dims); });
+Samples cropped(const Samples& samples, const ScalarGrid& grid, const SampleRegion& region) {
+  const SamplePart part = part_of_grid(grid, region);
+  return visit_samples(samples, [&](const auto& all) { return crop(all, grid.dims(), part.low, part.dims); });
 }
 
 ScalarGrid cropped(const ScalarGrid& grid, const SampleRegion& region) {
-  const SamplePart part = part_of(grid.dims(), region);
+  const SamplePart part = part_of_grid(grid, region);
   Vec3 origin = grid.origin();
   for (std::size_t axis = 0; axis < 3; ++axis) origin[axis] += part.low[axis] * grid.spacing()[axis];
-  return {part.dims, cropped(grid.samples(), grid.dims(), region), grid.spacing(), origin};
+  ScalarGrid kept(part.dims, cropped(grid.samples(), grid, region), grid.spacing(), origin);
+  kept.set_backwards(grid.backwards());
+  return kept;
 }
 
 }  // namespace deliso

@@ -1,4 +1,4 @@
-// A part of a volume: the samples between two along each axis.
+// A part of a volume: the samples between two along each axis, counted as the volume's file counts them.
 #pragma once
 
 #include <array>
@@ -30,10 +30,11 @@ struct SamplePart {
 // Throws InputError when the region leaves the samples or has fewer than two along an axis.
 SamplePart part_of(const Dims& all, const SampleRegion& region);
 
-// These samples, at their own places. Throws InputError when the region leaves the grid or has fewer than two samples
+// These samples, at their own places. Along axes that run backwards in the file (ScalarGrid::backwards) the region
+// counts from the grid's last sample. Throws InputError when the region leaves the grid or has fewer than two samples
 // along an axis.
 ScalarGrid cropped(const ScalarGrid& grid, const SampleRegion& region);
-// The same of samples that need not be finite.
-Samples cropped(const Samples& samples, const Dims& dims, const SampleRegion& region);
+// The same of other samples at the grid's places, which need not be finite.
+Samples cropped(const Samples& samples, const ScalarGrid& grid, const SampleRegion& region);
 
 }  // namespace deliso

@@ -61,6 +61,10 @@ class ScalarGrid {
   // on a face of it within rounding is on it.
   [[nodiscard]] const std::optional<Box3>& walls() const { return walls_; }
   void set_walls(const Box3& walls) { walls_ = walls; }
+  // Along which axes the samples lie in reverse order to that of their file, which counts them from the other end.
+  // Regions (region.h) and messages that name a sample count as the file does.
+  [[nodiscard]] const std::array<bool, 3>& backwards() const { return backwards_; }
+  void set_backwards(const std::array<bool, 3>& axes) { backwards_ = axes; }
 
  private:
   void check_places() const;
@@ -73,6 +77,7 @@ class ScalarGrid {
   Samples samples_;
   std::pair<double, double> range_;
   std::optional<Box3> walls_;
+  std::array<bool, 3> backwards_{};
 };
 
 // The same samples with a layer of `value` around them (the origin moves out by one spacing): every isosurface with an

@@ -133,12 +133,17 @@ namespace {
 // The samples of a region alone, those that are not finite among them counted anew.
 void crop(Volume& volume, const SampleRegion& region) {
   if (volume.as_read) {
-    Samples kept = cropped(*volume.as_read, volume.grid.dims(), region);
+    Samples kept = cropped(*volume.as_read, volume.grid, region);
     volume.not_finite = count_not_finite(kept);
     volume.as_read.reset();
     if (volume.not_finite.count() > 0) volume.as_read = std::move(kept);
   }
   volume.whole_origin = volume.grid.origin();
+  volume.first = part_of(volume.grid.dims(), region).low;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Affine& map = volume.index_to_world;
+    map.offset = map.offset + volume.first[axis] * map.columns[axis];
+  }
   volume.grid = cropped(volume.grid, region);
 }
 

@@ -54,7 +54,7 @@ double isovalue_in(const Volume& volume, const FieldOptions& options, const Fiel
   const std::optional<NamedIsovalue> name = name_of_isovalue(options.isovalue);
   if (!name) return parse_number(options.isovalue, "--isovalue");
   const Samples& all = volume.as_read ? *volume.as_read : volume.grid.samples();
-  const Samples samples = region.is_all() ? all : cropped(all, volume.grid.dims(), region);
+  const Samples samples = region.is_all() ? all : cropped(all, volume.grid, region);
   return isovalue_of(volume.as_read ? finite_samples(samples) : samples, *name);
 }
 
@@ -70,7 +70,9 @@ ScalarGrid finite_grid(const Volume& volume, const FieldOptions& options, const 
     low = high = *parameters.label - 1.0;  // infinities have no label
     nan = is_above ? *parameters.label : low;
   }
-  return {grid.dims(), with_finite_samples(*volume.as_read, nan, low, high), grid.spacing(), grid.origin()};
+  ScalarGrid finite(grid.dims(), with_finite_samples(*volume.as_read, nan, low, high), grid.spacing(), grid.origin());
+  finite.set_backwards(grid.backwards());
+  return finite;
 }
 
 // The first eight values.
@@ -155,7 +157,7 @@ void apply_field_options(const FieldOptions& options, const Volume* volume, Fiel
 ChosenField choose_field(const std::string& path, const Volume& volume, const FieldOptions& options,
                          const FieldParameters& parameters, const SampleRegion& region) {
   if (volume.as_read && options.nan == "refuse") {
-    throw InputError(path + ": " + first_not_finite_text(*volume.as_read, volume.grid.dims()) +
+    throw InputError(path + ": " + first_not_finite_text(*volume.as_read, volume.grid, volume.first) +
                      ": every sample must be a finite number (" + std::to_string(volume.not_finite.count()) +
                      (volume.not_finite.count() == 1 ? " is" : " are") +
                      " not); --nan outside or --nan inside takes NaN for that side");

@@ -34,11 +34,6 @@ double units_in_a_millimetre(const std::string& units) {
   return units == "angstrom" ? 1e7 : 1;
 }
 
-// The map from the index of a sample to the world.
-Affine index_map(const ScalarGrid& grid, const Affine& to_world) {
-  return composed(to_world, affine_of(grid.spacing(), grid.origin()));
-}
-
 // File names may have line ends in them.
 std::string on_one_line(std::string text) {
   std::replace_if(
@@ -154,10 +149,12 @@ std::optional<double> metres_in_unit(const std::string& units) {
 }
 
 Json source_json(const Volume& volume) {
-  const Affine map = index_map(volume.grid, volume.placement.to_world);
+  const auto& [x, y, z] = volume.index_to_world.columns;
   Json rows = Json::array();
-  for (std::size_t row = 0; row < 3; ++row)
-    rows.push_back(Json::array({map.columns[0][row], map.columns[1][row], map.columns[2][row], map.offset[row]}));
+  for (std::size_t row = 0; row < 3; ++row) {
+    // Plus 0: a zero of a file may be -0.
+    rows.push_back(Json::array({x[row] + 0, y[row] + 0, z[row] + 0, volume.index_to_world.offset[row] + 0}));
+  }
   return Json{{"format", volume.format},
               {"stored_type", volume.stored_type},
               {"channels", volume.channels},

@@ -204,7 +204,11 @@ py::tuple read_volume_file(const std::string& path, std::optional<std::uint64_t>
   const py::ssize_t size = type.itemsize();
   const auto memory = new std::shared_ptr<const void>(volume.memory);
   const py::capsule owner(memory, [](void* kept) { delete static_cast<std::shared_ptr<const void>*>(kept); });
-  py::array array(type, {nx, ny, nz}, {size, size * nx, size * nx * ny}, volume.view.samples, owner);
+  // All 0 stands for packed samples.
+  const auto& [sx, sy, sz] = volume.view.strides;
+  const std::array<py::ssize_t, 3> packed = {size, size * nx, size * nx * ny};
+  const std::array<py::ssize_t, 3> strides = sx == 0 ? packed : std::array<py::ssize_t, 3>{sx, sy, sz};
+  py::array array(type, {nx, ny, nz}, {strides[0], strides[1], strides[2]}, volume.view.samples, owner);
   array.attr("flags").attr("writeable") = false;
   return py::make_tuple(array, volume.view.affine, volume.space, volume.units);
 }

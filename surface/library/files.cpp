@@ -1,6 +1,9 @@
 // Volumes and meshes in files, for callers of the library.
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "surface/library/call.h"
@@ -23,6 +26,30 @@ std::array<std::array<double, 4>, 3> rows_of(const Affine& map) {
   return rows;
 }
 
+// The samples in the order of the file: along axes that are kept the other way round from the last one on.
+VolumeView view_as_file(const Volume& volume, const Samples& samples) {
+  const std::span<const std::byte> bytes = sample_bytes(samples);
+  VolumeView view;
+  view.type = kKept.at(samples.index());
+  for (std::size_t axis = 0; axis < 3; ++axis) view.dims[axis] = volume.grid.dims()[axis];
+  const auto [x, y, z] = volume.grid.backwards();
+  if (!x && !y && !z) {
+    view.samples = bytes.data();
+    view.affine = rows_of(composed(volume.placement.to_world, affine_of(volume.grid.spacing(), volume.grid.origin())));
+    return view;
+  }
+  auto stride = static_cast<std::int64_t>(bytes.size() / volume.grid.sample_count());
+  const std::byte* first = bytes.data();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    view.strides[axis] = volume.grid.backwards()[axis] ? -stride : stride;
+    if (view.strides[axis] < 0) first += (view.dims[axis] - 1) * stride;
+    stride *= view.dims[axis];
+  }
+  view.samples = first;
+  view.affine = rows_of(volume.index_to_world);
+  return view;
+}
+
 }  // namespace
 
 LoadedVolume load_volume(const std::filesystem::path& path, std::optional<std::uint64_t> channel,
@@ -35,11 +62,7 @@ LoadedVolume load_volume(const std::filesystem::path& path, std::optional<std::u
     const Volume volume = read_placed_volume(path, options);
     const auto samples = std::make_shared<const Samples>(volume.as_read ? *volume.as_read : volume.grid.samples());
     LoadedVolume loaded;
-    loaded.view.samples = sample_bytes(*samples).data();
-    loaded.view.type = kKept.at(samples->index());
-    for (std::size_t axis = 0; axis < 3; ++axis) loaded.view.dims[axis] = volume.grid.dims()[axis];
-    loaded.view.affine =
-        rows_of(composed(volume.placement.to_world, affine_of(volume.grid.spacing(), volume.grid.origin())));
+    loaded.view = view_as_file(volume, *samples);
     loaded.memory = samples;
     loaded.space = volume.placement.space;
     loaded.units = volume.placement.units;

@@ -31,6 +31,8 @@ struct StridedSamples {
   Dims dims{};
   std::array<std::int64_t, 3> strides{};  // ascending
   std::array<std::size_t, 3> axes{};      // the caller's axis of each
+  std::array<bool, 3> turned{};           // along which the caller counts the other way
+  std::array<std::int32_t, 3> low{};      // the caller's lowest number along each
   Affine index_to_world;
 
   [[nodiscard]] std::size_t size() const { return kSizes.at(static_cast<std::size_t>(type)); }
@@ -80,6 +82,7 @@ void take_part(StridedSamples& samples, const SampleRegion& region) {
         samples.index_to_world.offset + part.low[axis] * samples.index_to_world.columns[axis];
   }
   samples.dims = part.dims;
+  samples.low = part.low;
 }
 
 void turn_axes_forwards(StridedSamples& samples) {
@@ -91,6 +94,7 @@ void turn_axes_forwards(StridedSamples& samples) {
     samples.strides[axis] = -samples.strides[axis];
     samples.index_to_world.offset = samples.index_to_world.offset + static_cast<double>(last) * column;
     column = -1.0 * column;
+    samples.turned[axis] = true;
   }
 }
 
@@ -104,6 +108,8 @@ StridedSamples in_order_of_memory(const StridedSamples& samples) {
     sorted.dims[axis] = samples.dims[from];
     sorted.strides[axis] = samples.strides[from];
     sorted.axes[axis] = samples.axes[from];
+    sorted.turned[axis] = samples.turned[from];
+    sorted.low[axis] = samples.low[from];
     sorted.index_to_world.columns[axis] = samples.index_to_world.columns[from];
   }
   return sorted;
@@ -149,12 +155,14 @@ TakenSamples taken(const StridedSamples& samples) {
   return {SampleArray<Stored>(std::shared_ptr<const void>(), span), false};
 }
 
-// The index of a sample in the caller's order of axes: "(i, j, k)".
+// The index of a sample as the caller counts it: "(i, j, k)".
 std::string index_text(const StridedSamples& samples, std::size_t n) {
   std::array<std::size_t, 3> index{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    index[samples.axes[axis]] = n % static_cast<std::size_t>(samples.dims[axis]);
-    n /= static_cast<std::size_t>(samples.dims[axis]);
+    const auto length = static_cast<std::size_t>(samples.dims[axis]), place = n % length;
+    n /= length;
+    index[samples.axes[axis]] =
+        static_cast<std::size_t>(samples.low[axis]) + (samples.turned[axis] ? length - 1 - place : place);
   }
   return "(" + std::to_string(index[0]) + ", " + std::to_string(index[1]) + ", " + std::to_string(index[2]) + ")";
 }
@@ -204,7 +212,7 @@ TakenSamples take(const StridedSamples& samples) {
   DELISO_CHECK(false, "every type is in the list");
 }
 
-// A sample that is no number, in the caller's order of axes.
+// A sample that is no number, as the caller counts it.
 void check_finite(const Samples& samples, const StridedSamples& described) {
   visit_samples(samples, [&](const auto& all) {
     const auto wrong =

@@ -124,7 +124,7 @@ Volume read_any(const std::filesystem::path& path, const ReadOptions& options) {
 Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options) {
   Volume volume = read_any(path, options);
   if (volume.as_read && !options.accepts_not_finite) {
-    throw InputError(path.string() + ": " + first_not_finite_text(*volume.as_read, volume.grid.dims()) +
+    throw InputError(path.string() + ": " + first_not_finite_text(*volume.as_read, volume.grid, {}) +
                      ": every sample must be a finite number");
   }
   return volume;

@@ -140,6 +140,7 @@ struct LoadedVolume {
 
 // NRRD, NIfTI, MetaImage, VTK (.vtk, .vti), NumPy, MRC and CCP4, INR, PVM and .raw with dims and type in its name,
 // packed by gzip or not. Where the file has several values a voxel, `channel` says which; of named arrays, `array`.
+// Samples are counted as the file counts them: the strides are negative along axes that are kept the other way round.
 DELISO_API LoadedVolume load_volume(const std::filesystem::path& path, std::optional<std::uint64_t> channel = {},
                                     const std::string& array = "");
 

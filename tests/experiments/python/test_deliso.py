@@ -256,6 +256,18 @@ class Files(unittest.TestCase):
             self.assertFalse(array.flags.writeable)
             self.assertEqual(deliso.mesh(array, ISOVALUE).report["verdict"], "proven")
 
+    def test_arrays_are_in_the_order_of_the_file(self):
+        samples = numpy.arange(60, dtype="u1").reshape((5, 4, 3), order="F")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "backwards.nrrd"
+            path.write_bytes(b"NRRD0005\ntype: uint8\ndimension: 3\nsizes: 5 4 3\nencoding: raw\nspace dimension: 3\n"
+                             b"space directions: (-0.5,0,0) (0,1,0) (0,0,-1)\nspace origin: (9,0,7)\n\n"
+                             + samples.tobytes(order="F"))
+            volume = deliso.load_volume(path)
+            numpy.testing.assert_array_equal(volume.array, samples)
+            numpy.testing.assert_array_equal(numpy.diag(volume.affine), [-0.5, 1, -1, 1])
+            numpy.testing.assert_array_equal(volume.affine[:3, 3], [9, 0, 7])
+
 
 if __name__ == "__main__":
     unittest.main()

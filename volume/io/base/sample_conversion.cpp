@@ -44,11 +44,18 @@ Samples narrowed_integers(const LargeArray<Integer>& values) {
 }
 
 template <class Integer>
-Samples narrowed_in_file(const LargeArray<Integer>& values, const Dims& dims, const ByteStream& file) {
-  if (const auto n = first_not_double(values)) {
-    const auto nx = static_cast<std::size_t>(dims[0]), ny = static_cast<std::size_t>(dims[1]);
-    file.fail("sample (" + std::to_string(*n % nx) + ", " + std::to_string(*n / nx % ny) + ", " +
-              std::to_string(*n / nx / ny) + ") is " + std::to_string(values[*n]) +
+Samples narrowed_in_file(const LargeArray<Integer>& values, const Dims& dims, bool is_z_fastest,
+                         const ByteStream& file) {
+  if (const auto wrong = first_not_double(values)) {
+    std::size_t n = *wrong;
+    std::array<std::size_t, 3> index{};
+    for (std::size_t step = 0; step < 3; ++step) {
+      const std::size_t axis = is_z_fastest ? 2 - step : step;
+      index[axis] = n % static_cast<std::size_t>(dims[axis]);
+      n /= static_cast<std::size_t>(dims[axis]);
+    }
+    file.fail("sample (" + std::to_string(index[0]) + ", " + std::to_string(index[1]) + ", " +
+              std::to_string(index[2]) + ") is " + std::to_string(values[*wrong]) +
               ", which no double holds exactly: scale the samples, or store them as doubles");
   }
   return narrowed_integers(values);
@@ -81,14 +88,14 @@ float float_of_half(std::uint16_t bits) {
   return sign * std::numeric_limits<float>::infinity();
 }
 
-Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_in_file(values, dims, file);
+Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file) {
+  return narrowed_in_file(values, dims, is_z_fastest, file);
 }
-Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_in_file(values, dims, file);
+Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file) {
+  return narrowed_in_file(values, dims, is_z_fastest, file);
 }
-Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file) {
-  return narrowed_in_file(values, dims, file);
+Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file) {
+  return narrowed_in_file(values, dims, is_z_fastest, file);
 }
 
 Samples narrowed(const LargeArray<std::uint32_t>& values) { return narrowed_integers(values); }

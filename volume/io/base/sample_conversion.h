@@ -15,10 +15,11 @@ namespace deliso {
 // A half of IEEE 754 (binary16) as a float. Exact.
 float float_of_half(std::uint16_t bits);
 
-// i32 when all values fit, else doubles. Throws InputError naming the first voxel whose value no double holds.
-Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, const ByteStream& file);
-Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, const ByteStream& file);
-Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, const ByteStream& file);
+// i32 when all values fit, else doubles. Throws InputError naming the first voxel whose value no double holds, in the
+// order x, y, z also where the values lie z fastest.
+Samples narrowed(const LargeArray<std::uint32_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file);
+Samples narrowed(const LargeArray<std::uint64_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file);
+Samples narrowed(const LargeArray<std::int64_t>& values, const Dims& dims, bool is_z_fastest, const ByteStream& file);
 
 // The same of values that came from no file. Precondition: a double holds each.
 Samples narrowed(const LargeArray<std::uint32_t>& values);

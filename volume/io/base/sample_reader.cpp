@@ -85,11 +85,11 @@ Samples read_stored(ByteStream& stream, const SampleLayout& layout, std::size_t 
   const auto values = [&]<class Stored>(Stored /*type*/) { return read_values<Stored>(stream, layout, count, needed); };
   switch (layout.type) {
     case StoredType::kU32:
-      return narrowed(values(std::uint32_t{}), layout.dims, stream);
+      return narrowed(values(std::uint32_t{}), layout.dims, layout.is_z_fastest, stream);
     case StoredType::kU64:
-      return narrowed(values(std::uint64_t{}), layout.dims, stream);
+      return narrowed(values(std::uint64_t{}), layout.dims, layout.is_z_fastest, stream);
     case StoredType::kI64:
-      return narrowed(values(std::int64_t{}), layout.dims, stream);
+      return narrowed(values(std::int64_t{}), layout.dims, layout.is_z_fastest, stream);
     case StoredType::kF16: {
       LargeArray<float> out;
       out.reserve(count);

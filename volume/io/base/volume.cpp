@@ -19,6 +19,18 @@ std::string choices_text(const SampleLayout& layout) {
   return std::to_string(layout.volumes) + " volumes (" + text + ")";
 }
 
+// The map of the samples in the order in which they are kept.
+Affine map_of_kept(const VolumeDescription& description) {
+  Affine map = description.index_to_world;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!description.layout.flipped[axis]) continue;
+    double& along = map.columns[axis][axis];
+    map.offset[axis] += along * (description.layout.dims[axis] - 1);
+    along = -along;
+  }
+  return map;
+}
+
 }  // namespace
 
 void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleLayout& layout) {
@@ -37,23 +49,17 @@ void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleL
 }
 
 void turn_forwards(VolumeDescription& description) {
-  Affine& map = description.index_to_world;
+  const Affine& map = description.index_to_world;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Vec3& column = map.columns[axis];
     if (column[axis] == 0 || column[(axis + 1) % 3] != 0 || column[(axis + 2) % 3] != 0) return;
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double& along = map.columns[axis][axis];
-    if (along > 0) continue;
-    map.offset[axis] += along * (description.layout.dims[axis] - 1);
-    along = -along;
-    description.layout.flipped[axis] = !description.layout.flipped[axis];
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) description.layout.flipped[axis] = map.columns[axis][axis] < 0;
 }
 
 Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples) {
   try {
-    const SampleFrame frame = frame_of(description.index_to_world);
+    const SampleFrame frame = frame_of(map_of_kept(description));
     const NotFiniteCounts not_finite = count_not_finite(samples);
     std::optional<Samples> as_read;
     if (not_finite.count() > 0) {
@@ -61,14 +67,17 @@ Volume make_volume(const ByteStream& file, const VolumeDescription& description,
       const auto [low, high] = finite_range(samples);
       samples = with_finite_samples(samples, low, low, high);
     }
-    return {ScalarGrid(description.layout.dims, std::move(samples), frame.spacing, frame.origin),
-            {frame.to_world, description.space, description.units},
-            description.format,
-            short_type_name(description.layout.type),
-            description.layout.components * description.layout.volumes,
-            description.layout.channel,
-            not_finite,
-            std::move(as_read)};
+    Volume volume{ScalarGrid(description.layout.dims, std::move(samples), frame.spacing, frame.origin),
+                  {frame.to_world, description.space, description.units},
+                  description.index_to_world,
+                  description.format,
+                  short_type_name(description.layout.type),
+                  description.layout.components * description.layout.volumes,
+                  description.layout.channel,
+                  not_finite,
+                  std::move(as_read)};
+    volume.grid.set_backwards(description.layout.flipped);
+    return volume;
   } catch (const InputError& error) {
     file.fail(error.what());
   }
@@ -79,7 +88,7 @@ Volume read_described(ByteStream& stream, VolumeDescription description, const C
   choose_channel(stream, choice, description.layout);
   turn_forwards(description);
   try {
-    static_cast<void>(frame_of(description.index_to_world));
+    static_cast<void>(frame_of(map_of_kept(description)));
   } catch (const InputError& error) {
     stream.fail(error.what());
   }

@@ -2,6 +2,7 @@
 // units.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct VolumeDescription {
 struct Volume {
   ScalarGrid grid;
   Placement placement;
+  Affine index_to_world;  // of the samples as the file counts them, whichever way the grid's axes run
   std::string format;
   std::string stored_type;     // short_type_name of the samples in the file; scaled ones are doubles in memory
   std::uint64_t channels = 1;  // values of each place in the file, and volumes after each other
@@ -37,6 +39,7 @@ struct Volume {
   std::optional<Samples> as_read{};
   // Where the grid is a part of what was read: the origin of the whole, from which local coordinates count.
   std::optional<Vec3> whole_origin{};
+  std::array<std::int32_t, 3> first{};  // the file's number of the part's first sample
 };
 
 // Which of several values to read where a file has more than one.
@@ -49,7 +52,7 @@ struct ChannelChoice {
 void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleLayout& layout);
 
 // Where directions run along x, y, z in this order, but some backwards, the layout reverses these axes, so that the
-// volume is axis-parallel. To be called before the samples are read.
+// volume is axis-parallel (the map stays that of the file). To be called before the samples are read.
 void turn_forwards(VolumeDescription& description);
 
 // The volume, with finite samples. Throws InputError naming the file when the geometry is none that can be computed

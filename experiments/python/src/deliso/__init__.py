@@ -49,7 +49,7 @@ class MeshResult(NamedTuple):
 class Volume(NamedTuple):
     """What load_volume() returns."""
 
-    array: numpy.ndarray  # (nx, ny, nz), read-only
+    array: numpy.ndarray  # (nx, ny, nz), read-only, in the order of the file
     affine: numpy.ndarray  # (4, 4): from indices to the world
     space: str  # "left-posterior-superior", ...; empty where the file does not say
     units: str  # "mm", ...; likewise
