@@ -171,7 +171,15 @@ MeshFaults Pipeline::faults_of(const SurfaceMesh& mesh) {
 void Pipeline::find_places(const SurfaceMesh& mesh, MeshFaults& faults) {
   faults.pieces = mesh_topology(mesh.points.size(), mesh.triangles, options_.threads);
   faults.places = {};
-  if (result_.build.bounds_a_solid) faults.places = assignment_faults(mesh, faults.pieces, *surface_);
+  if (!result_.build.bounds_a_solid) return;
+  // Components within a rounding of a sample are told apart in mesh space, but not in the coordinates that are written.
+  SurfaceMesh written;
+  if (!is_exact_in_world(*isosurface_)) {
+    written = mesh;
+    written.points = places_in_world(mesh, *isosurface_);
+    for (Vec3& p : written.points) p = from_world(p, *isosurface_);
+  }
+  faults.places = assignment_faults(written.points.empty() ? mesh : written, faults.pieces, *surface_);
 }
 
 }  // namespace deliso

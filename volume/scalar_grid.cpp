@@ -231,7 +231,11 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
           "it, or samples less what they have in common");
     }
     const double gap = has_lower ? isovalue - near.lower : near.higher - isovalue;
-    if (!has_lower && !(gap < kInfinity)) return std::nextafter(isovalue, -kInfinity);
+    if (!has_lower && !(gap < kInfinity)) {
+      // All samples are equal. Next to them nothing could be interpolated with what a closing layer has below them.
+      const double lower = isovalue - kLowered * std::max(1.0, std::abs(isovalue));
+      return std::isfinite(lower) ? lower : std::nextafter(isovalue, -kInfinity);
+    }
     const double lowered = has_lower && is_thin_at(grid, isovalue) ? kLoweredWhereThin : kLowered;
     for (const double fraction : {lowered, 0.5}) {
       const double candidate = isovalue - fraction * gap;

@@ -90,8 +90,8 @@ ScalarGrid padded(const ScalarGrid& grid, double value);
 // lower sample value, or, where such a sample has lower ones on both sides along an axis, by 38.2 %. (There 1 % leaves
 // walls, wires and grains a hundredth of a voxel thin: with a whole number for isovalue, on most scans of integers,
 // everywhere. Distances to a box on grid planes have no such samples, and hardly move.) If there is no lower sample, it
-// is lowered by 1 % of the gap to the next higher one; if all samples are equal, to the next lower double. When a gap
-// is too narrow to hold a double, the next gap below is taken; throws InputError when none is left.
+// is lowered by 1 % of the gap to the next higher one; if all samples are equal, by 1 % of their amount and 0.01 at
+// least. When a gap is too narrow to hold a double, the next gap below is taken; throws InputError when none is left.
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
 // A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same

@@ -1,5 +1,5 @@
-// The last resort: components whose mesh does not keep what is promised after stage 2 come from marching cubes on a
-// finer grid.
+// The last resort: components whose mesh does not keep what is promised after stage 2 come from marching cubes that are
+// finer where they have to be, or on a finer grid.
 #pragma once
 
 #include "surface/base/exact_surface.h"

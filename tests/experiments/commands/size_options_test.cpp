@@ -172,6 +172,7 @@ TEST_F(SizeOptionsTest, RegionsKeepTheirPlaceInEveryCommand) {
 TEST_F(SizeOptionsTest, BadSizesAreRefusedInOneSentence) {
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--max-error", "0"},
                                       {"--max-error", "-1mm"},
+                                      {"--max-error", "1e-7"},
                                       {"--max-error", "1cm"},
                                       {"--max-edge", "x"},
                                       {"--min-angle", "36"},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -31,6 +32,21 @@ std::int64_t count_far(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
   std::int64_t count = 0;
   points_to_mesh(points, TriangleMesh{mesh.points, mesh.triangles}, 1e9, most, &count);
   return count;
+}
+
+// With a bound far below a voxel each triangle takes thousands of parts.
+TEST(GeometryCheck, EndsEarlyWhenTheRunIsToStop) {
+  const auto scene = testing::noise_scene({9, 8, 10}, 3);
+  const SurfaceMesh mesh = exact_polygonization(scene->surface()).mesh;
+  const Promise promise{.max_distance = 0.01, .within_cells = true};
+  ASSERT_FALSE(check_geometry(mesh, scene->surface(), promise).is_near());
+  const std::atomic<bool> stop{true};
+  const Controls controls({}, &stop, {});
+  ExactSurface surface = scene->surface();
+  surface.controls = &controls;
+  const GeometryCheck check = check_geometry(mesh, surface, promise);
+  EXPECT_TRUE(check.far_triangles.empty());
+  EXPECT_TRUE(check.missed_points.empty());
 }
 
 TEST(GeometryCheck, FindsNothingWrongWithExactPolygonizations) {
