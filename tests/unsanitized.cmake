@@ -83,6 +83,8 @@ set(unsanitized
   "SpanningTriangles.DoNotStay"
   "StageOneRunsAgain"
   "StepsReachAnError"
+  "StlHeader.OptionsWithoutRoom"
+  "StlHeader.VerifyNeedsNoOptionTwice"
   "Teaching"
   "TellsWhatACheckOfTheWholeTells"
   "ThatStayEndRepairAfterTwoRounds"
