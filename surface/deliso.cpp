@@ -57,8 +57,7 @@ Pipeline::Pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshin
       parameters_(options.parameters),
       controls_(parameters_.budget, options.stop, options.progress),
       result_(result),
-      promise_{.max_distance = promised_distance(parameters_),
-               .within_cells = parameters_.size.max_error || promised_distance(parameters_) < 1} {
+      promise_{.max_distance = promised_distance(parameters_), .within_cells = is_measured_within_cells(parameters_)} {
   controls_.set_observer(options.observer);
   result_.promised_distance = promise_.max_distance;
 }

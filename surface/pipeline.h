@@ -53,7 +53,7 @@ class Pipeline {
   // After RefineGeom (pipeline_end.cpp, pipeline_faults.cpp, pipeline_error.cpp, pipeline_sizes.cpp).
   void finish(SurfaceMesh& mesh, const RefineOptions& options);
   void improve(SurfaceMesh& mesh, int most_rounds);
-  void come_near(SurfaceMesh& mesh, const RefineOptions& options);
+  bool come_near(SurfaceMesh& mesh, const RefineOptions& options);
   void improve_near(SurfaceMesh& mesh);
   void refine_by_distance(SurfaceMesh& mesh, RefineOptions options, RepeatedCheck& check);
   void bring_near_by_steps(SurfaceMesh& mesh, RepeatedCheck& check);

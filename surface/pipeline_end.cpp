@@ -27,15 +27,15 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   improve(mesh, parameters_.shape.rounds);
   // Of a run that was stopped no distance is promised, and its few large triangles would take long to measure.
   if (!parameters_.certify || controls_.stopped()) return;
-  if (!is_sized(parameters_)) come_near(mesh, options);
+  const bool was_near = !is_sized(parameters_) && come_near(mesh, options);
   // What is off within cells only is reached as where an error is stated.
   if (is_sized(parameters_) || (promise_.within_cells && !last_.geometry.is_near())) {
     if (!refine_to_error(mesh, options)) {
       take_nearer_cubes(mesh);
       begin_again(mesh);
     }
-    if (!is_sized(parameters_)) improve_near(mesh);
   }
+  if (!is_sized(parameters_) && promise_.within_cells && !was_near && last_.geometry.is_near()) improve_near(mesh);
   if (drops_components(parameters_.components) && !controls_.stopped()) drop_components(mesh);
   if (is_sized(parameters_) && !controls_.stopped()) fit_sizes(mesh, options);
   if (controls_.stopped()) return;
@@ -91,27 +91,39 @@ void Pipeline::improve(SurfaceMesh& mesh, int most_rounds) {
   });
 }
 
-// The angles of what has been brought as near as a stated error, where no decimation follows.
+// The angles of what has been brought nearer than a voxel, where no decimation follows. Steps may leave points of the
+// isosurface too far: then they begin again, and keep to these.
 void Pipeline::improve_near(SurfaceMesh& mesh) {
-  SurfaceMesh better = mesh;
+  constexpr int kMostTimes = 3;
   const ShapeStats shape_before = result_.shape;
-  improve_within_promise(better, {});
-  GeometryCheck now = timed(result_.certify_stage, [&] { return check_geometry(better, *surface_, promise_); });
-  if (!now.is_near()) return take_back_shape(shape_before);
-  mesh = std::move(better);
-  last_.geometry = std::move(now);
+  std::vector<Vec3> missed;
+  for (int time = 0; time < kMostTimes && !controls_.poll(); ++time) {
+    SurfaceMesh better = mesh;
+    improve_within_promise(better, missed);
+    GeometryCheck now = timed(result_.certify_stage, [&] { return check_geometry(better, *surface_, promise_); });
+    if (now.is_near()) {
+      mesh = std::move(better);
+      last_.geometry = std::move(now);
+      return;
+    }
+    take_back_shape(shape_before);
+    missed.insert(missed.end(), now.missed_points.begin(), now.missed_points.end());
+  }
 }
 
 // Refinement gives the better triangles where much is far off, but it measures all of the mesh again and refines places
 // that are near. So a few that are far are left to steps, if these bring all of them near.
-void Pipeline::come_near(SurfaceMesh& mesh, const RefineOptions& options) {
+// Returns whether nothing was far.
+bool Pipeline::come_near(SurfaceMesh& mesh, const RefineOptions& options) {
   constexpr std::int64_t kFew = 1000, kShare = 100;  // at most, and at most one for so many triangles
   RepeatedCheck check(*surface_, promise_);
   last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
+  if (last_.geometry.is_near()) return true;
   const std::int64_t off = last_.geometry.mesh_off + std::ssize(last_.geometry.missed_points);
   if (off <= std::min(kFew, std::ssize(mesh.triangles) / kShare)) bring_near_by_steps(mesh, check);
   if (!last_.geometry.is_near()) refine_by_distance(mesh, options, check);
   bring_near_by_steps(mesh, check);
+  return false;
 }
 
 // Where the paper's criteria leave the mesh farther from the isosurface than promised, refinement goes on by distance;

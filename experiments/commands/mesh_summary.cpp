@@ -13,6 +13,7 @@
 #include "experiments/commands/size_options.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/text_table.h"
+#include "surface/base/sizes.h"
 
 namespace deliso {
 namespace {
@@ -66,8 +67,9 @@ void print_summary(const Meshed& meshed, std::ostream& stream) {
          << (is_proven(result.certificate) ? "proven" : "not proven") << (field.empty() ? "" : ": " + field)
          << " (a proven mesh is manifold, oriented and homeomorphic to the isosurface component by component, no "
          << "triangles cross, its vertices lie on the isosurface, and distances both ways"
-         << (meshed.meshing.parameters.size.max_error ? ""
-                                                      : ", those of the isosurface at its crossings with grid edges,")
+         << (is_measured_within_cells(meshed.meshing.parameters)
+                 ? ""
+                 : ", those of the isosurface at its crossings with grid edges,")
          << " are at most " << number_text(result.promised_distance) << " voxel"
          << (meshed.chosen.parameters.smooth ? "; all of the smoothed field" : "") << ")\n";
 }

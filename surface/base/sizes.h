@@ -13,6 +13,11 @@ inline double promised_distance(const Parameters& parameters) {
   return parameters.size.max_error.value_or(parameters.promise.max_distance);
 }
 
+// Whether distances of the isosurface from the mesh are kept within voxel cells too, and not on their edges alone.
+inline bool is_measured_within_cells(const Parameters& parameters) {
+  return parameters.size.max_error.has_value() || promised_distance(parameters) < 1;
+}
+
 // Whether the number of vertices follows from an error or a count, and not from the paper's criteria 1 and 2.
 inline bool is_sized(const Parameters& parameters) {
   return parameters.size.max_error.has_value() || parameters.size.target_vertices.has_value();

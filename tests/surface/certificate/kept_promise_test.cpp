@@ -3,6 +3,7 @@
 
 #include "surface/certificate/certificate.h"
 #include "surface/deliso.h"
+#include "surface/mesh/mesh_quality.h"
 #include "surface/verification/verification.h"
 #include "tests/support/surface_fields.h"
 #include "volume/fields/field_slices.h"
@@ -22,6 +23,7 @@ TEST(KeptPromise, BelowAVoxelIsVerified) {
     const MeshingResult result = mesh_isosurface(grid, (low + high) / 2, options);
     EXPECT_TRUE(is_proven(result.certificate));
     EXPECT_EQ(result.promised_distance, 0.2);
+    EXPECT_GT(measure_quality(result.mesh).min_angle_degrees, 9.9);  // steps that brought it near left 0.4 and less
     const Promise promise{.max_distance = 0.2};
     EXPECT_TRUE(verify_mesh(result.mesh, grid, result.isovalue_used, promise).proven);
   }
