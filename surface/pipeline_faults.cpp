@@ -70,19 +70,26 @@ void Pipeline::find_last_faults(SurfaceMesh& mesh) {
   uncross_by_steps(mesh);
   if (!repairs(parameters_) || last_.count() == 0) return;
   // With a smaller error promised, cubes that are no smaller will mostly do.
-  constexpr int kMostRounds = 4, kNearerRounds = 2;
+  constexpr int kFinerRounds = 4, kNearerRounds = 2;
   constexpr double kTimes = 4, kLargest = 0.9;
   const double larger = std::max(promise_.max_distance, std::min(kTimes * promise_.max_distance, kLargest));
   const double cube = is_sized(parameters_) ? larger : promise_.max_distance;
+  const SurfaceMesh first = mesh;
+  const MeshFaults first_faults = last_;
   std::vector<bool> is_marked;
   std::int64_t most = 0;
   const int nearer_rounds = cell_pieces(*isosurface_) == GridFactors{1, 1, 1} ? kNearerRounds : 0;
-  for (int round = 0; round < kMostRounds && last_.count() > 0 && !controls_.poll(); ++round) {
+  for (int round = 0; round < nearer_rounds + kFinerRounds && last_.count() > 0 && !controls_.poll(); ++round) {
     const ShapeStats shape_before = result_.shape;
-    SurfaceMesh next = mesh;
+    // Finer cubes take the place of what divided ones have not mended, and not of these.
+    const bool is_anew = round == nearer_rounds;
+    if (is_anew) is_marked.clear();
+    SurfaceMesh next = is_anew ? first : mesh;
+    const MeshFaults& faults_of_next = is_anew ? first_faults : last_;
     const std::int64_t replaced = timed(result_.repair, [&] {
       if (round >= nearer_rounds) {
-        return replace_faulty_components(next, *surface_, last_, cube / (1 + round - nearer_rounds), is_marked);
+        return replace_faulty_components(next, *surface_, faults_of_next, cube / (1 + round - nearer_rounds),
+                                         is_marked);
       }
       return replace_by_nearer_cubes(next, *surface_, last_,
                                      {.max_distance = promise_.max_distance, .parts = 2 + round}, is_marked);
