@@ -175,6 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
         // A wide triangle spans the hollow between the arms of a corner piece, so its centroid is nearest to another
         // part.
         Input{"mixed_magnitudes_3.nrrd", 0},
+        // Cubes with divided cells had a small component that seemed reversed, and finer ones began from these.
+        Input{"faulty_divided_cubes.nrrd", 0},
         // The stage `shape` cut bubbles of a few hundredths of a voxel so that the sample inside them was outside.
         Input{"lone_sample_0.nrrd", 0.18736082051919575},
         Input{"lone_sample_1.nrrd", 0.4085083012745886, Boundary::kClosed},
