@@ -112,10 +112,7 @@ constexpr ParameterField row(std::string_view path, ParameterRange range, std::s
   field.set = [](Parameters& parameters, const ParameterValue& value) {
     Member& member = follow<Path...>(parameters);
     if constexpr (Optional::kIsOptional) {
-      if (std::holds_alternative<std::monostate>(value)) {
-        member.reset();
-        return;
-      }
+      if (std::holds_alternative<std::monostate>(value)) return member.reset();
     }
     member = Codec<Value>::decode(value);
   };
