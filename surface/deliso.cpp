@@ -69,6 +69,7 @@ void Pipeline::run(double isovalue) {
 
   SurfaceMesh mesh = refine(stage1({}));
 
+  controls_.poll();  // checks may have ended early, with nothing found
   result_.stopped_in = controls_.stopped_in();
   controls_.report("certify", mesh.points.size(), 0);
   timed(result_.certify_stage, [&] { certify(std::move(mesh)); });

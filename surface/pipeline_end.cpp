@@ -159,7 +159,6 @@ void Pipeline::drop_crossings() {
 }
 
 void Pipeline::certify(SurfaceMesh mesh) {
-  controls_.poll();  // checks may have ended early
   // Elsewhere the last look for faults has found them.
   if (parameters_.certify && (!result_.build.bounds_a_solid || controls_.stopped())) find_places(mesh, last_);
   double squared_longest = 0;
