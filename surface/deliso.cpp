@@ -151,16 +151,10 @@ SurfaceMesh Pipeline::refine(SurfaceMesh mesh) {
   controls_.enter("refine");
   RefineOptions options = refine_options(parameters_, r_min_box_, coverage_targets_, options_.threads);
   options.observer = options_.observer;
-  if (options_.before_refine) {
-    options.announce = [this](double expected) {
-      options_.before_refine(expected, static_cast<double>(topology_.crossings.size()));
-    };
-  }
   result_.r_min_voxels = options.r_min;
   if (parameters_.algorithm == Algorithm::kTwoStage && result_.build.bounds_a_solid) {
     timed(result_.refine, [&] { refine_geometry(mesh, *isosurface_, options, controls_, result_.refine); });
   }
-  options.announce = {};
   options.smoothing_passes = 0;  // what comes after is for distances and sizes
   if (result_.build.bounds_a_solid) finish(mesh, options);
   return mesh;

@@ -28,9 +28,6 @@ struct MeshingOptions {
   std::uint64_t seed = 1;
   std::int32_t threads = 1;
   std::function<void(const Progress&)> progress;  // may be empty
-  // Called once before stage 2, with about how many vertices it is going to make, and how many edges of the grid the
-  // isosurface crosses; may be empty.
-  std::function<void(double expected, double crossings)> before_refine;
   const std::atomic<bool>* stop = nullptr;   // set to true from outside: finish early with a valid partial mesh
   std::string_view stop_cause = "a signal";  // who sets it, for the report
   bool keep_stage1_mesh = false;

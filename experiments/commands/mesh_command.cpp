@@ -183,12 +183,6 @@ Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const W
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
-    if (!options.quiet) {
-      watched.before_refine = [&parameters = meshing.parameters](double expected, double crossings) {
-        const std::string remark = many_vertices_remark(parameters, expected, crossings);
-        if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
-      };
-    }
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
     return mesh_isosurface(chosen.grid, chosen.isovalue, watched);
   }();

@@ -168,16 +168,4 @@ std::vector<std::string> size_remarks(const Parameters& parameters, const Meshin
   return remarks;
 }
 
-std::string many_vertices_remark(const Parameters& parameters, double expected, double crossings) {
-  constexpr double kMany = 200000, kTimes = 6;
-  if (is_sized(parameters) || expected < kMany || expected < kTimes * crossings) return "";
-  const double rounded = std::pow(10, std::floor(std::log10(expected)));
-  const auto about = static_cast<std::int64_t>(std::round(expected / rounded) * rounded);
-  return "stage 2 is going to make about " + std::to_string(about) + " vertices, many for an isosurface that crosses " +
-         shortest_text(crossings) +
-         " edges of the grid: it follows creases down to r_min; --max-error 0.1 (voxels) or --target-vertices gives "
-         "far "
-         "fewer";
-}
-
 }  // namespace deliso

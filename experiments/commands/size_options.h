@@ -35,7 +35,4 @@ KeptInFile kept_in_file(const std::vector<std::string>& comments);
 // What stderr tells of sizes that were asked for: components left out, a number not reached.
 std::vector<std::string> size_remarks(const Parameters& parameters, const MeshingResult& result);
 
-// A warning before stage 2 when it is going to make very many vertices for the size of the isosurface; else empty.
-std::string many_vertices_remark(const Parameters& parameters, double expected, double crossings);
-
 }  // namespace deliso

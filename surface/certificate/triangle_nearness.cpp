@@ -117,6 +117,26 @@ class PartsOfTriangle {
   int divisions_ = 0;
 };
 
+// Cut into triangles with edges so much shorter that every point of them is well within the distance from a corner of
+// theirs: whether the isosurface passes by each of these corners as near as is left. It does where it is as flat as the
+// triangle, most of the large ones.
+bool is_near_by_points(const Isosurface& isosurface, const Part& corners, double squared_longest, double most) {
+  constexpr double kLeastLeft = 1.0 / 16;                        // of the distance
+  const double longest = std::sqrt(squared_longest / 3) / most;  // the farthest that a point may be from the corners
+  const int pieces = static_cast<int>(std::ceil(longest / (1 - kLeastLeft)));
+  const double left = (1 - longest / pieces) * most;
+  const Vec3 along = (corners[1] - corners[0]) / pieces, across = (corners[2] - corners[0]) / pieces;
+  const Vec3 normal = cross(along, across);
+  for (int i = 0; i <= pieces; ++i) {
+    for (int j = 0; i + j <= pieces; ++j) {
+      if ((i == 0) + (j == 0) + (i + j == pieces) > 1) continue;  // corners of the triangle lie on the isosurface
+      const Vec3 p = corners[0] + i * along + j * across;
+      if (!changes_side(isosurface, p, isosurface.is_above(p), normal, left)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::int64_t count_far_parts(const Isosurface& isosurface, const std::array<Vec3, 3>& corners, double most,
@@ -126,13 +146,9 @@ std::int64_t count_far_parts(const Isosurface& isosurface, const std::array<Vec3
                 squared_distance(corners[2], corners[0])});
   // Every point of a triangle is within its longest edge over the square root of 3 of a corner.
   if (squared_longest <= 3 * most * most) return 0;
-  // Where the isosurface passes close to the centroid, all of a triangle with somewhat longer edges is near it or a
-  // corner. (With edges of 2.46 times `most` the shape for which that is tightest just is.)
-  constexpr double kClose = 0.25, kShort = 2.4;  // of the distance
-  if (squared_longest <= kShort * kShort * most * most) {
-    const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3;
-    const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    if (changes_side(isosurface, centroid, isosurface.is_above(centroid), normal, kClose * most)) return 0;
+  constexpr double kFew = 6;  // parts of the distance: edges so long take twelve points at most
+  if (squared_longest <= kFew * kFew * most * most && is_near_by_points(isosurface, corners, squared_longest, most)) {
+    return 0;
   }
   PartsOfTriangle parts(isosurface, corners, most, enough, places);
   parts.look_at(corners);

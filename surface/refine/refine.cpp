@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -176,9 +175,6 @@ void refine_geometry(SurfaceMesh& mesh, const Isosurface& isosurface, const Refi
   mesh = {};  // not needed until all is refined; the peak memory of a whole run may be in between
   set_clearances(refined);
   std::vector<float> work = RefineLoop(whole, isosurface, options, stats).measure_all(options.threads);
-  // An insertion serves its neighbours, too: the estimates of triangles add up to several times what comes.
-  constexpr double kShare = 0.15;
-  if (options.announce) options.announce(kShare * std::accumulate(work.begin(), work.end(), 0.0));
   const std::vector<Slab> slabs = slabs_of_equal_work(refined, work, options.slab_triangles, options.threads);
   if (options.observer != nullptr && slabs.size() > 1) refuse_to_be_observed(refined.triangles.size());
   if (slabs.size() == 1) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -39,10 +38,9 @@ struct RefineOptions {
   // If above 0, targets farther than this from all triangles are missed, in mesh-space units; else those at about a
   // voxel.
   double target_reach = 0;
-  std::function<void(double)> announce;  // if set: called once with about how many insertions are to come
-  int threads = 1;                       // the result is the same for any number
-  Observer* observer = nullptr;          // of a mesh that is one slab
-  std::size_t slab_triangles = 6144;     // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
+  int threads = 1;                    // the result is the same for any number
+  Observer* observer = nullptr;       // of a mesh that is one slab
+  std::size_t slab_triangles = 6144;  // approximate number of triangles of stage 1 in a slab (refinement_slabs.h)
 };
 
 // The options of RefineGeom from a run's parameters. r_min becomes absolute by a box in mesh space.
