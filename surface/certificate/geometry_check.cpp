@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -156,27 +158,41 @@ int facing_by_gradient(const Isosurface& isosurface, const Corners& corners) {
   return slope < 0 ? 1 : (slope > 0 ? -1 : 0);
 }
 
-// Whether a component faces lower values that is far smaller than a voxel, where points beside one triangle may lie
-// beyond others. Extremes of the interpolant are at samples, so it winds around the sample nearest to it, or on the box
-// half around it. Nothing where it is larger.
-std::optional<bool> grain_faces_lower(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles,
-                                      const Isosurface& isosurface) {
-  Box3 box;
+// The solid angle of a triangle seen from a point, above 0 where it faces away from it (Van Oosterom and Strackee, The
+// solid angle of a plane triangle, 1983).
+double solid_angle(const Vec3& from, const Corners& corners) {
+  const Vec3 a = corners.p[0] - from, b = corners.p[1] - from, c = corners.p[2] - from;
+  const double to_a = norm(a), to_b = norm(b), to_c = norm(c);
+  return 2 *
+         std::atan2(dot(a, cross(b, c)), to_a * to_b * to_c + dot(a, b) * to_c + dot(b, c) * to_a + dot(c, a) * to_b);
+}
+
+// Whether a component faces lower values whose triangles do not tell: where it is far smaller than a voxel points
+// beside one triangle may lie beyond others, and across the bend of a thin tube triangles lie outside of it. Extremes
+// of the interpolant are at samples, so it winds around samples beside it, on the box half around them; these have to
+// agree. Nothing where it winds around none of them, or is large.
+std::optional<bool> winds_as_it_should(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles,
+                                       const Isosurface& isosurface) {
+  constexpr std::size_t kMostTriangles = 1000;
+  if (triangles.size() > kMostTriangles) return std::nullopt;
+  std::set<std::array<double, 3>> samples;
   for (const std::size_t t : triangles) {
-    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.points[v]);
+    for (const Vec3& p : Corners(mesh, t).p) {
+      const Vec3& step = isosurface.step();
+      samples.insert({std::round(p.x / step.x), std::round(p.y / step.y), std::round(p.z / step.z)});
+    }
   }
-  if (!(norm(box.size()) <= kFarthestBeside)) return std::nullopt;
-  Vec3 sample = (box.low + box.high) / 2;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    sample[axis] = std::round(sample[axis] / isosurface.step()[axis]) * isosurface.step()[axis];
+  std::optional<bool> is_so;
+  for (const auto& [x, y, z] : samples) {
+    const Vec3 sample = {x * isosurface.step().x, y * isosurface.step().y, z * isosurface.step().z};
+    double winding = 0;
+    for (const std::size_t t : triangles) winding += solid_angle(sample, Corners(mesh, t)) / (4 * std::numbers::pi);
+    if (std::abs(winding) < 0.25) continue;
+    const bool agrees = (winding > 0) == isosurface.is_above(sample);
+    if (is_so && *is_so != agrees) return std::nullopt;
+    is_so = agrees;
   }
-  double volume = 0;
-  for (const std::size_t t : triangles) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    volume += dot(mesh.points[a] - sample, cross(mesh.points[b] - sample, mesh.points[c] - sample));
-  }
-  if (volume == 0) return std::nullopt;
-  return (volume > 0) == isosurface.is_above(sample);
+  return is_so;
 }
 
 // Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces. Where these
@@ -226,7 +242,7 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
   for (const auto& [component, triangles] : against) {
     Votes all;
     for (const std::size_t t : triangles) add(all, facing(surface.isosurface, Corners(mesh, t)));
-    if (all.sum <= 0 && !grain_faces_lower(mesh, triangles, surface.isosurface).value_or(false)) {
+    if (all.sum <= 0 && !winds_as_it_should(mesh, triangles, surface.isosurface).value_or(false)) {
       check.reversed_vertices.push_back(component);
     }
   }

@@ -31,6 +31,24 @@ bool is_within(const Vec3& p, const std::array<Vec3, 3>& corners, double reach) 
   return squared_distance_to_triangle(p, a, b, c) <= reach * reach;
 }
 
+// Whether two triangles with a common edge lie on each other but for roundings, as in a wall thinner than triangles may
+// be off: exactly they do not meet, but they do when they are written, and one of them faces the other sheet of the
+// wall.
+bool are_folded(const std::array<std::uint32_t, 3>& s, const std::array<Vec3, 3>& s_points,
+                const std::array<std::uint32_t, 3>& t, const std::array<Vec3, 3>& t_points) {
+  constexpr double kLeastAngle = 1e-6;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (s[(i + 1) % 3] != t[(j + 2) % 3] || s[(i + 2) % 3] != t[(j + 1) % 3]) continue;
+      const Vec3 &a = s_points[(i + 1) % 3], &b = s_points[(i + 2) % 3];
+      const Vec3 s_normal = cross(b - a, s_points[i] - a), t_normal = cross(a - b, t_points[j] - b);
+      return dot(s_normal, t_normal) < 0 &&
+             norm(cross(s_normal, t_normal)) <= kLeastAngle * norm(s_normal) * norm(t_normal);
+    }
+  }
+  return false;
+}
+
 // The first point in each of small cubes: where vertices crowd, a few stand for all.
 std::vector<Vec3> thinned(std::span<const Vec3> points) {
   constexpr double kCube = 0.1;  // mesh-space units
@@ -230,9 +248,12 @@ void StepGuard::append_meeting(std::uint32_t triangle, std::vector<std::uint32_t
   patch_.append_near(patch_.box_of(triangle), near_);
   for (const std::uint32_t u : near_) {
     if (u == triangle || !(patch_.quality(u) > 0)) continue;
-    const TriangleContact contact = triangle_contact(patch_.corners(triangle), patch_.corner_points(triangle),
-                                                     patch_.corners(u), patch_.corner_points(u));
-    if (contact != TriangleContact::kNone) found.push_back(u);
+    const std::array<std::uint32_t, 3>&corners = patch_.corners(triangle), &others = patch_.corners(u);
+    const std::array<Vec3, 3> points = patch_.corner_points(triangle), other_points = patch_.corner_points(u);
+    if (triangle_contact(corners, points, others, other_points) != TriangleContact::kNone ||
+        are_folded(corners, points, others, other_points)) {
+      found.push_back(u);
+    }
   }
 }
 

@@ -40,7 +40,7 @@ class StepGuard {
   }
   void forget_far() { far_.clear(); }
   [[nodiscard]] const std::vector<std::uint32_t>& far() const { return far_; }
-  // Appends the triangles that meet a triangle beyond what they share.
+  // Appends the triangles that meet a triangle beyond what they share, or lie folded on it.
   void append_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found);
 
   // The volume that the component of a triangle encloses; none of an open one, or of one of more than so many
