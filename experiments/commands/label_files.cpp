@@ -39,6 +39,31 @@ bool holds_labels(MeshFormat format) {
          format == MeshFormat::kMedit;
 }
 
+// Stands before a comment for one label.
+std::string before_comments_of(std::int32_t label) { return "label " + std::to_string(label) + ": "; }
+
+bool holds(const std::vector<std::string>& list, const std::string& line) {
+  return std::find(list.begin(), list.end(), line) != list.end();
+}
+
+// What all have once, in the order of the first; then what they do not share.
+std::vector<std::string> joined_comments(const std::vector<std::vector<std::string>>& comments,
+                                         const std::vector<std::int32_t>& labels) {
+  const auto is_shared = [&](const std::string& line) {
+    return std::all_of(comments.begin(), comments.end(), [&](const auto& list) { return holds(list, line); });
+  };
+  std::vector<std::string> joined;
+  for (const std::string& line : comments.front()) {
+    if (is_shared(line)) joined.push_back(line);
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    for (const std::string& line : comments[i]) {
+      if (!is_shared(line)) joined.push_back(before_comments_of(labels[i]) + line);
+    }
+  }
+  return joined;
+}
+
 }  // namespace
 
 Labels runs_of(const std::vector<std::int32_t>& labels) {
@@ -70,12 +95,13 @@ void MeshFiles::add(const std::string& name, const TriangleMesh& mesh, std::opti
                     const MeshFileOptions& options) {
   auto file = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.name == name; });
   if (file == files_.end()) {
-    file = files_.insert(file, File{name, {}, {}, options});
+    file = files_.insert(file, File{name, {}, {}, {}, options});
   } else {
     append(options.attributes.vertices, file->options.attributes.vertices);
     append(options.attributes.triangles, file->options.attributes.triangles);
   }
   append(mesh, label, file->mesh);
+  file->comments.push_back(options.comments);
   if (label) file->labels.push_back(*label);
 }
 
@@ -83,6 +109,7 @@ std::vector<std::string> MeshFiles::write() const {
   std::vector<std::string> remarks;
   for (const File& file : files_) {
     MeshFileOptions options = file.options;
+    if (file.labels.size() > 1) options.comments = joined_comments(file.comments, file.labels);
     if (!file.labels.empty()) options.comments.push_back(label_note(file.labels));
     // A file of one label needs none at its triangles.
     TriangleMesh mesh = file.mesh;
@@ -97,6 +124,14 @@ std::vector<std::string> MeshFiles::write() const {
                       "has to be given " + needed + " (other formats and --ascii have the room)");
   }
   return remarks;
+}
+
+std::vector<std::string> comments_for(const std::vector<std::string>& comments, std::optional<std::int32_t> label) {
+  if (!label) return comments;
+  const std::string mine = before_comments_of(*label);
+  std::vector<std::string> found;
+  for (const std::string& line : comments) found.push_back(line.starts_with(mine) ? line.substr(mine.size()) : line);
+  return found;
 }
 
 TriangleMesh part_with_label(const TriangleMesh& mesh, std::optional<std::int32_t> label) {

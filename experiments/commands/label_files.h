@@ -27,7 +27,8 @@ void check_label_names(const std::string& pattern, const std::string& option, co
 // Meshes by the names of their files; those of one name come into one file.
 class MeshFiles {
  public:
-  // The options are those of the first mesh of a file, but for the attributes, which are those of all.
+  // The options are those of the first mesh of a file, but for the attributes, which are those of all, and for comments
+  // that not all have: these come after "label N: ".
   void add(const std::string& name, const TriangleMesh& mesh, std::optional<std::int32_t> label,
            const MeshFileOptions& options);
   // Returns what stderr must tell of options that a file has no room for, a line each.
@@ -38,10 +39,14 @@ class MeshFiles {
     std::string name;
     TriangleMesh mesh;
     std::vector<std::int32_t> labels;  // of the meshes in it
+    std::vector<std::vector<std::string>> comments;
     MeshFileOptions options;
   };
   std::vector<File> files_;
 };
+
+// The comments of a file that are for a label: those of all, and those of its own without "label N: ".
+std::vector<std::string> comments_for(const std::vector<std::string>& comments, std::optional<std::int32_t> label);
 
 // The triangles with a label, and their vertices; all of a mesh whose triangles have none.
 TriangleMesh part_with_label(const TriangleMesh& mesh, std::optional<std::int32_t> label);

@@ -151,10 +151,14 @@ ExitCode run_verify(VerifyCommandOptions options) {
   const Volume volume = load_volume(options.volume);
   take_world_notes(file.comments, volume, options.world);
   const World world = world_of(volume, options.world);
-  const double max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
-                                       : promised_distance(file.comments).value_or(PromiseParameters().max_distance);
-  const Promise promise{.max_distance = max_distance,
-                        .dropped_components = options.dropped.empty() ? kept.dropped : parse_dropped(options.dropped)};
+  // Of several labels in a file each has its own.
+  const auto promise_of = [&](std::optional<std::int32_t> label) {
+    const std::vector<std::string> comments = comments_for(file.comments, label);
+    return Promise{.max_distance = is_given ? parse_length(options.max_distance, "--max-distance", &volume)
+                                            : promised_distance(comments).value_or(PromiseParameters().max_distance),
+                   .dropped_components =
+                       options.dropped.empty() ? kept_in_file(comments).dropped : parse_dropped(options.dropped)};
+  };
 
   FieldParameters parameters;
   apply_field_options(options.field, &volume, parameters);
@@ -167,6 +171,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
   bool is_proven = true;
   for (const std::optional<std::int32_t> label : labels) {
     parameters.label = label;
+    const Promise promise = promise_of(label);
     const Judged judged = judge(options, part_with_label(mesh, label), volume, world, parameters, promise);
     reports.push_back(verify_report(options, volume, world, promise, judged));
     print_judged(reports.back(), volume, options, judged);

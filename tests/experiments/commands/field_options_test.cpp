@@ -105,6 +105,23 @@ TEST_F(Fields, SmoothingIsTheSameForAllCommands) {
             0);
 }
 
+// Label 1 has two components and label 2 one. What one label has left out, and how far it is off, is not that of others.
+TEST_F(Fields, SeveralLabelsInAFileKeepWhatIsTheirOwn) {
+  write_field<std::int16_t>(volume_, [](int i, double d) { return d > 6 ? (i == 0 ? 1 : 0) : i < 8 ? 1 : 2; });
+  for (const std::string labels : {"1,2", "2,1"}) {
+    for (const std::string extension : {".ply", ".vtk", ".vtp", ".mesh"}) {
+      SCOPED_TRACE(labels + extension);
+      const std::string largest = folder_ / ("largest" + extension), few = folder_ / ("few" + extension);
+      ASSERT_EQ(run_deliso({"mesh", volume_, "--label", labels, "--keep-largest", "1", "-o", largest}).exit_code, 0);
+      EXPECT_EQ(run_deliso({"verify", largest, volume_}).exit_code, 0);
+      EXPECT_EQ(run_deliso({"verify", largest, volume_, "--label", "1"}).exit_code, 0);
+      EXPECT_EQ(run_deliso({"verify", largest, volume_, "--label", "1", "--dropped", "0"}).exit_code, 1);
+      ASSERT_EQ(run_deliso({"mesh", volume_, "--label", labels, "--target-vertices", "30", "-o", few}).exit_code, 0);
+      EXPECT_EQ(run_deliso({"verify", few, volume_}).exit_code, 0);
+    }
+  }
+}
+
 TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
   write_field<std::int16_t>(volume_, [](int i, double d) { return d > 6 ? 0 : i < 8 ? 2 : -5; });
   EXPECT_EQ(info()["volume"]["kind"], "labels");
