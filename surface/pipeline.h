@@ -64,7 +64,7 @@ class Pipeline {
   void take_steps_nearer(SurfaceMesh& mesh, RepeatedCheck& check, double freedom);
   void replace_far_triangles(SurfaceMesh& mesh, RepeatedCheck& check);
   void bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
-  void widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
+  void fit_promise(const SurfaceMesh& mesh, const RepeatedCheck& check);
   bool refine_to_error(SurfaceMesh& mesh, RefineOptions options);
   void take_nearer_cubes(SurfaceMesh& mesh);
   void begin_again(SurfaceMesh& mesh);
@@ -72,6 +72,7 @@ class Pipeline {
   bool take_nearer_mesh(std::span<const Vec3> samples, SurfaceMesh& mesh, SurfaceMesh& recovered,
                         CellsNearFaults& cells);
   void refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::size_t count);
+  bool is_right_within(const SurfaceMesh& mesh, double error);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
   void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
   void look_in_world(SurfaceMesh& mesh);
@@ -97,7 +98,7 @@ class Pipeline {
   Box3 r_min_box_;                            // its smallest side is what r_min is a fraction of
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
-  std::int32_t cube_parts_ = 2;  // of cells of marching cubes, where these have to be nearer
+  std::int32_t cube_parts_ = 2;               // of cells of marching cubes, where these have to be nearer
   Promise promise_;
   MeshFaults last_;          // of the mesh that RefineGeom has made
   KnownTriangles left_bad_;  // by the shape stage

@@ -25,6 +25,8 @@ namespace deliso {
 
 namespace {
 
+constexpr double kMostWidened = 1.5;  // of the error of decimation: what is promised for what lies between its points
+
 double area_of(const SurfaceMesh& mesh) {
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -118,24 +120,43 @@ void Pipeline::refine_to_count(SurfaceMesh& mesh, RefineOptions options, std::si
   }
 }
 
+// Whether nothing is wrong with a mesh but that it is farther off than promised at first.
+bool Pipeline::is_right_within(const SurfaceMesh& mesh, double error) {
+  const double promised = std::exchange(promise_.max_distance, kMostWidened * error);
+  const bool is_right = faults_of(mesh).count() == 0;
+  promise_.max_distance = promised;
+  return is_right;
+}
+
 // Down to the number asked for, or as far as the error allows. Where only a number is asked for, more error is allowed
-// as long as it takes, and promised afterwards.
+// as long as it takes and as the mesh stays right, and promised afterwards.
 void Pipeline::decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share) {
   constexpr double kMostTimes = 64, kRounding = 1.001;
   controls_.enter("decimate");
   DecimationOptions options;
-  options.max_error = share * promise_.max_distance;
   options.enough = static_cast<std::size_t>(parameters_.size.target_vertices.value_or(0));
   options.min_angle = shape_options(parameters_).min_angle;
   options.max_edge = longest_edge_allowed(parameters_);
   options.witnesses.assign(witnesses.begin(), witnesses.end());
-  const double most = parameters_.size.max_error ? options.max_error : kMostTimes * options.max_error;
-  timed(result_.decimation, [&] {
-    for (; !controls_.stopped(); options.max_error = std::min(2 * options.max_error, most)) {
-      decimate(mesh, *surface_, options, controls_, result_.decimation);
-      if (mesh.points.size() <= options.enough || options.max_error >= most) break;
+  const bool may_grow = !parameters_.size.max_error;
+  if (may_grow) promise_.max_distance = promised_distance(parameters_);
+  options.max_error = share * promise_.max_distance;
+  const double most = may_grow ? kMostTimes * options.max_error : options.max_error;
+  for (bool has_grown = false; !controls_.stopped(); has_grown = true) {
+    const SurfaceMesh before = has_grown ? mesh : SurfaceMesh();
+    const DecimationStats stats_before = result_.decimation;
+    timed(result_.decimation, [&] { decimate(mesh, *surface_, options, controls_, result_.decimation); });
+    if (has_grown && !is_right_within(mesh, options.max_error)) {
+      mesh = before;
+      const double seconds = result_.decimation.seconds;
+      result_.decimation = stats_before;
+      result_.decimation.seconds = seconds;
+      options.max_error /= 2;
+      break;
     }
-  });
+    if (mesh.points.size() <= options.enough || options.max_error >= most) break;
+    options.max_error = std::min(2 * options.max_error, most);
+  }
   const double reached = std::min(kRounding * result_.decimation.largest_error, options.max_error);
   promise_.max_distance = std::max(promise_.max_distance, reached);
   result_.promised_distance = promise_.max_distance;
@@ -151,8 +172,9 @@ void Pipeline::bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> wit
     last_.geometry = timed(result_.certify_stage, [&] { return check(mesh); });
     return last_.geometry.is_near();
   };
-  if (look()) return;
-  if (!parameters_.size.max_error) return widen_promise(mesh, check);
+  const bool is_near = look();
+  if (!parameters_.size.max_error) return fit_promise(mesh, check);
+  if (is_near) return;
   for (int round = 0; round < kMostRounds && !controls_.stopped(); ++round) {
     take_steps_nearer(mesh, check, kFreedom);
     if (!look()) return;
@@ -166,13 +188,28 @@ void Pipeline::bring_decimated_near(SurfaceMesh& mesh, std::span<const Vec3> wit
   }
 }
 
-// Where a number of vertices is all that is asked for, what lies between the points measured decides what is promised.
-void Pipeline::widen_promise(const SurfaceMesh& mesh, const RepeatedCheck& check) {
-  constexpr double kFactor = 1.05, kMost = 1.5;
+// Where a number of vertices is all that is asked for, how far the mesh is off decides what is promised: farther than
+// decimation has measured, for what lies between its points, or nearer, since its errors add up from step to step.
+void Pipeline::fit_promise(const SurfaceMesh& mesh, const RepeatedCheck& check) {
+  constexpr double kFactor = 1.05;
+  constexpr int kBisections = 5;
   const double first = promise_.max_distance;
-  while (!last_.geometry.is_near() && promise_.max_distance < kMost * first) {
+  while (!last_.geometry.is_near() && promise_.max_distance < kMostWidened * first) {
     promise_.max_distance *= kFactor;
     last_.geometry = timed(result_.certify_stage, [&] { return check.again_within(promise_, mesh); });
+  }
+  double least = promised_distance(parameters_);
+  for (int i = 0; i < kBisections && last_.geometry.is_near(); ++i) {
+    if (promise_.max_distance <= kFactor * least || controls_.poll()) break;
+    Promise nearer = promise_;
+    nearer.max_distance = std::sqrt(least * promise_.max_distance);
+    GeometryCheck now = timed(result_.certify_stage, [&] { return check_geometry(mesh, *surface_, nearer); });
+    if (now.is_near()) {
+      promise_ = nearer;
+      last_.geometry = std::move(now);
+    } else {
+      least = nearer.max_distance;
+    }
   }
   result_.promised_distance = promise_.max_distance;
 }

@@ -40,6 +40,7 @@ set(unsanitized
   "FacetsByHitsThatBoundNothing"
   "FarCrossings.AreThoseThat"
   "FewIntegersAtOneOfThem"
+  "FewVerticesStayRight"
   "FindsTheSamePiecesAlongEveryAxis"
   "FlatBoxesGetGoodAngles"
   "FlatCells.AreLookedAt"
