@@ -95,7 +95,7 @@ void add_size_options(Command& command, SizeOptions& options) {
   add("--min-component", options.min_component,
       "Leave out components below V: 50 (vertices), area:2.5, volume:10 (voxels), area:2mm2, volume:5mm3", "V");
   command.add_flag("--fill-cavities", options.fill_cavities,
-                   "Leave out closed components that bound cavities of solids");
+                   "Leave out closed components that bound cavities of solids, of what is inside");
   add("--region", options.region, "Mesh the samples i0:i1,j0:j1,k0:k1 alone, the last ones included", "R");
 }
 

@@ -248,7 +248,7 @@ constexpr std::array kTable = {
         "size.max_error is given"),
     row<&P::components, &ComponentParameters::fill_cavities>(
         "components.fill_cavities", kAny, "",
-        "leave out closed components that bound a hole in what is above the isovalue, and all within them"),
+        "leave out closed components that bound a hole in what is inside, and all within them"),
     row<&P::components, &ComponentParameters::min_vertices>("components.min_vertices", kAtLeastOne, "vertices",
                                                             "leave out components with fewer vertices in the mesh"),
     row<&P::components, &ComponentParameters::min_area>("components.min_area", kPositive, "voxels^2",
