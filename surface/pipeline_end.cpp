@@ -51,7 +51,7 @@ void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
 void Pipeline::drop_components(SurfaceMesh& mesh) {
   timed(result_.certify_stage, [&] {
     set_side_adjacency(mesh);
-    const MeasuredPieces measured = measure_pieces(mesh);
+    const MeasuredPieces measured = measure_pieces(mesh, inside_of(parameters_.field));
     const std::vector<DropCause> causes = pieces_to_drop(mesh, measured, parameters_.components);
     std::vector<bool> is_gone(mesh.triangles.size(), false);
     std::vector<std::vector<std::uint32_t>> gone(causes.size());

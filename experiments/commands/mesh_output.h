@@ -37,9 +37,9 @@ std::string write_mesh_output(const TriangleMesh& mesh, const std::string& path,
 MeshFile read_mesh_input(const std::string& path, const MeshFormatOptions& options);
 
 // The lines of mesh_comments() as the header of a binary STL file holds them: first a line of short words for what
-// decides a verification, without what is the default, like "DelIso RAS inv closed local nan=in l=2 drop=1 d=.75 s=1.5
-// r=0:9,2:8,1:7" (label, components dropped, promised distance, smoothing, region); then isovalue, local origin,
-// version and volume, those for which there is room.
+// decides a verification, without what is the default, like "DelIso RAS inv closed local sp=1 nan=in l=2 drop=1 d=.75
+// s=1.5 r=0:9,2:8,1:7" (spacing ignored, label, components dropped, promised distance, smoothing, region); then
+// isovalue, local origin, version and volume, those for which there is room.
 struct StlNotes {
   MeshComments comments;
   std::string options_needed;  // of `verify`, for what has no room

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::string_view kDropped = "components dropped ";
 constexpr std::string_view kRegion = "region ";
+constexpr std::string_view kSpacingIgnored = "spacing ignore";
 
 double positive_length(const std::string& text, const std::string& option, const Volume* volume) {
   const double length = parse_length(text, option, volume);
@@ -94,7 +95,7 @@ void add_size_options(Command& command, SizeOptions& options) {
   add("--min-component", options.min_component,
       "Leave out components below V: 50 (vertices), area:2.5, volume:10 (voxels), area:2mm2, volume:5mm3", "V");
   command.add_flag("--fill-cavities", options.fill_cavities,
-                   "Leave out closed components that bound cavities of solids");
+                   "Leave out closed components that bound cavities of solids, of what is inside");
   add("--region", options.region, "Mesh the samples i0:i1,j0:j1,k0:k1 alone, the last ones included", "R");
 }
 
@@ -122,6 +123,7 @@ std::vector<std::string> kept_comments(const Parameters& parameters, const Meshi
   if (dropped > 0) lines.push_back(std::string(kDropped) + std::to_string(dropped));
   const SampleRegion region = region_of(parameters.region);
   if (!region.is_all()) lines.push_back(std::string(kRegion) + region_text(region));
+  if (parameters.spacing == SpacingUse::kIgnore) lines.emplace_back(kSpacingIgnored);
   return lines;
 }
 
@@ -134,6 +136,7 @@ KeptInFile kept_in_file(const std::vector<std::string>& comments) {
       const auto error = std::from_chars(number, comment.data() + comment.size(), count).ec;
       if (error == std::errc() && count > 0) kept.dropped = count;
     }
+    if (comment == kSpacingIgnored) kept.ignores_spacing = true;
     if (!comment.starts_with(kRegion)) continue;
     const std::string text = comment.substr(kRegion.size());
     const bool is_one = text.find_first_not_of("0123456789:,") == std::string::npos &&

@@ -23,12 +23,14 @@ void add_size_options(Command& command, SizeOptions& options);
 // Sets what was given. Throws InputError naming the option. Without a volume only the form of lengths is checked.
 void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters);
 
-// What a file of the mesh says of components and samples left out, for `verify`; none when nothing is.
+// What a file of the mesh says for `verify` of components and samples left out and of a spacing that was ignored; none
+// when nothing is.
 std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result);
-// The number of components and the region that such lines of a mesh file name, if any do.
+// What such lines of a mesh file say, if it has any.
 struct KeptInFile {
   std::int64_t dropped = 0;
   std::string region;  // empty: all samples
+  bool ignores_spacing = false;
 };
 KeptInFile kept_in_file(const std::vector<std::string>& comments);
 

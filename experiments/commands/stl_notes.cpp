@@ -23,11 +23,12 @@ struct ShortNote {
 };
 
 // Short words first: where there is no room for all, few options have to be repeated.
-constexpr std::array<ShortNote, 12> kShortNotes = {{{"LPS", "space left-posterior-superior", "--space LPS"},
+constexpr std::array<ShortNote, 13> kShortNotes = {{{"LPS", "space left-posterior-superior", "--space LPS"},
                                                     {"RAS", "space right-anterior-superior", "--space RAS"},
                                                     {"inv", "field.invert true", "--invert"},
                                                     {"closed", "boundary closed", "--closed"},
                                                     {"local", "local origin", "--local-origin"},
+                                                    {"sp=1", "spacing ignore", "--ignore-spacing"},
                                                     {"nan=in", "field.nan inside", "--nan inside"},
                                                     {"nan=out", "field.nan outside", "--nan outside"},
                                                     {"l=", "field.label ", "--label "},

@@ -148,6 +148,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
   check_field_options(options.field);
   const KeptInFile kept = kept_in_file(file.comments);
   if (options.volume.region.empty()) options.volume.region = kept.region;
+  if (kept.ignores_spacing) options.ignore_spacing = true;
   const Volume volume = load_volume(options.volume);
   take_world_notes(file.comments, volume, options.world);
   const World world = world_of(volume, options.world);
@@ -214,8 +215,9 @@ void add_verify_command(CommandLine& line, ExitCode& exit_code) {
       .check(refuse_empty_value);
   add_world_options(command, options->world);
   command.add_flag("--closed", options->closed, "Close the surface along the faces of the box (boundary = closed)");
-  command.add_flag("--ignore-spacing", options->ignore_spacing,
-                   "Measure in samples, as if the volume's spacing were 1 (spacing = ignore)");
+  command.add_flag(
+      "--ignore-spacing", options->ignore_spacing,
+      "Measure in samples, as if the volume's spacing were 1 (spacing = ignore), as where the mesh file says so");
   command.examples(
       "deliso verify head.ply head.nrrd --isovalue 50\n"
       "deliso verify other.obj head.nrrd --isovalue 50 --max-distance 0.5mm --report r.json");

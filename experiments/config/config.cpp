@@ -48,9 +48,13 @@ void require_object(const Json& value, const std::string& what) {
   }
 }
 
-// A report, a record, or another document that holds parameters under this key and none beside it.
+// A report, a record, or another document that holds parameters under this key and none beside it. Reports and records,
+// which name their schema, have results beside it that are called like groups of parameters.
 bool holds_parameters(const Json& document) {
   if (!document.is_object() || !document.contains("parameters") || !document["parameters"].is_object()) return false;
+  const auto schema = document.find("schema");
+  if (schema != document.end() && schema->is_string() && schema->get_ref<const std::string&>().starts_with("deliso-"))
+    return true;
   for (const auto& [key, value] : document.items()) {
     if (is_parameter_group(key) || find_parameter(key) != nullptr) return false;
   }

@@ -4,6 +4,7 @@
 
 #include "experiments/config/config.h"
 #include "surface/base/parameter_table.h"
+#include "surface/base/parameter_value.h"
 
 namespace deliso {
 namespace {

@@ -1,7 +1,6 @@
 #include "surface/base/parameter_table.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -248,7 +247,7 @@ constexpr std::array kTable = {
         "size.max_error is given"),
     row<&P::components, &ComponentParameters::fill_cavities>(
         "components.fill_cavities", kAny, "",
-        "leave out closed components that bound a hole in what is above the isovalue, and all within them"),
+        "leave out closed components that bound a hole in what is inside, and all within them"),
     row<&P::components, &ComponentParameters::min_vertices>("components.min_vertices", kAtLeastOne, "vertices",
                                                             "leave out components with fewer vertices in the mesh"),
     row<&P::components, &ComponentParameters::min_area>("components.min_area", kPositive, "voxels^2",
@@ -272,27 +271,8 @@ constexpr std::array kTable = {
                                                      "stop at this many vertices; null: no limit"),
 };
 
-// The bounds of the table are whole numbers.
-std::string whole_number_text(double bound) { return std::to_string(static_cast<std::int64_t>(bound)); }
-
 }  // namespace
 
 std::span<const ParameterField> parameter_table() { return kTable; }
-
-std::string allowed_values(const ParameterField& field) {
-  std::string text;
-  if (field.type == ParameterType::kBoolean) text = "true or false";
-  if (field.type == ParameterType::kChoice) {
-    for (const std::string_view choice : field.choices) {
-      text += (text.empty() ? "one of '" : ", '") + std::string(choice) + "'";
-    }
-  }
-  if (field.type == ParameterType::kNumber || field.type == ParameterType::kInteger) {
-    text = field.type == ParameterType::kNumber ? "a number " : "an integer ";
-    text += (field.range.low_excluded ? "> " : ">= ") + whole_number_text(field.range.low);
-    if (std::isfinite(field.range.high)) text += " and <= " + whole_number_text(field.range.high);
-  }
-  return field.nullable ? text + " or null" : text;
-}
 
 }  // namespace deliso

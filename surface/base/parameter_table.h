@@ -52,7 +52,4 @@ constexpr std::string_view key_of(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-// "a number > 0", "an integer >= 1 or null", "true or false", "one of 'open', 'closed'".
-std::string allowed_values(const ParameterField& field);
-
 }  // namespace deliso

@@ -7,6 +7,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
+#include "delaunay/base/shortest_text.h"
 
 namespace deliso {
 namespace {
@@ -45,6 +46,14 @@ bool has_exact_double(const ParameterValue& value) {
 bool is_in_range(double number, const ParameterRange& range) {
   const bool is_above = range.low_excluded ? number > range.low : number >= range.low;
   return std::isfinite(number) && is_above && number <= range.high;
+}
+
+// Whole numbers with all their digits, others like 1e-6.
+std::string bound_text(double bound) {
+  if (bound == std::trunc(bound)) return std::to_string(static_cast<std::int64_t>(bound));
+  std::string text = shortest_text(bound);
+  if (const std::size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  return text;
 }
 
 }  // namespace
@@ -109,6 +118,22 @@ void assign_parameter(const ParameterField& field, const std::optional<Parameter
                      found);
   }
   field.set(parameters, *converted);
+}
+
+std::string allowed_values(const ParameterField& field) {
+  std::string text;
+  if (field.type == ParameterType::kBoolean) text = "true or false";
+  if (field.type == ParameterType::kChoice) {
+    for (const std::string_view choice : field.choices) {
+      text += (text.empty() ? "one of '" : ", '") + std::string(choice) + "'";
+    }
+  }
+  if (field.type == ParameterType::kNumber || field.type == ParameterType::kInteger) {
+    text = field.type == ParameterType::kNumber ? "a number " : "an integer ";
+    text += (field.range.low_excluded ? "> " : ">= ") + bound_text(field.range.low);
+    if (std::isfinite(field.range.high)) text += " and <= " + bound_text(field.range.high);
+  }
+  return field.nullable ? text + " or null" : text;
 }
 
 }  // namespace deliso

@@ -15,6 +15,9 @@ const ParameterField* find_parameter(std::string_view path);
 // Whether some parameters have key paths that begin with this name and a dot.
 bool is_parameter_group(std::string_view name);
 
+// "a number > 0", "a number >= 1e-6", "an integer >= 1 or null", "true or false", "one of 'open', 'closed'".
+std::string allowed_values(const ParameterField& field);
+
 // Throws InputError that begins with `source` (a file, say) and names the known key that was probably meant.
 [[noreturn]] void fail_unknown_parameter(std::string_view path, const std::string& source);
 // Throws InputError unless the key path names a parameter, and not a group of them.

@@ -80,7 +80,7 @@ struct SizeParameters {
 // Which components of the isosurface are kept; lengths in smallest spacings. Cavities go first, then small ones, then
 // all but the largest.
 struct ComponentParameters {
-  bool fill_cavities = false;  // leave out closed components that bound a hole in what is above the isovalue
+  bool fill_cavities = false;                // leave out closed components that bound a hole in what is inside
   std::optional<std::int64_t> min_vertices;  // leave out those whose mesh has fewer vertices; >= 1
   std::optional<double> min_area;            // or less area; > 0
   std::optional<double> min_volume;  // or encloses less; > 0. One that ends at the box encloses nothing, and stays.

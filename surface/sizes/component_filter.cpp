@@ -13,7 +13,7 @@ namespace deliso {
 
 namespace {
 
-MeasuredPiece measure(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+MeasuredPiece measure(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles, Inside inside) {
   MeasuredPiece piece;
   piece.vertices = static_cast<std::int64_t>(vertices_of(mesh, triangles).size());
   piece.at = mesh.points[mesh.triangles[triangles.front()][0]];
@@ -26,7 +26,7 @@ MeasuredPiece measure(const SurfaceMesh& mesh, const std::vector<std::uint32_t>&
     volume += dot(a, cross(b, c)) / 6;
     for (const TriangleSide side : mesh.neighbours[t]) is_closed = is_closed && side != kNoSide;
   }
-  if (is_closed) piece.volume = volume;
+  if (is_closed) piece.volume = inside == Inside::kBelow ? -volume : volume;
   return piece;
 }
 
@@ -67,10 +67,10 @@ bool is_small(const MeasuredPiece& piece, const ComponentParameters& wanted) {
 
 }  // namespace
 
-MeasuredPieces measure_pieces(const SurfaceMesh& mesh) {
+MeasuredPieces measure_pieces(const SurfaceMesh& mesh, Inside inside) {
   MeasuredPieces measured;
   measured.piece_of = number_pieces(
-      mesh, [&](const std::vector<std::uint32_t>& piece) { measured.pieces.push_back(measure(mesh, piece)); });
+      mesh, [&](const std::vector<std::uint32_t>& piece) { measured.pieces.push_back(measure(mesh, piece, inside)); });
   return measured;
 }
 

@@ -7,6 +7,7 @@
 
 #include "surface/base/parameters.h"
 #include "surface/mesh/surface_mesh.h"
+#include "volume/filters/closing.h"
 
 namespace deliso {
 
@@ -14,7 +15,7 @@ namespace deliso {
 struct MeasuredPiece {
   std::int64_t vertices = 0;
   double area = 0;
-  std::optional<double> volume;  // of a closed one: below 0 when higher values are outside, as around a cavity
+  std::optional<double> volume;  // of a closed one: below 0 when the inside lies around it, as around a cavity
   Vec3 at;                       // its first vertex
 };
 
@@ -30,8 +31,9 @@ struct MeasuredPieces {
   std::vector<MeasuredPiece> pieces;
   std::vector<std::uint32_t> piece_of;  // of each triangle
 };
-// Precondition: the mesh has neighbours (set_side_adjacency).
-MeasuredPieces measure_pieces(const SurfaceMesh& mesh);
+// Precondition: the mesh has neighbours (set_side_adjacency), and its triangles face lower values, on whichever side
+// the inside is.
+MeasuredPieces measure_pieces(const SurfaceMesh& mesh, Inside inside = Inside::kAbove);
 
 // Why each piece is left out, if it is. Ties of areas keep the earlier piece.
 std::vector<DropCause> pieces_to_drop(const SurfaceMesh& mesh, const MeasuredPieces& measured,

@@ -114,7 +114,8 @@ double mean_isovalue(const Samples& samples) {
 double median_isovalue(const Samples& samples) {
   const double median = visit_samples(samples, []<class Sample>(const SampleArray<Sample>& all) {
     std::vector<Sample> copy(all.begin(), all.end());
-    const auto half = copy.begin() + static_cast<std::ptrdiff_t>((copy.size() - 1) / 2);
+    // Of an even number the upper one of the two in the middle: its gap is the one between them where they differ.
+    const auto half = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
     std::nth_element(copy.begin(), half, copy.end());
     return static_cast<double>(*half);
   });

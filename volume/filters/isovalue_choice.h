@@ -19,7 +19,8 @@ double middle_of_gap(const Samples& samples, double isovalue);
 // selection method from gray-level histograms, 1979), in the middle of its gap. All thresholds are tried where the
 // samples are whole numbers in a range of at most 65536; else those between 65536 bins.
 double otsu_isovalue(const Samples& samples);
-// The same for the mean of the samples, and for the median (the lower one of two).
+// The same for the mean of the samples, and for the median; of an even number of samples whose two in the middle differ
+// the middle of these two.
 double mean_isovalue(const Samples& samples);
 double median_isovalue(const Samples& samples);
 

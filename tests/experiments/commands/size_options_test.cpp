@@ -106,6 +106,31 @@ TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
   EXPECT_EQ(verify({}, "m.stl").exit_code, 0);
 }
 
+// Slices three times as thick as voxels are wide: in this spacing the mesh is farther off than it promises.
+TEST_F(SizeOptionsTest, ASpacingThatWasIgnoredIsKnownToVerifyInEveryFormat) {
+  std::string flat = read_file(volume());
+  flat.replace(flat.find("(0,0,2)"), 7, "(0,0,6)");
+  write_file(volume(), flat);
+  write_file(folder_ / "c.json", R"({"spacing": "ignore", "size": {"max_error": 0.3}})");
+  const std::vector<std::vector<std::string>> runs = {{"m.ply"},  {"m.off"}, {"m.obj"}, {"m.stl"},
+                                                      {"m.mesh"}, {"m.vtk"}, {"m.vtp"}, {"m.stl", "--ascii"}};
+  for (const std::vector<std::string>& run : runs) {
+    SCOPED_TRACE(run.back());
+    std::vector<std::string> options = {"--config", folder_ / "c.json"};
+    options.insert(options.end(), run.begin() + 1, run.end());
+    ASSERT_EQ(mesh(options, run.front()).exit_code, 0);
+    const ProgramResult verified = verify({}, run.front());
+    EXPECT_EQ(verified.exit_code, 0) << verified.out;
+    EXPECT_EQ(json("v.json")["spacing"], "ignore");
+  }
+  // A file that says nothing is judged in the spacing of its volume.
+  const std::string letters(80, ' ');
+  ASSERT_EQ(mesh({"--set", "spacing=ignore", "--max-error", "0.3"}, "m.stl").exit_code, 0);
+  write_file(folder_ / "silent.stl", letters + read_file(folder_ / "m.stl").substr(letters.size()));
+  EXPECT_EQ(verify({"--max-distance", "0.3"}, "silent.stl").exit_code, 1);
+  EXPECT_EQ(verify({"--max-distance", "0.3", "--ignore-spacing"}, "silent.stl").exit_code, 0);
+}
+
 // Without repair a component may be in several pieces: the file tells of components, which verify counts.
 TEST_F(SizeOptionsTest, PiecesLeftOutAreToldAsTheComponentsThatTheyLieOn) {
   const std::string volume = std::string(DELISO_SOURCE_DIR) + "/tests/regression/dropped_pieces.nrrd";

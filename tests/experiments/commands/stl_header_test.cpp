@@ -93,6 +93,7 @@ TEST_F(StlHeader, VerifyNeedsNoOptionTwice) {
       {"field.nrrd", {"--smooth", "0.7123456789012345"}},
       {"field.nrrd", {"--max-error", "0.30123456789012345"}, false},
       {"field.nrrd", {"--set", "promise.max_distance=1.25"}, false},
+      {"field.nrrd", {"--set", "spacing=ignore", "--max-error", "0.15"}, false},
       {"nan.nrrd", {"--nan", "inside"}},
       {"nan.nrrd", {"--nan", "outside"}},
       {"labels.nrrd", {"--label", "2"}},

@@ -155,6 +155,12 @@ TEST(Config, ValuesOutOfRangeNameTheRange) {
   EXPECT_TRUE(contains(refusal(R"({"stage1": {"epsilon": 0}})"), "a number > 0, found 0"));
   EXPECT_TRUE(contains(refusal(R"({"stage2": {"rho": 0.99}})"), "a number >= 1"));
   EXPECT_TRUE(contains(refusal(R"({"stage2": {"r_min": -1e-300}})"), "a number >= 0"));
+  // A bound that is no whole number, wherever it is told.
+  EXPECT_TRUE(contains(refusal(R"({"size": {"max_error": 0}})"), "must be a number >= 1e-6 or null, found 0"));
+  EXPECT_TRUE(contains(refusal(R"({"promise": {"max_distance": 1e-9}})"), "must be a number >= 1e-6, found 1e-09"));
+  EXPECT_EQ(refusal(R"({"promise": {"max_distance": 1e-6}})"), "");
+  EXPECT_TRUE(contains(parameters_help(), "[voxels]; a number >= 1e-6 or null"));
+  EXPECT_EQ(parameters_schema()["properties"]["size"]["properties"]["max_error"]["minimum"], 1e-6);
   EXPECT_TRUE(contains(refusal(R"({"repair": {"max_rounds": 2147483648}})"), "<= 2147483647"));
   EXPECT_TRUE(contains(refusal(R"({"repair": {"max_rounds": 18446744073709551616}})"), "<= 2147483647"));
   EXPECT_TRUE(contains(refusal(R"({"budget": {"max_vertices": 3}})"), "an integer >= 4"));

@@ -33,6 +33,12 @@ TEST(WholeDocument, TheParametersOfAReportAreTaken) {
             parameters);
   EXPECT_EQ(read_as_config(Json{{"parameters", parameters}}.dump()), parameters);
   EXPECT_EQ(read_as_config(parameters.dump()), parameters);
+  // Results that are called like groups of parameters, beside a schema of ours.
+  Json report{{"components", 2}, {"field", {{"label", nullptr}, {"nan", "refuse"}}}, {"parameters", parameters}};
+  for (const char* schema : {"deliso-report-1", "deliso-record-1"}) {
+    report["schema"] = schema;
+    EXPECT_EQ(read_as_config(report.dump()), parameters) << schema;
+  }
 }
 
 TEST(WholeDocument, WhatIsWrongInsideIsNamedThere) {

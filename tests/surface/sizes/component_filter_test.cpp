@@ -18,12 +18,12 @@ namespace {
 
 // A solid ball of radius 9 with a cavity of radius 5 in which an island of radius 2 floats, beside a ball of radius 3
 // and a speck of radius 1.2: five components.
-ScalarGrid solids() {
-  return testing::sampled({40, 25, 25}, [](const Vec3& p) {
+ScalarGrid solids(double sign = 1) {
+  return testing::sampled({40, 25, 25}, [sign](const Vec3& p) {
     const Vec3 middle{11.2, 12.1, 11.9};
     const double r = distance(p, middle);
     const double hollow = std::max(std::min(9 - r, r - 5), 2 - r);
-    return std::max({hollow, 3 - distance(p, {30.1, 12.3, 12.2}), 1.2 - distance(p, {36.2, 5.1, 5.2})});
+    return sign * std::max({hollow, 3 - distance(p, {30.1, 12.3, 12.2}), 1.2 - distance(p, {36.2, 5.1, 5.2})});
   });
 }
 
@@ -87,6 +87,22 @@ TEST(ComponentFilter, FillsCavitiesWithAllThatIsInThem) {
   EXPECT_NEAR(*result.dropped[0].piece.volume, cavity, 0.1 * std::abs(cavity));
   EXPECT_EQ(result.dropped[1].cause, DropCause::kCavity);
   EXPECT_GT(*result.dropped[1].piece.volume, 0);
+}
+
+// As signed distances have it: the inside is where the values are low.
+TEST(ComponentFilter, FillsCavitiesOfTheSideThatIsInside) {
+  MeshingOptions options;
+  options.parameters.components.fill_cavities = true;
+  options.parameters.field.invert = true;
+  const MeshingResult result = mesh_isosurface(solids(-1), 0, options);
+  EXPECT_TRUE(is_proven(result.certificate));
+  EXPECT_EQ(components_of(result), 3);
+  ASSERT_EQ(result.dropped.size(), 2u);
+  EXPECT_EQ(result.dropped[0].cause, DropCause::kCavity);
+  EXPECT_LT(*result.dropped[0].piece.volume, 0);
+  EXPECT_GT(*result.dropped[1].piece.volume, 0);
+  // Where the inside is around these solids, they are its cavities themselves: nothing would be left.
+  EXPECT_THROW(mesh_isosurface(solids(), 0, options), InputError);
 }
 
 TEST(ComponentFilter, PlainRunsKeepTheirCertificateToo) {

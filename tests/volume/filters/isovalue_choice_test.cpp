@@ -95,6 +95,37 @@ TEST(IsovalueChoice, TheMiddleLeavesTheSameSamplesAbove) {
   EXPECT_EQ(otsu_isovalue(Samples(SampleArray<float>(std::vector<float>(8, 3)))), 3);
 }
 
+// The middle between the two samples in the middle, or where they are one value, of a gap beside it: the lower one but
+// for the lowest value.
+TEST(IsovalueChoice, TheMedianHasHalfOfTheSamplesAboveIt) {
+  const auto median = [](const auto& values) {
+    using Sample = typename std::decay_t<decltype(values)>::value_type;
+    return median_isovalue(Samples(SampleArray<Sample>(values)));
+  };
+  EXPECT_EQ(median(std::vector<std::uint8_t>{7, 6, 5, 4, 3, 2, 1, 0}), 3.5);
+  EXPECT_EQ(median(std::vector<std::uint8_t>{0, 1, 1, 10, 100, 200, 200, 200}), 55);
+  EXPECT_EQ(median(std::vector<std::int32_t>{-4, 9}), 2.5);
+  Rng rng(11);
+  for (int round = 0; round < 400; ++round) {
+    std::vector<double> values;
+    const std::uint64_t range = 2 + rng.below(30);
+    for (std::uint64_t n = 1 + rng.below(40); n > 0; --n) values.push_back(static_cast<double>(rng.below(range)) - 7);
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const double low = sorted[(sorted.size() - 1) / 2], high = sorted[sorted.size() / 2];
+    double expected = (low + high) / 2;
+    if (low == high) {
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), low);
+      if (first != sorted.begin()) {
+        expected = (low + *std::prev(first)) / 2;
+      } else if (last != sorted.end()) {
+        expected = (low + *last) / 2;
+      }
+    }
+    EXPECT_EQ(median(values), expected) << round;
+  }
+}
+
 TEST(IsovalueChoice, HoldsAtTheEndsOfTheDoubles) {
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(otsu_isovalue(Samples(SampleArray<double>(std::vector<double>{-huge, -huge, huge}))), 0);
