@@ -82,6 +82,21 @@ void check_option_values(const CLI::App& app, int argc, const char* const* argv)
   }
 }
 
+// Names an option that was given more often than it takes values; empty when there is none.
+std::string repeated_option(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::size_t count = option->count();
+      if (option->get_items_expected_max() != 1 || count < 2) continue;
+      const bool is_all_taken = option->get_multi_option_policy() != CLI::MultiOptionPolicy::Throw;
+      if (is_all_taken) continue;
+      return option->get_name() + " was given " + (count == 2 ? "twice" : std::to_string(count) + " times") +
+             ", expected once";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 CommandOption& CommandOption::type_name(const std::string& name) {
@@ -164,6 +179,9 @@ void CommandLine::parse(int argc, const char* const* argv) {
     app_->parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help or --version
     app_->exit(request);
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string repeated = repeated_option(*app_);
+    throw InputError((repeated.empty() ? error.what() : repeated) + " (deliso --help tells more)");
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + " (deliso --help tells more)");
   }

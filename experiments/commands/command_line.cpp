@@ -34,7 +34,7 @@ Vec3 parse_spacing(const std::string& text) {
   Vec3 spacing;
   const std::vector<std::string> parts = three_parts(text, "--spacing");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    spacing[axis] = parse_number(parts[axis], "--spacing");
+    spacing[axis] = parse_number(parts[axis], "--spacing", text);
     if (spacing[axis] <= 0) throw InputError("--spacing: expected numbers > 0, found '" + text + "'");
   }
   return spacing;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -195,14 +196,34 @@ void print_info(const Json& report, const Looked& looked) {
   if (!advice.empty()) std::cout << '\n' << advice << '\n';
 }
 
+// A mesh has no samples: what tells of them is refused.
+void check_no_volume_options(const InfoCommandOptions& options) {
+  const VolumeOptions& v = options.volume;
+  const std::vector<std::pair<std::string, const std::string*>> all = {
+      {"--smooth", &options.smooth}, {"--region", &v.region},   {"--channel", &v.channel},
+      {"--array", &v.array},         {"--dims", &v.dims},       {"--type", &v.type},
+      {"--endian", &v.endian},       {"--spacing", &v.spacing}, {"--skip", &v.skip}};
+  std::string names;
+  for (const auto& [name, value] : all) {
+    if (!value->empty()) names += (names.empty() ? "" : ", ") + name;
+  }
+  if (names.empty()) return;
+  const bool is_stream = is_standard_stream(v.path);
+  throw InputError(names + ": for volumes alone, but " + (is_stream ? "standard input" : v.path) + " is a mesh");
+}
+
 ExitCode run_info(const InfoCommandOptions& options) {
   FieldOptions field;
   field.smooth = options.smooth;
   check_field_options(field);
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
-  if (is_mesh_input(options.volume.path, options.mesh) && options.volume.format.empty())
+  if (!options.mesh.format.empty() && !options.volume.format.empty())
+    throw InputError("--format is that of a mesh, --volume-format that of a volume: expected one of them");
+  if (options.volume.format.empty() && is_mesh_input(options.volume.path, options.mesh)) {
+    check_no_volume_options(options);
     return run_mesh_info(options.volume.path, options.mesh, options.report, options.json);
+  }
   const Volume volume = load_volume(options.volume);
   const Looked looked = look_at(volume, options);
   const Json report = info_report(options, volume, looked);

@@ -232,9 +232,11 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   std::ostream& out = is_taken ? std::cerr : std::cout;
   ExitCode worst = ExitCode::kDone;
   for (const Meshed& meshed : all) {
-    if (&meshed != &all.front()) out << '\n';
     worst = std::max(worst, exit_code_of(meshed.meshing, meshed.result));
-    print_summary(meshed, out);
+    if (!(is_taken && options.quiet)) {
+      if (&meshed != &all.front()) out << '\n';
+      print_summary(meshed, out);
+    }
     if (options.quiet) continue;
     if (&meshed == &all.front()) print_volume_remarks(options, volume, world, meshed.chosen);
     print_remarks(meshed);
@@ -277,7 +279,7 @@ void add_mesh_command(CommandLine& line, ExitCode& exit_code) {
   add_size_options(command, options->sizes);
   add_world_options(command, options->world);
   add_mesh_output_options(command, options->format);
-  command.add_flag("--quiet", options->quiet, "No progress and no remarks on stderr");
+  command.add_flag("--quiet", options->quiet, "No progress, no remarks and no summary on stderr");
   command.add_flag("--ascii", options->ascii, "Write PLY, STL, VTK and VTP as text");
   command.add_help("--help-parameters", "The parameters of --config and --set, with their defaults", parameters_help);
   command.examples(

@@ -14,15 +14,18 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/field_options.h"
+#include "experiments/commands/mesh_output.h"
+#include "experiments/commands/world.h"
 #include "experiments/pictures/isosurface_shape.h"
 #include "experiments/pictures/mesh_shape.h"
 #include "experiments/pictures/picture.h"
+#include "experiments/pictures/placed_shape.h"
 #include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/progress_bar.h"
 #include "experiments/system/text_table.h"
 #include "surface/intersection/exact_tests.h"
-#include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
 #include "volume/marching_cubes/marching_cubes.h"
 
@@ -34,6 +37,7 @@ struct RenderCommandOptions {
   FieldOptions field;
   std::string output;
   std::vector<std::string> meshes;
+  WorldOptions world{.space = ""};  // of the meshes
   bool surface = false;
   bool marching_cubes = false;
   bool closed = false;
@@ -93,7 +97,7 @@ View parse_view(const RenderCommandOptions& options) {
   const std::vector<std::string> coordinates = parts_of(options.look_at, ',');
   if (coordinates.size() != 3) throw InputError("--look-at: expected X,Y,Z, found '" + options.look_at + "'");
   view.look_at.emplace();
-  for (std::size_t a = 0; a < 3; ++a) (*view.look_at)[a] = parse_number(coordinates[a], "--look-at");
+  for (std::size_t a = 0; a < 3; ++a) (*view.look_at)[a] = parse_number(coordinates[a], "--look-at", options.look_at);
   return view;
 }
 
@@ -132,23 +136,47 @@ Panel mesh_panel(const std::string& name, TriangleMesh mesh) {
   return {name, std::move(shape), drawn};
 }
 
-// First the ray-cast surface (when it is asked for, or nothing else is), then marching cubes, then the meshes.
+// A mesh in the volume's own world coordinates, whatever the space and origin of its file.
+TriangleMesh mesh_in_world(const std::string& path, const Volume& volume, WorldOptions options) {
+  MeshFile file = read_mesh_input(path, {});
+  take_world_notes(file.comments, volume, options);
+  const Affine from_grid = world_of(volume, options).from_grid;
+  const Affine& to_world = volume.placement.to_world;
+  if (from_grid == to_world) return std::move(file.mesh);
+  return transformed(std::move(file.mesh), composed(to_world, from_grid.inverse()));
+}
+
+// First the ray-cast surface (when it is asked for, or nothing else is), then marching cubes, then the meshes; all in
+// the volume's world coordinates.
 std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_ptr<IsosurfaceShape> surface,
-                               const ScalarGrid& grid, double isovalue, const Placement& placement) {
+                               const ScalarGrid& grid, double isovalue, const Volume& volume) {
+  const Placement& placement = volume.placement;
   std::vector<Panel> panels;
   if (options.surface || (options.meshes.empty() && !options.marching_cubes)) {
-    panels.push_back({"isosurface", std::move(surface), nullptr});
+    std::unique_ptr<Shape> shape = std::move(surface);
+    if (!placement.is_identity()) shape = std::make_unique<PlacedShape>(std::move(shape), placement.to_world);
+    panels.push_back({"isosurface", std::move(shape), nullptr});
   }
   if (options.marching_cubes) {
     MarchingCubesMesh cubes = marching_cubes(grid, isovalue, &kExactTests);
-    panels.push_back(mesh_panel("marching cubes", {std::move(cubes.points), std::move(cubes.triangles)}));
+    TriangleMesh mesh{std::move(cubes.points), std::move(cubes.triangles)};
+    if (!placement.is_identity()) mesh = transformed(std::move(mesh), placement.to_world);
+    panels.push_back(mesh_panel("marching cubes", std::move(mesh)));
   }
-  // Pictures are in the grid's own coordinates.
-  const Affine to_grid = placement.is_identity() ? Affine() : placement.to_world.inverse();
   for (const std::string& path : options.meshes) {
-    panels.push_back(mesh_panel(path, transformed(read_mesh(path), to_grid)));
+    panels.push_back(mesh_panel(path, mesh_in_world(path, volume, options.world)));
   }
   return panels;
+}
+
+// The middle of the picture and its scale are those of the isosurface: a mesh far from it would not be seen.
+void remark_meshes_outside(const std::vector<Panel>& panels, const std::vector<Vec3>& framed) {
+  Box3 surface;
+  for (const Vec3& p : framed) surface.extend(p);
+  for (const Panel& panel : panels) {
+    if (panel.mesh == nullptr || panel.shape->box().meets(surface)) continue;
+    std::cerr << "deliso: " << panel.name << " lies outside the box of the isosurface (is its --space another one?)\n";
+  }
 }
 
 void print_panels(const std::string& output, const Image& image, const std::vector<Panel>& panels, double seconds) {
@@ -164,6 +192,15 @@ void print_panels(const std::string& output, const Image& image, const std::vect
   table.print(std::cout);
 }
 
+void check_mesh_options(const RenderCommandOptions& options) {
+  check_space(options.world.space);
+  if (options.meshes.empty() && (!options.world.space.empty() || options.world.local_origin))
+    throw InputError("--space and --local-origin are for meshes, expected --mesh, too");
+  std::vector<NamedFile> inputs = {{"VOLUME", options.volume.path}};
+  for (const std::string& mesh : options.meshes) inputs.push_back({"--mesh", mesh});
+  check_one_standard_input(inputs);
+}
+
 ExitCode run_render(const RenderCommandOptions& options) {
   // Every option is checked before anything is read.
   check_field_options(options.field);
@@ -176,6 +213,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
                            (options.surface || alone ? 1 : 0);
   Image image = empty_image(options, panel_count, picture.samples);
   check_png_output(options.output, "-o");
+  check_mesh_options(options);
 
   const Volume volume = load_volume(options.volume);
   const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
@@ -183,13 +221,14 @@ ExitCode run_render(const RenderCommandOptions& options) {
   const double used = regular_isovalue(grid, field.meshed.isovalue);
   const Stopwatch stopwatch;
   auto surface = std::make_unique<IsosurfaceShape>(grid, used);
-  const std::vector<Vec3> framed = surface->outermost_points();
-  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used, volume.placement);
+  std::vector<Vec3> framed = surface->outermost_points();
+  for (Vec3& p : framed) p = volume.placement.to_world(p);
+  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used, volume);
 
   // All panels have the same camera and the same clip planes.
   const std::int32_t width = image.width / panel_count;
   const Camera camera(view, framed, width, image.height);
-  Box3 whole = grid.box();
+  Box3 whole = placed_box(grid.box(), volume.placement.to_world);
   for (const Panel& panel : panels) {
     whole.extend(panel.shape->box().low);
     whole.extend(panel.shape->box().high);
@@ -209,6 +248,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
     std::cerr << "deliso: " << remark << '\n';
   }
   remark_isovalue(&grid, field.chosen.isovalue, used);
+  remark_meshes_outside(panels, framed);
   return ExitCode::kDone;
 }
 
@@ -226,14 +266,17 @@ void add_render_command(CommandLine& line, ExitCode& exit_code) {
                                const std::string& type) { add(name, values, help, type).repeatable(); };
   add_isovalue_option(command, options->field);
   add_field_options(command, options->field);
+  add_world_options(command, options->world);
   add("-o,--output", options->output, "The picture: .png", "PNG").required();
   add_many("--mesh", options->meshes, "Draw this mesh with its edges (repeatable: side by side)", "MESH");
   command.add_flag("--surface", options->surface, "Draw the isosurface itself beside the meshes");
   command.add_flag("--marching-cubes", options->marching_cubes, "Draw the mesh of marching cubes, beside the others");
-  add_many("--clip", options->clips, "Cut away what lies between this plane and the eye (repeatable)", "AXIS=VALUE");
-  add("--view", options->view, "Direction of the eye in degrees; z is up", "AZIMUTH,ELEVATION").show_default();
+  add_many("--clip", options->clips, "Cut away what lies between this plane of the world and the eye (repeatable)",
+           "AXIS=VALUE");
+  add("--view", options->view, "Direction of the eye in the world, in degrees; z is up", "AZIMUTH,ELEVATION")
+      .show_default();
   add("--zoom", options->zoom, "1: the whole surface fits", "FACTOR").show_default();
-  add("--look-at", options->look_at, "The middle of the picture (default: of the surface)", "X,Y,Z");
+  add("--look-at", options->look_at, "The middle of the picture, in the world (default: of the surface)", "X,Y,Z");
   add("--perspective", options->field_of_view, "Field of view; 0: parallel rays", "DEGREES").show_default();
   add("--size", options->size, "Of the whole picture (default 800x600, 600x600 for each of several parts)", "WxH");
   add("--samples", options->samples, "N x N rays per pixel", "N").show_default();

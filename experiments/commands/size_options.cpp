@@ -62,7 +62,7 @@ void set_least_component(const std::string& text, const Volume* volume, Paramete
     unit = std::pow(parse_length("1" + name, option, volume), power);
     break;
   }
-  const double measure = unit * parse_number(number, option);
+  const double measure = unit * parse_number(number, option, text);
   if (!(measure > 0)) throw InputError(option + ": expected a number > 0, found '" + text + "'");
   (power == 2 ? parameters.components.min_area : parameters.components.min_volume) = measure;
 }

@@ -25,7 +25,7 @@ ClipPlane parse_clip_plane(const std::string& text, const std::string& option) {
   if (axis == std::string::npos || text.size() < 2 || text[1] != '=') {
     throw InputError(option + ": expected x=V, y=V or z=V, found '" + text + "'");
   }
-  return {axis, parse_number(text.substr(2), option + " " + text.substr(0, 1))};
+  return {axis, parse_number(text.substr(2), option, text)};
 }
 
 Box3 kept_box(const Box3& whole, const std::vector<ClipPlane>& planes, const Vec3& toward_eye,

@@ -112,6 +112,8 @@ class TableMaker {
       for (const Json* record : records) {
         note_program(*record);
         table_.runs_at_a_time = std::max(table_.runs_at_a_time, record->value("runs_at_a_time", std::int64_t{1}));
+        if (const Json threads = value_at(*record, "threads"); threads.is_number())
+          table_.threads.insert(threads.get<std::int64_t>());
       }
     }
     return std::move(table_);
@@ -188,6 +190,38 @@ double Figure::median() const {
 
 Table make_table(const Experiment& experiment, const std::vector<Json>& records) {
   return TableMaker(experiment, records).make();
+}
+
+namespace {
+
+// A time, or a rate: a figure per second.
+bool is_time(const Metric& metric) {
+  const auto is_of_time = [](const std::string& path) { return path.find("seconds") != std::string::npos; };
+  return is_of_time(metric.value) || is_of_time(metric.per);
+}
+
+}  // namespace
+
+std::string shared_mark(const Metric& metric, const Table& table) {
+  return table.runs_at_a_time > 1 && is_time(metric) ? "*" : "";
+}
+
+std::vector<std::string> time_notes(const Experiment& experiment, const Table& table) {
+  std::vector<std::string> notes;
+  if (std::none_of(experiment.metrics.begin(), experiment.metrics.end(), is_time)) return notes;
+  if (table.runs_at_a_time > 1) {
+    notes.push_back("* Shared times: up to " + std::to_string(table.runs_at_a_time) +
+                    " runs were made at a time on the machine.");
+  }
+  if (table.threads.size() > 1) {
+    std::string numbers;
+    for (const std::int64_t count : table.threads) {
+      numbers += numbers.empty() ? "" : count == *table.threads.rbegin() ? " and " : ", ";
+      numbers += std::to_string(count);
+    }
+    notes.push_back("Times of runs with different numbers of threads: " + numbers + ".");
+  }
+  return notes;
 }
 
 std::string state_name(RowState state) {

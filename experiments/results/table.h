@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,8 @@ struct Table {
   std::vector<std::string> programs;
   // How many runs at most were made at a time: above 1, the times of runs are marked as shared.
   std::int64_t runs_at_a_time = 1;
+  // With how many threads the runs were made: times of different numbers are not to be compared.
+  std::set<std::int64_t> threads;
 };
 
 // The records must be of this experiment (otherwise InputError), at most one for each run, in any order.
@@ -54,6 +57,11 @@ Table make_table(const Experiment& experiment, const std::vector<Json>& records)
 
 // "median (smallest–largest)", or the median alone where all agree; a text as it is; kNoFigure where there is none.
 std::string spread_text(const Figure& figure);
+
+// What follows the name of a metric whose times are shared; empty for others.
+std::string shared_mark(const Metric& metric, const Table& table);
+// Sentences on the times that the table shows: that they are shared, that numbers of threads differ.
+std::vector<std::string> time_notes(const Experiment& experiment, const Table& table);
 
 // With title, question, how to read it, remarks.
 std::string table_markdown(const Experiment& experiment, const Table& table);

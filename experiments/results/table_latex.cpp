@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace deliso {
 namespace {
@@ -46,7 +47,7 @@ std::string table_latex(const Experiment& experiment, const Table& table) {
   std::string columns(names.size(), 'l');
   for (const Metric& metric : experiment.metrics) {
     if (!metric.reference.empty()) names.push_back(metric.name + ", paper");
-    names.push_back(metric.name);
+    names.push_back(metric.name + shared_mark(metric, table));
     columns.append(metric.reference.empty() ? 1 : 2, 'r');
   }
   std::string text = "% " + latex_text(experiment.title) + "; \\usepackage{booktabs}\n";
@@ -70,7 +71,11 @@ std::string table_latex(const Experiment& experiment, const Table& table) {
     }
     text += latex_row(cells);
   }
-  return text + "\\bottomrule\n\\end{tabular}\n";
+  text += "\\bottomrule\n";
+  for (const std::string& note : time_notes(experiment, table)) {
+    text += "\\multicolumn{" + std::to_string(columns.size()) + "}{l}{" + latex_text(note) + "} \\\\\n";
+  }
+  return text + "\\end{tabular}\n";
 }
 
 }  // namespace deliso

@@ -50,20 +50,13 @@ bool shows_variants(const Experiment& experiment) {
   return experiment.rows == RowKind::kRuns && experiment.variants.size() > 1;
 }
 
-// Times of runs that shared the machine with other runs bear a mark.
-constexpr const char* kSharedMark = "*";
-
-bool is_shared_time(const Metric& metric, const Table& table) {
-  return table.runs_at_a_time > 1 && metric.value.find("seconds") != std::string::npos;
-}
-
-std::string shared_line(const Experiment& experiment, const Table& table) {
-  if (std::none_of(experiment.metrics.begin(), experiment.metrics.end(),
-                   [&table](const Metric& metric) { return is_shared_time(metric, table); })) {
-    return "";
+// A note may begin with a mark, which Markdown would take for a list.
+std::string notes_text(const Experiment& experiment, const Table& table) {
+  std::string text;
+  for (const std::string& note : time_notes(experiment, table)) {
+    text += std::string("\n") + (note.starts_with('*') ? "\\" : "") + note + "\n";
   }
-  return "\n" + std::string("\\") + kSharedMark + " Shared times: up to " + std::to_string(table.runs_at_a_time) +
-         " runs were made at a time on the machine.\n";
+  return text;
 }
 
 std::string markdown_header(const Experiment& experiment, const Table& table) {
@@ -75,8 +68,7 @@ std::string markdown_header(const Experiment& experiment, const Table& table) {
   }
   for (const Metric& metric : experiment.metrics) {
     if (!metric.reference.empty()) names.push_back(metric.name + ", paper");
-    names.push_back(metric.name + (metric.reference.empty() ? "" : ", ours") +
-                    (is_shared_time(metric, table) ? kSharedMark : ""));
+    names.push_back(metric.name + (metric.reference.empty() ? "" : ", ours") + shared_mark(metric, table));
     if (metric.ratio) names.push_back(metric.name + ", ours / paper");
   }
   for (std::size_t i = shows_variants(experiment) ? 2 : 1; i < names.size(); ++i) rule += "---:|";
@@ -200,7 +192,7 @@ std::string table_markdown(const Experiment& experiment, const Table& table) {
   for (const std::string& note : experiment.notes) text += note + "\n\n";
   if (!experiment.answers.empty()) text += std::string(kThinkFirst) + "\n\n";
   text += markdown_header(experiment, table) + markdown_body(experiment, table) + "\n";
-  text += repeats_line(experiment) + "\n" + shared_line(experiment, table);
+  text += repeats_line(experiment) + "\n" + notes_text(experiment, table);
   if (!experiment.reference.source.empty()) text += "\nPaper: " + experiment.reference.source + "\n";
   if (experiment.task == Task::kMesh) text += variants_text(experiment);
   if (!table.remarks.empty()) text += "\nRemarks:\n\n";
@@ -250,7 +242,8 @@ Json table_json(const Experiment& experiment, const Table& table) {
   return Json{
       {"schema", kTableSchema},          {"experiment", experiment.name}, {"title", experiment.title},
       {"question", experiment.question}, {"notes", experiment.notes},     {"rows", rows},
-      {"remarks", table.remarks},        {"programs", table.programs},    {"runs_at_a_time", table.runs_at_a_time}};
+      {"remarks", table.remarks},        {"programs", table.programs},    {"runs_at_a_time", table.runs_at_a_time},
+      {"threads", table.threads}};
 }
 
 }  // namespace deliso

@@ -40,6 +40,8 @@ std::string glb_bytes(const TriangleMesh& mesh, const MeshFileOptions& options =
 TriangleMesh parse_ply(std::string_view bytes, const std::string& file);
 TriangleMesh parse_off(std::string_view bytes, const std::string& file);
 TriangleMesh parse_obj(std::string_view bytes, const std::string& file);
+// Whether these first bytes of a file have a point `v x y z`, and before it only comments and other statements of OBJ.
+bool begins_as_obj(std::string_view head);
 TriangleMesh parse_stl(std::string_view bytes, const std::string& file);
 // Whether a file of `size` bytes that begins so is STL as binary data: its size fits its number of triangles.
 bool is_binary_stl(std::string_view head, std::uint64_t size);

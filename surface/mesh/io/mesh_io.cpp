@@ -106,7 +106,8 @@ std::optional<MeshFormat> mesh_format_of_content(std::string_view head, std::uin
   if (head.starts_with("solid") && has("facet")) return MeshFormat::kStl;
   if (is_binary_stl(head, size)) return MeshFormat::kStl;
   const std::string_view word = head.substr(0, head.find_first_of(" \r\n"));
-  return word.ends_with("OFF") ? std::optional(MeshFormat::kOff) : std::nullopt;
+  if (word.ends_with("OFF")) return MeshFormat::kOff;
+  return begins_as_obj(head) ? std::optional(MeshFormat::kObj) : std::nullopt;
 }
 
 bool is_read(MeshFormat format) {

@@ -22,7 +22,7 @@ inline constexpr std::string_view kReadMeshExtensions = ".ply, .off, .obj, .stl,
 std::optional<MeshFormat> mesh_format_named(std::string_view name);
 // By the extension of a file.
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
-// By the first bytes of a file of `size` bytes; none for OBJ, which has no mark.
+// By the first bytes of a file of `size` bytes; OBJ, which has no mark, by its first point.
 std::optional<MeshFormat> mesh_format_of_content(std::string_view head, std::uint64_t size);
 // Whether parse_mesh reads the format.
 bool is_read(MeshFormat format);

@@ -20,6 +20,12 @@ constexpr std::array<std::string_view, 43> kSkippedStatements = {
     "curv2",  "surf",   "parm",  "trim", "hole",     "scrv",     "sp",     "end", "con",  "shadow_obj", "trace_obj",
     "ctech",  "stech",  "call",  "csh",  "bsp",      "bzp",      "cdc",    "cdp", "res",  "fo"};
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before a text
+
+bool is_skipped(std::string_view keyword) {
+  return std::find(kSkippedStatements.begin(), kSkippedStatements.end(), keyword) != kSkippedStatements.end();
+}
+
 // Reads the lines of one file. Indices may name points that come later, so the largest is checked at the end.
 class ObjParser {
  public:
@@ -45,10 +51,6 @@ class ObjParser {
   }
 
  private:
-  static bool is_skipped(std::string_view keyword) {
-    return std::find(kSkippedStatements.begin(), kSkippedStatements.end(), keyword) != kSkippedStatements.end();
-  }
-
   // A line that ends in a backslash goes on in the next one.
   void skip_statement() {
     std::string_view last;
@@ -122,8 +124,26 @@ std::string obj_bytes(const TriangleMesh& mesh, const MeshComments& comments) {
   return text;
 }
 
+bool begins_as_obj(std::string_view head) {
+  if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
+  TextScanner in(head, "", '#');
+  do {
+    std::string_view word = in.word_on_line();
+    if (word.empty()) continue;  // blank, or a comment
+    if (word == "v") {
+      double number = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!parse_number(in.word_on_line(), number)) return false;
+      }
+      return true;
+    }
+    if (!is_skipped(word)) return false;
+    while (!word.empty()) word = in.word_on_line();
+  } while (in.next_line());
+  return false;
+}
+
 TriangleMesh parse_obj(std::string_view bytes, const std::string& file) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before a text
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   return ObjParser(bytes, file).parse();
 }

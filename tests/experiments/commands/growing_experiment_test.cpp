@@ -204,7 +204,26 @@ TEST_F(GrowingExperiment, SeveralRunsAtATimeGiveTheSameMeshesAndSayThatTimesAreS
     EXPECT_EQ(expected[i]["runs_at_a_time"], 1);
   }
   EXPECT_NE(together.out.find("| seconds* |"), std::string::npos) << together.out;
-  EXPECT_NE(together.out.find("Shared times: up to 3 runs"), std::string::npos);
+  EXPECT_NE(together.out.find("\\* Shared times: up to 3 runs"), std::string::npos);
+}
+
+TEST_F(GrowingExperiment, EveryTableMarksTimesThatAreSharedOrOfDifferentThreads) {
+  Json document = sweep_of_twelve();
+  Json& values = document["sweep"]["stage2.epsilon1"] = Json::array({0.2});
+  document["metrics"].push_back(Json{{"name", "rate"}, {"value", "vertices"}, {"per", "total_seconds"}});
+  const ProgramResult first = run(document, {"--jobs", "2", "--threads", "1"});
+  EXPECT_NE(first.out.find("| vertices | seconds* | rate* |"), std::string::npos) << first.out;
+  EXPECT_EQ(first.out.find("numbers of threads"), std::string::npos);
+  const std::string latex = read_file(folder_ / "out/table.tex");
+  EXPECT_NE(latex.find("vertices & seconds* & rate* "), std::string::npos) << latex;
+  EXPECT_NE(latex.find("\\multicolumn{4}{l}{* Shared times: up to 2 runs"), std::string::npos) << latex;
+  // One more run, with other threads.
+  values.push_back(0.3);
+  const std::string note = "Times of runs with different numbers of threads: 1 and 2.";
+  const ProgramResult more = run(document, {"--threads", "2", "--resume"});
+  EXPECT_NE(more.out.find("\n" + note + "\n"), std::string::npos) << more.out << more.err;
+  EXPECT_NE(read_file(folder_ / "out/table.tex").find(note), std::string::npos);
+  EXPECT_EQ(read_json(folder_ / "out/table.json")["threads"], Json::array({1, 2}));
 }
 
 TEST_F(GrowingExperiment, FailedRunsAmongSeveralAreToldAndTheOthersMade) {

@@ -109,6 +109,36 @@ TEST_F(MeshFormats, StandardInputAndOutputAreVolumesMeshesAndReports) {
   EXPECT_TRUE(has_text(mesh(folder_ / "x.ply", {"--msh-version", "3"}).err, "expected 4.1 or 2.2, found '3'"));
 }
 
+TEST_F(MeshFormats, EveryFormatThatIsReadIsToldFromStandardInput) {
+  for (const std::string format : {"ply", "off", "obj", "stl", "mesh", "vtk", "vtp"}) {
+    SCOPED_TRACE(format);
+    const std::string made = "$D mesh $F/v.nrrd --isovalue 100.5 --set boundary=closed -o - --quiet --format " + format;
+    const ProgramResult verified = shell(made + " | $D verify - $F/v.nrrd --isovalue 100.5");
+    EXPECT_EQ(verified.exit_code, 0) << verified.err;
+  }
+}
+
+TEST_F(MeshFormats, OptionsOfVolumesAreRefusedForMeshes) {
+  ASSERT_EQ(mesh(folder_ / "m.ply").exit_code, 0);
+  for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{{"--smooth", "3"},
+                                                                                      {"--region", "0:3,0:3,0:3"},
+                                                                                      {"--channel", "7"},
+                                                                                      {"--array", "a"},
+                                                                                      {"--dims", "4,4,4"},
+                                                                                      {"--type", "u8"},
+                                                                                      {"--endian", "big"},
+                                                                                      {"--spacing", "1,1,1"},
+                                                                                      {"--skip", "3"}}) {
+    const ProgramResult result = run_deliso({"info", folder_ / "m.ply", option[0], option[1]});
+    EXPECT_EQ(result.exit_code, 2) << option[0];
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "deliso: " + option[0] + ": for volumes alone, but " + (folder_ / "m.ply") + " is a mesh\n");
+  }
+  EXPECT_TRUE(has_text(shell("$D info - --smooth 3 --skip 2 < $F/m.ply").err,
+                       "--smooth, --skip: for volumes alone, but standard input is a mesh"));
+  EXPECT_TRUE(has_text(shell("$D info - --format ply --volume-format nrrd < $F/m.ply").err, "expected one of them"));
+}
+
 // The numbers of an array of a legacy VTK file as text.
 std::vector<double> vtk_array(const std::string& text, const std::string& section, const std::string& name) {
   std::istringstream words(text.substr(text.find("\n" + section + " ")));

@@ -107,6 +107,19 @@ TEST_F(Output, NoMeshWithoutItsReport) {
 }
 
 // Half a voxel is less than a float can tell there: PLY holds the mesh, STL does not, and verify agrees on both.
+TEST_F(Output, AQuietRunSaysNothingOnStandardError) {
+  const ProgramResult told = run_deliso(mesh({"-o", "-"}));
+  EXPECT_NE(told.err.find("verdict"), std::string::npos) << told.err;
+  for (const std::string stream : {"-o", "--report"}) {
+    std::vector<std::string> more = {stream, "-", "--quiet"};
+    if (stream != "-o") more.insert(more.end(), {"-o", folder_ / "new.ply"});
+    const ProgramResult quiet = run_deliso(mesh(more));
+    EXPECT_EQ(quiet.exit_code, 0);
+    EXPECT_EQ(quiet.err, "") << stream;
+    EXPECT_NE(quiet.out, "") << stream;
+  }
+}
+
 TEST_F(Output, MeshesThatRoundingSpoilsAreNotCalledProven) {
   write_file(volume_, ball("spacings: 0.1 0.1 0.1\naxis mins: 500000 4000000 0\n"));
   const std::string report = folder_ / "r.json";

@@ -3,7 +3,9 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/pictures/image.h"
@@ -151,6 +153,81 @@ TEST_F(Render, RefusesPlacesWhereNoPictureCanBe) {
   EXPECT_EQ(outside.exit_code, 2);
   EXPECT_NE(outside.err.find("range"), std::string::npos) << outside.err;
   EXPECT_EQ(folder_.names(), names_);
+}
+
+// A ball of 16^3 samples that lies turned about z in the world, 100 to 300 away from its origin.
+class RenderInTheWorld : public ::testing::Test {
+ protected:
+  RenderInTheWorld() {
+    std::string bytes =
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nencoding: raw\n"
+        "space: left-posterior-superior\nspace directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\n"
+        "space origin: (100,200,300)\n\n";
+    for (int n = 0; n < 16 * 16 * 16; ++n) {
+      const int i = n % 16, j = n / 16 % 16, k = n / 256;
+      const double r = std::hypot(i - 7.3, j - 7.4, k - 7.6);
+      bytes += static_cast<char>(std::lround(150 - 10 * r));
+    }
+    write_file(volume_, bytes);
+  }
+  // The picture beside its messages.
+  [[nodiscard]] std::pair<Image, std::string> picture(std::vector<std::string> options) const {
+    options.insert(options.begin(),
+                   {"render", volume_, "--isovalue", "99.5", "-o", folder_ / "p.png", "--samples", "1"});
+    const ProgramResult result = run_deliso(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return {decoded(read_file(folder_ / "p.png")), result.err};
+  }
+
+  TemporaryFolder folder_;
+  std::string volume_ = folder_ / "v.nrrd";
+};
+
+TEST_F(RenderInTheWorld, MeshesOfEverySpaceAndOriginLieOnTheIsosurface) {
+  const std::vector<std::vector<std::string>> places = {{"a.ply"},
+                                                        {"b.ply", "--space", "RAS"},
+                                                        {"c.stl", "--local-origin"},
+                                                        {"d.obj", "--space", "RAS", "--local-origin"}};
+  std::vector<std::string> options = {"--surface", "--size", "250x50"};
+  for (const std::vector<std::string>& place : places) {
+    const std::string path = folder_ / place.front();
+    std::vector<std::string> arguments = {"mesh", volume_, "--isovalue", "99.5", "-o", path};
+    arguments.insert(arguments.end(), place.begin() + 1, place.end());
+    ASSERT_EQ(run_deliso(arguments).exit_code, 0);
+    options.insert(options.end(), {"--mesh", path});
+  }
+  const auto [image, remarks] = picture(options);
+  EXPECT_EQ(remarks, "");
+  const auto surface = static_cast<double>(drawn(image, 0, 50));
+  EXPECT_GT(surface, 1000);
+  for (std::int32_t left = 50; left < 250; left += 50)
+    EXPECT_NEAR(static_cast<double>(drawn(image, left, left + 50)), surface, 0.05 * surface) << left;
+  // What is typed comes before what the file says; a mesh that is not seen is named.
+  const auto [blank, remark] = picture({"--mesh", folder_ / "b.ply", "--space", "native", "--size", "50x50"});
+  EXPECT_EQ(drawn(blank, 0, 50), 0);
+  EXPECT_NE(remark.find("b.ply lies outside"), std::string::npos) << remark;
+  const ProgramResult alone =
+      run_deliso({"render", volume_, "--isovalue", "99.5", "-o", folder_ / "p.png", "--space", "RAS"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("expected --mesh"), std::string::npos) << alone.err;
+}
+
+// The middle of the ball is at (101.4, 210.3, 307.6).
+TEST_F(RenderInTheWorld, CutsAndLooksAtPlacesOfTheWorld) {
+  const auto seen = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--size", "50x50", "--view", "90,0"});
+    return drawn(picture(options).first, 0, 50);
+  };
+  const std::ptrdiff_t whole = seen({});
+  EXPECT_GT(whole, 1000);
+  // From the side of y the eye sees half of what is cut at the middle along x.
+  EXPECT_NEAR(static_cast<double>(seen({"--clip", "x=101.4"})), 0.5 * static_cast<double>(whole), 60);
+  EXPECT_NEAR(static_cast<double>(seen({"--look-at", "101.4,210.3,307.6"})), static_cast<double>(whole), 60);
+  EXPECT_EQ(seen({"--look-at", "301.4,210.3,307.6"}), 0);
+  const ProgramResult nothing =
+      run_deliso({"render", volume_, "--isovalue", "99.5", "-o", folder_ / "p.png", "--clip", "x=50"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_NE(nothing.err.find("x goes from 91 to 112"), std::string::npos) << nothing.err;
 }
 
 }  // namespace

@@ -216,6 +216,14 @@ TEST_F(SizeOptionsTest, BadSizesAreRefusedInOneSentence) {
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
     EXPECT_NE(refused.err.find(option.substr(2)), std::string::npos) << refused.err;
   }
+  // What was typed is quoted, units included.
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--max-error", "0.1mmm"},
+                                      {"--max-edge", "mm"},
+                                      {"--smooth", "w"},
+                                      {"--min-component", "area:xmm2"}}) {
+    const std::string refused = mesh({option, value}, "none.ply").err;
+    EXPECT_EQ(refused, "deliso: " + option + ": expected a finite number, found '" + value + "'\n");
+  }
   EXPECT_EQ(mesh({"--threads", "auto"}).exit_code, 0);
 }
 

@@ -77,6 +77,15 @@ TEST(Usage, AnOptionWithoutItsValueIsNamed) {
   EXPECT_TRUE(contains(refusal({"mesh", "no.nrrd", "--isovalue", "-3", "-o", "-"}), "no.nrrd"));
 }
 
+TEST(Usage, AnOptionGivenTwiceIsNamed) {
+  const ProgramResult twice = run_deliso({"mesh", "v.nrrd", "--isovalue", "1", "--isovalue=1", "-o", "x.ply"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_EQ(twice.err, "deliso: --isovalue was given twice, expected once (deliso --help tells more)\n");
+  const ProgramResult thrice =
+      run_deliso({"topology", "v.nrrd", "--isovalue", "1", "--report", "a", "--report", "b", "--report", "c"});
+  EXPECT_EQ(thrice.err, "deliso: --report was given 3 times, expected once (deliso --help tells more)\n");
+}
+
 TEST(Usage, GenerateListsAndWritesEveryField) {
   const TemporaryFolder folder;
   const ProgramResult list = run_deliso({"generate", "--list"});

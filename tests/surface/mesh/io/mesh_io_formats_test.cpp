@@ -143,5 +143,14 @@ TEST_F(MeshIo, WhatFollowsTheLastElementOfAPlyFileIsRefused) {
                                                        "3 bytes more");
 }
 
+TEST(MeshFormatOfContent, ObjIsKnownByItsFirstPoint) {
+  for (const std::string head : {"", "# made by hand\n\nmtllib a.mtl\r\no Body\nvn 0 0 1\n", "\xEF\xBB\xBF#\n"}) {
+    EXPECT_EQ(mesh_format_of_content(head + "v 0 1e-3 -2\n", 99), MeshFormat::kObj) << head;
+    for (const std::string other : {"v\n", "v 1 2\n3\n", "v one two three\n", "1 2 3\n", "version 1 2 3\n", ""})
+      EXPECT_FALSE(mesh_format_of_content(head + other, 99)) << head << other;
+  }
+  EXPECT_FALSE(mesh_format_of_content("# words\nsome text\nv 1 2 3\n", 99));
+}
+
 }  // namespace
 }  // namespace deliso

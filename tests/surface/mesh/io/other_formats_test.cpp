@@ -72,7 +72,7 @@ TEST_F(MeshIo, CommentsComeBackWhereAFormatHoldsThem) {
 
 TEST_F(MeshIo, FormatsAreToldByTheirContent) {
   MeshFileOptions options = with_comments();
-  for (const char* extension : {"ply", "off", "stl", "mesh", "vtk", "vtp"}) {
+  for (const char* extension : {"ply", "off", "obj", "stl", "mesh", "vtk", "vtp"}) {
     const MeshFormat format = *mesh_format_named(extension);
     const std::string bytes = mesh_bytes(shells(), format, options, "m");
     EXPECT_EQ(mesh_format_of_content(bytes, bytes.size()), format) << extension;
