@@ -17,6 +17,12 @@ std::string stage_text(std::string_view stage) {
   return stage == "refine" ? "stage 2 (refine)" : "the stage '" + std::string(stage) + "'";
 }
 
+std::string what_fewer_do_not_keep(const SizeParameters& size, double distance) {
+  return "fewer do not keep the topology, the angles" +
+         (size.max_edge ? ", edges of at most " + short_text(*size.max_edge) : std::string()) + " and a distance of " +
+         short_text(distance) + (distance == 1 ? " voxel" : " voxels");
+}
+
 // The sizes asked for that a run to its end did not reach.
 std::vector<std::string> unmet_sizes(const SizeParameters& size, const MeshingResult& result) {
   std::vector<std::string> goals;
@@ -28,9 +34,7 @@ std::vector<std::string> unmet_sizes(const SizeParameters& size, const MeshingRe
     if (std::abs(static_cast<double>(count) - wanted) > kWithin * wanted) {
       goals.push_back("size.target_vertices: " + std::to_string(count) + " vertices were reached, not " +
                       std::to_string(target) + ": " +
-                      (count > target ? "fewer do not keep the topology, the angles and a distance of " +
-                                            short_text(result.promised_distance) +
-                                            (result.promised_distance == 1 ? " voxel" : " voxels")
+                      (count > target ? what_fewer_do_not_keep(size, result.promised_distance)
                                       : "insertions of more were refused"));
     }
   }
