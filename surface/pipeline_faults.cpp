@@ -144,7 +144,9 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
     const std::vector<Vec3>& now = faults.geometry.missed_points;
     missed.insert(missed.end(), now.begin(), now.end());
     take_back_shape(shape_before);
+    const bool would_be_the_same = time > 0 && now.empty();
     faults = *unshaped;
+    if (would_be_the_same) break;
   }
   controls_.set_observer(observer);
   return faults;
