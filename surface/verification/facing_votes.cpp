@@ -114,6 +114,26 @@ void add_votes(const std::array<Vec3, 3>& corners, std::size_t axis, const Isosu
   }
 }
 
+// Triangles of a mesh as coarse as its sheets are thin lie beyond the next sheet all over, but for their corners, which
+// lie on the isosurface: a component that faces down the gradients at its corners is right.
+void forgive_coarse(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+                    const IsosurfaceProbe& probe, std::vector<bool>& are_against) {
+  if (std::find(are_against.begin(), are_against.end(), true) == are_against.end()) return;
+  std::vector<double> down(are_against.size(), 0);
+  for (const auto& corners : mesh.triangles) {
+    const std::uint32_t component = component_of_vertex[corners[0]];
+    if (!are_against[component]) continue;
+    const Vec3& a = mesh.points[corners[0]];
+    const Vec3 normal = cross(mesh.points[corners[1]] - a, mesh.points[corners[2]] - a);
+    for (const std::uint32_t v : corners) {
+      const Vec3 gradient = probe.gradient(mesh.points[v]);
+      const double steepness = norm_of_any_size(gradient);
+      if (steepness > 0) down[component] -= dot(normal, gradient / steepness);
+    }
+  }
+  for (std::size_t i = 0; i < down.size(); ++i) are_against[i] = are_against[i] && !(down[i] > 0);
+}
+
 }  // namespace
 
 std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
@@ -124,10 +144,15 @@ std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const
     for (std::size_t axis = 0; axis < 3; ++axis) add_votes(corners, axis, probe, votes[component_of_vertex[a]]);
     votes[component_of_vertex[a]].area_down += area_down(corners, probe);
   }
+  std::vector<bool> are_against(components);
+  for (std::size_t i = 0; i < components; ++i) {
+    are_against[i] = votes[i].up > kMostAgainst * votes[i].down && votes[i].area_down < 0;
+  }
+  forgive_coarse(mesh, component_of_vertex, probe, are_against);
   std::vector<std::int64_t> sums;
-  for (const auto& [down, up, area] : votes) {
-    const bool is_against = up > kMostAgainst * down && area < 0;
-    sums.push_back(is_against ? down - up : std::max<std::int64_t>(0, down - up));
+  for (std::size_t i = 0; i < components; ++i) {
+    const std::int64_t sum = votes[i].down - votes[i].up;
+    sums.push_back(are_against[i] ? sum : std::max<std::int64_t>(0, sum));
   }
   return sums;
 }

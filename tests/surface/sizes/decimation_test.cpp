@@ -141,6 +141,19 @@ TEST(Sizes, FewVerticesStayRightAndPromiseNoMoreThanTheyNeed) {
   }
 }
 
+// Triangles of the inner sheet lie beyond the middle of the wall, and some beyond the outer sheet.
+TEST(Sizes, ErrorsLargerThanWallsAreVerified) {
+  for (const double radius : {3.0, 3.2, 3.4}) {
+    for (const double half : {0.8, 1.0, 1.2}) {
+      const ScalarGrid grid = testing::sampled({11, 11, 11}, [=](const Vec3& p) {
+        return half - std::abs(radius - distance(p, {5.1, 5.1, 5.1}));
+      });
+      const MeshingResult result = sized(grid, 0.013, with(&SizeParameters::max_error, 2.0));
+      expect_proven(result, grid, std::to_string(radius) + " " + std::to_string(half));
+    }
+  }
+}
+
 TEST(Sizes, TheResultIsTheSameForAnyNumberOfThreads) {
   const ScalarGrid grid = mask_of_ball(17, 6.3);
   const SizeParameters size = with(&SizeParameters::target_vertices, 500, with(&SizeParameters::max_error, 0.15));
