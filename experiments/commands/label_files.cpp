@@ -130,6 +130,7 @@ std::vector<std::string> comments_for(const std::vector<std::string>& comments, 
   if (!label) return comments;
   const std::string mine = before_comments_of(*label);
   std::vector<std::string> found;
+  found.reserve(comments.size());
   for (const std::string& line : comments) found.push_back(line.starts_with(mine) ? line.substr(mine.size()) : line);
   return found;
 }

@@ -66,6 +66,15 @@ class ObjParser {
       const std::string_view found = in_.word_on_line();
       if (!parse_number(found, p[axis]) || !std::isfinite(p[axis])) in_.fail("a finite coordinate", found);
     }
+    // A weight or colours may follow, or the line goes on.
+    for (std::string_view word = in_.word_on_line(); !word.empty(); word = in_.word_on_line()) {
+      double number = 0;
+      if (word == "\\") {
+        in_.next_line();
+      } else if (!parse_number(word, number)) {
+        in_.fail("a number or the end of the line after the coordinates", word);
+      }
+    }
     if (mesh_.points.size() + 1 >= std::numeric_limits<std::uint32_t>::max())
       in_.fail("fewer than 2^32 - 1 points", "");
     mesh_.points.push_back(p);
@@ -82,7 +91,10 @@ class ObjParser {
       }
       if (found.empty()) break;
       std::int64_t i = 0;
-      if (!parse_integer(found.substr(0, found.find('/')), i) || i == 0) in_.fail("the index of a point", found);
+      const bool is_of_integers = found.find_first_not_of("0123456789-+/") == std::string_view::npos;
+      if (!is_of_integers || !parse_integer(found.substr(0, found.find('/')), i) || i == 0) {
+        in_.fail("the index of a point", found);
+      }
       i = i > 0 ? i - 1 : i + static_cast<std::int64_t>(mesh_.points.size());
       if (i < 0 || i >= std::numeric_limits<std::uint32_t>::max()) in_.fail("the index of a point", found);
       if (i > largest_) {

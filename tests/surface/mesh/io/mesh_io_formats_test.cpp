@@ -106,10 +106,11 @@ TEST_F(MeshIo, ReadsForeignPly) {
 
 TEST_F(MeshIo, ReadsForeignTextFormats) {
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-  const TriangleMesh obj = read_mesh(write_bytes("a.obj",
-                                                 "# a comment\nmtllib x.mtl\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nvn 0 0 1\n"
-                                                 "v +1 1e0 0\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\nv 0 1 0\nf -4//1 -2//1 \\\n"
-                                                 "-1//1\ns off\nf 1/1 2/1 3/1 4/1"));
+  const TriangleMesh obj =
+      read_mesh(write_bytes("a.obj",
+                            "# a comment\nmtllib x.mtl\nv 0 0 0 \\\n1\nv 1 0 0 0.5 0.5 0.5\nvn 0 0 1\n"
+                            "v +1 1e0 0\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\nv 0 1 0\nf -4//1 -2//1 \\\n"
+                            "-1//1\ns off\nf 1/1 2/1 3/1 4/1"));
   EXPECT_EQ(obj.points.size(), 4u);
   EXPECT_EQ(obj.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}));
   const TriangleMesh off = read_mesh(write_bytes("a.off",
@@ -130,6 +131,11 @@ TEST_F(MeshIo, StatementsThatAreNoneOfObjAreRefused) {
             ", line 1: expected a statement of the OBJ format (v, f, vn, g, usemtl, ...), found 'hello,'");
   EXPECT_EQ(reading_error("a.obj", "v 0 0 0\nvn 0 0 1\n1 2 3\n"),
             ", line 3: expected a statement of the OBJ format (v, f, vn, g, usemtl, ...), found '1'");
+  // As with the line ends of old systems: all of the file is one line.
+  EXPECT_EQ(reading_error("a.obj", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"),
+            ", line 1: expected a number or the end of the line after the coordinates, found 'v'");
+  EXPECT_EQ(reading_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/x 2/?/! 3\n"),
+            ", line 4: expected the index of a point, found '1/x'");
 }
 
 TEST_F(MeshIo, WhatFollowsTheLastElementOfAPlyFileIsRefused) {
