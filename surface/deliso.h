@@ -28,8 +28,8 @@ struct MeshingOptions {
   std::uint64_t seed = 1;
   std::int32_t threads = 1;
   std::function<void(const Progress&)> progress;  // may be empty
-  const std::atomic<bool>* stop = nullptr;   // set to true from outside: finish early with a valid partial mesh
-  std::string_view stop_cause = "a signal";  // who sets it, for the report
+  const std::atomic<bool>* stop = nullptr;        // set to true from outside: finish early with a valid partial mesh
+  std::string_view stop_cause = "a signal";       // who sets it, for the report
   bool keep_stage1_mesh = false;
   Observer* observer = nullptr;  // told of every step, see there
 };

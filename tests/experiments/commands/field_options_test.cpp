@@ -105,7 +105,8 @@ TEST_F(Fields, SmoothingIsTheSameForAllCommands) {
             0);
 }
 
-// Label 1 has two components and label 2 one. What one label has left out, and how far it is off, is not that of others.
+// Label 1 has two components and label 2 one. What one label has left out, and how far it is off, is not that of
+// others.
 TEST_F(Fields, SeveralLabelsInAFileKeepWhatIsTheirOwn) {
   write_field<std::int16_t>(volume_, [](int i, double d) { return d > 6 ? (i == 0 ? 1 : 0) : i < 8 ? 1 : 2; });
   for (const std::string labels : {"1,2", "2,1"}) {
