@@ -63,7 +63,13 @@ class DefectFinder {
   void flag_unused_vertices();
   void flag_critical_points();
   void flag_components_without_defects();
-  void find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const;
+  // Cells whose critical points may matter, and for each a component that is not done.
+  struct OpenCells {
+    std::vector<CellIndex> cells;
+    std::vector<std::uint32_t> components;
+  };
+  [[nodiscard]] OpenCells find_open_cells() const;
+  [[nodiscard]] OpenCells find_open_cells(std::int32_t first_layer, std::int32_t last_layer) const;
   [[nodiscard]] std::optional<std::uint32_t> open_component_in(const CellIndex& cell) const;
   [[nodiscard]] Vec3 to_mesh_space(const Vec3& p) const { return scaled(p, restricted_.isosurface().step()); }
 
@@ -153,22 +159,35 @@ void DefectFinder::flag_unused_vertices() {
 // Flags critical points on the wrong side of the mesh. There a tunnel is open that should be closed, or closed that
 // should be open.
 void DefectFinder::flag_critical_points() {
-  std::vector<CellIndex> cells;
-  std::vector<std::uint32_t> open;  // for each cell a component that is not done
-  find_open_cells(cells, open);
-  std::vector<CriticalPointInCell> points = critical_points_in(cells, restricted_.isosurface(), threads_);
-  std::erase_if(points, [&](const auto& p) { return !matters(p.point, open[p.cell], DefectKind::kTopology); });
-  const std::vector<TetId> tets = tets_at(points, cells, restricted_, threads_);
+  const OpenCells open = find_open_cells();
+  std::vector<CriticalPointInCell> points = critical_points_in(open.cells, restricted_.isosurface(), threads_);
+  std::erase_if(points,
+                [&](const auto& p) { return !matters(p.point, open.components[p.cell], DefectKind::kTopology); });
+  const std::vector<TetId> tets = tets_at(points, open.cells, restricted_, threads_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (restricted_.is_above(tets[i]) == points[i].is_above) continue;
-    flag(points[i].point, open[points[i].cell], DefectKind::kTopology);
+    flag(points[i].point, open.components[points[i].cell], DefectKind::kTopology);
   }
 }
 
-// The active cells whose critical points may matter, and a component for each cell.
-void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<std::uint32_t>& components) const {
+DefectFinder::OpenCells DefectFinder::find_open_cells() const {
+  std::vector<OpenCells> of_slabs(slab_count(topology_.index.cell_layers()));
+  for_each_slab(topology_.index.cell_layers(), threads_, [&](std::size_t slab, std::int32_t first, std::int32_t last) {
+    of_slabs[slab] = find_open_cells(first, last);
+  });
+  OpenCells open;
+  for (const OpenCells& some : of_slabs) {
+    open.cells.insert(open.cells.end(), some.cells.begin(), some.cells.end());
+    open.components.insert(open.components.end(), some.components.begin(), some.components.end());
+  }
+  return open;
+}
+
+// Those in some layers across z.
+DefectFinder::OpenCells DefectFinder::find_open_cells(std::int32_t first_layer, std::int32_t last_layer) const {
+  OpenCells open;
   CellCrossings crossings(topology_.index);
-  topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+  topology_.index.for_each_active_cell(first_layer, last_layer, [&](const CellIndex& cell, std::uint8_t pattern) {
     std::optional<std::uint32_t> component;
     if (is_simple(pattern)) {  // one disk
       crossings.move_to(cell);
@@ -178,9 +197,10 @@ void DefectFinder::find_open_cells(std::vector<CellIndex>& cells, std::vector<st
     }
     if (!component || !matters(*component, DefectKind::kTopology)) return;
     if (!(has_other_loops_[*component] && is_at_box(cell)) && !is_near_boxes(cell, *component, kNear + 1)) return;
-    cells.push_back(cell);
-    components.push_back(*component);
+    open.cells.push_back(cell);
+    open.components.push_back(*component);
   });
+  return open;
 }
 
 // A component that is not done and has a crossing on an edge of the cell.

@@ -24,6 +24,8 @@ class EulerBoxes {
                                           const std::array<std::int32_t, 3>& dims, std::size_t most);
 
   [[nodiscard]] std::size_t count() const { return ranges_[0].size() * ranges_[1].size() * ranges_[2].size(); }
+  // Whether a change at a layer across z may count.
+  [[nodiscard]] bool reach(std::size_t layer) const { return near_[2][layer].begin < near_[2][layer].end; }
   // Adds the change of the Euler characteristic at these layers: of the mesh, or with the other sign of the surface.
   void add(const SampleLayers& layers, std::int32_t change);
   // All boxes; as the likely ones those with a sum other than zero, or all if there are none.

@@ -161,9 +161,13 @@ void EulerDifferences::sum_changes(const MatchedMesh& mesh, const std::vector<st
                        [&](std::uint32_t part, const SampleLayers& layers, std::int32_t change) {
                          if (boxes[part]) boxes[part]->add(layers, 2 * change);
                        });
-  for_each_exact_change(surface, [&](std::uint32_t component, const SampleLayers& layers, std::int32_t twice) {
+  std::vector<bool> layers(static_cast<std::size_t>(surface.grid().dims()[2]), false);
+  for (const std::optional<EulerBoxes>& some : boxes) {
+    for (std::size_t k = 0; some && k < layers.size(); ++k) layers[k] = layers[k] || some->reach(k);
+  }
+  for_each_exact_change(surface, layers, [&](std::uint32_t component, const SampleLayers& at, std::int32_t twice) {
     const std::uint32_t part = part_of_component[component];
-    if (part != kNoPart) boxes[part]->add(layers, -twice);
+    if (part != kNoPart) boxes[part]->add(at, -twice);
   });
 }
 

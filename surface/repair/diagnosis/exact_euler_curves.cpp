@@ -14,21 +14,20 @@ namespace deliso {
 
 namespace {
 
-// Calls visit(crossing, layers) for all crossings; `layers` are the first sample layers that are not below the
-// crossing.
+// Calls visit(crossing, layers) for the crossings on the edges from samples of a layer across z; `layers` are the first
+// sample layers that are not below the crossing.
 template <class Visit>
-void for_each_crossing(const IsosurfaceTopology& topology, const Dims& dims, const Visit& visit) {
+void for_each_crossing(const IsosurfaceTopology& topology, std::int32_t layer, const Visit& visit) {
+  const CrossingIndex& index = topology.index;
+  const auto length = static_cast<std::uint64_t>(index.dims()[0]), rows = static_cast<std::uint64_t>(index.dims()[1]);
   // Crossings come row by row, so the row of a sample is tracked instead of computed by division.
-  SampleLayers row{0, 0, 0};
-  const auto length = static_cast<std::uint64_t>(dims[0]);
-  std::uint64_t first = 0;  // first sample of the row
-  for (const EdgeCrossing& crossing : topology.crossings) {
-    for (; crossing.sample >= first + length; first += length) {
-      if (++row[1] < dims[1]) continue;
-      row[1] = 0;
-      ++row[2];
-    }
-    SampleLayers layers = {static_cast<std::int32_t>(crossing.sample - first), row[1], row[2]};
+  std::uint64_t first = static_cast<std::uint64_t>(layer) * rows * length;  // first sample of the row
+  std::int32_t row = 0;
+  const std::uint32_t end = layer + 1 < index.dims()[2] ? index.first_number(0, 0, layer + 1) : index.crossing_count();
+  for (std::uint32_t i = index.first_number(0, 0, layer); i < end; ++i) {
+    const EdgeCrossing& crossing = topology.crossings[i];
+    for (; crossing.sample >= first + length; first += length) ++row;
+    SampleLayers layers = {static_cast<std::int32_t>(crossing.sample - first), row, layer};
     ++layers[crossing.axis];
     visit(crossing, layers);
   }
@@ -48,11 +47,13 @@ class ExactChanges {
         crossings_(surface.topology.index),
         changes_(changes) {}
 
-  void visit() {
-    for_each_crossing(topology_, grid_.dims(), [&](const EdgeCrossing& crossing, const SampleLayers& at) {
+  // What lies between a layer of samples across z and the next one, and on the layer.
+  void visit(std::int32_t layer) {
+    for_each_crossing(topology_, layer, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
       changes_.add(crossing.component, at, 2);
     });
-    topology_.index.for_each_active_cell([&](const CellIndex& cell, std::uint8_t pattern) {
+    const std::int32_t last = std::min(layer + 1, topology_.index.cell_layers());
+    topology_.index.for_each_active_cell(layer, last, [&](const CellIndex& cell, std::uint8_t pattern) {
       crossings_.move_to(cell);
       is_simple(pattern) ? visit_simple(cell, pattern) : visit_any(cell, pattern);
     });
@@ -124,9 +125,12 @@ struct PassedOn {
 
 }  // namespace
 
-void for_each_exact_change(const ExactSurface& surface, const VisitChange& visit) {
-  const PassedOn changes{visit};
-  ExactChanges(surface, changes).visit();
+void for_each_exact_change(const ExactSurface& surface, const std::vector<bool>& layers, const VisitChange& visit) {
+  const PassedOn passed_on{visit};
+  ExactChanges changes(surface, passed_on);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (layers[k] || (k + 1 < layers.size() && layers[k + 1])) changes.visit(static_cast<std::int32_t>(k));
+  }
 }
 
 // Adds up the changes by layer.
@@ -160,8 +164,9 @@ class ExactEulerCurves::Changes {
 
 ExactEulerCurves::ExactEulerCurves(const ExactSurface& surface) : dims_(surface.grid().dims()) {
   find_layers(surface.topology);
-  Changes changes(*this);
-  ExactChanges(surface, changes).visit();
+  Changes added(*this);
+  ExactChanges changes(surface, added);
+  for (std::int32_t k = 0; k < dims_[2]; ++k) changes.visit(k);
 }
 
 // Finds the layers of each component: those of its crossings, which are also those of its arcs and pieces, and the ones
@@ -170,13 +175,14 @@ void ExactEulerCurves::find_layers(const IsosurfaceTopology& topology) {
   using Reach = std::pair<std::int32_t, std::int32_t>;
   std::vector<std::array<Reach, 3>> reach(topology.components.size());
   for (auto& along : reach) along.fill({std::numeric_limits<std::int32_t>::max(), 0});
-  for_each_crossing(topology, dims_, [&](const EdgeCrossing& crossing, const SampleLayers& at) {
+  const auto extend = [&](const EdgeCrossing& crossing, const SampleLayers& at) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto& [first, last] = reach[crossing.component][axis];
       first = std::min(first, std::max(at[axis] - 1, 0));
       last = std::max(last, at[axis]);
     }
-  });
+  };
+  for (std::int32_t k = 0; k < dims_[2]; ++k) for_each_crossing(topology, k, extend);
   std::size_t total = 0;
   layers_.resize(reach.size());
   for (std::size_t c = 0; c < reach.size(); ++c) {

@@ -12,8 +12,9 @@
 namespace deliso {
 
 // Visits the changes of the surface itself, cell by cell: for each component as a part, twice the change of its Euler
-// characteristic.
-void for_each_exact_change(const ExactSurface& surface, const VisitChange& visit);
+// characteristic. All of those at the sample layers across z that are marked in `layers`, and some at those beside
+// them.
+void for_each_exact_change(const ExactSurface& surface, const std::vector<bool>& layers, const VisitChange& visit);
 
 // The Euler curves of each exact component. They are those of any mesh that lies in the same cells as the surface, such
 // as the marching-cubes mesh. Computed cell by cell, and stored only for the layers that a component reaches.
