@@ -21,6 +21,7 @@
 #include "surface/restricted/poles.h"
 #include "volume/filters/meshed_field.h"
 #include "volume/region.h"
+#include "volume/regular_isovalue.h"
 
 namespace deliso {
 

@@ -10,17 +10,31 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/memory.h"
+#include "delaunay/triangle_contact.h"
 #include "surface/base/sizes.h"
 #include "surface/certificate/final_certificate.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/certificate/kept_components.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
+#include "surface/mesh/triangle_shape.h"
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
 #include "surface/shape/shape.h"
 
 namespace deliso {
+
+namespace {
+
+std::int64_t count_without_area(const SurfaceMesh& mesh) {
+  constexpr double kSurelyNot = 1e-20;  // squared sine of an angle
+  return std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+    const Vec3 &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]], &c = mesh.points[triangle[2]];
+    return !(squared_sine_of_least_angle(a, b, c) > kSurelyNot) && !has_area(a, b, c);
+  });
+}
+
+}  // namespace
 
 void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (parameters_.size.max_edge) limit_edges(mesh, options);
@@ -166,6 +180,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
     squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
   }
   result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest));
+  const std::int64_t without_area = count_without_area(mesh);
   if (result_.shape.seconds > 0) {
     count_bad_triangles(mesh, shape_options(parameters_), options_.threads, result_.shape);
   }
@@ -191,6 +206,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
   figures.topology = result_.certificate.verdict;
   figures.crossing_pairs = last_.crossing.crossing_pairs;
+  figures.zero_area_triangles = std::max(without_area, last_.crossing.zero_area_triangles);
   figures.vertices_off = last_.geometry.vertices_off;
   figures.mesh_off = last_.geometry.mesh_off;
   figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_points.size());

@@ -85,22 +85,6 @@ class ScalarGrid {
 // type's range. Throws InputError when `value` is NaN or a dimension would leave the range of Dims.
 ScalarGrid padded(const ScalarGrid& grid, double value);
 
-// A regular isovalue: never equal to a sample. It is `isovalue` itself unless some sample equals it (or, where samples
-// are in steps, does so up to rounding: 0.6 and the float next to it). Then it is lowered by 1 % of the gap to the next
-// lower sample value, or, where such a sample has lower ones on both sides along an axis, by 38.2 %. (There 1 % leaves
-// walls, wires and grains a hundredth of a voxel thin: with a whole number for isovalue, on most scans of integers,
-// everywhere. Distances to a box on grid planes have no such samples, and hardly move.) If there is no lower sample, it
-// is lowered by 1 % of the gap to the next higher one; if all samples are equal, by 1 % of their amount and 0.01 at
-// least. When a gap is too narrow to hold a double, the next gap below is taken; throws InputError when none is left.
-double regular_isovalue(const ScalarGrid& grid, double isovalue);
-
-// A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same
-// samples lie above it.
-double lowered_isovalue(const ScalarGrid& grid, double isovalue);
-
-// The largest sample below a value and the smallest above it; infinite where there is none.
-std::pair<double, double> samples_around(const ScalarGrid& grid, double value);
-
 // The number of samples of a grid with these dims. Throws InputError when a dimension is below 2, or when the samples,
 // at eight bytes each, could not be addressed.
 std::size_t checked_sample_count(const Dims& dims);

@@ -16,6 +16,7 @@
 #include "volume/io/base/input_file.h"
 #include "volume/io/volume_file.h"
 #include "volume/region.h"
+#include "volume/regular_isovalue.h"
 #include "volume/sample_type.h"
 
 namespace deliso {

@@ -14,6 +14,7 @@
 #include "experiments/runs/record.h"
 #include "experiments/system/text_table.h"
 #include "surface/base/sizes.h"
+#include "volume/regular_isovalue.h"
 
 namespace deliso {
 namespace {

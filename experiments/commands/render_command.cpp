@@ -28,6 +28,7 @@
 #include "surface/intersection/exact_tests.h"
 #include "surface/mesh/mesh_frame.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/regular_isovalue.h"
 
 namespace deliso {
 namespace {

@@ -15,6 +15,7 @@
 #include "surface/intersection/exact_tests.h"
 #include "surface/verification/verification.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/regular_isovalue.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {

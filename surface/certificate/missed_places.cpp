@@ -96,7 +96,9 @@ class CellSearch {
   }
 
  private:
-  static constexpr double kLeast = 6;  // boxes whose diagonal is so small a part of the distance are not divided
+  // Boxes whose diagonal is so small a part of the distance are not divided. What is not settled in them may be
+  // farther than what is looked for by so much.
+  static constexpr double kLeast = 100;
   static constexpr std::size_t kMostDepth = 24;
 
   [[nodiscard]] Vec3 place(const Vec3& in_cell) const { return scaled(isosurface_.step(), low_ + in_cell); }

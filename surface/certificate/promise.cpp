@@ -24,6 +24,7 @@ std::vector<std::string> broken_promises(const PromiseFigures& figures, const Pr
     broken.emplace_back("the isosurface is singular at this isovalue");
   }
   add(figures.crossing_pairs, "pair of triangles crosses", "pairs of triangles cross", "");
+  add(figures.zero_area_triangles, "triangle has", "triangles have", " no area");
   const auto add_distance = [&](std::int64_t count, const char* one, const char* many, double most, const char* off,
                                 const std::optional<double>& worst) {
     add(count, one, many,
@@ -32,8 +33,8 @@ std::vector<std::string> broken_promises(const PromiseFigures& figures, const Pr
   };
   add_distance(figures.vertices_off, "vertex is", "vertices are", promise.max_residual, "isosurface",
                figures.worst_vertex);
-  add_distance(figures.mesh_off, "place of the mesh is", "places of the mesh are", promise.max_distance,
-               "isosurface", figures.worst_mesh);
+  add_distance(figures.mesh_off, "place of the mesh is", "places of the mesh are", promise.max_distance, "isosurface",
+               figures.worst_mesh);
   add_distance(figures.isosurface_off, "place of the isosurface is", "places of the isosurface are",
                promise.max_distance, "mesh", figures.worst_isosurface);
   return broken;

@@ -39,10 +39,11 @@ struct PromiseFigures {
   std::int64_t reversed_components = 0;  // that face higher values
   std::int64_t off_box_edges = 0;        // boundary edges that do not lie on one face of the box
   Verdict topology = Verdict::kNotChecked;
-  std::int64_t crossing_pairs = 0;  // of triangles, in the coordinates as they are written
-  std::int64_t vertices_off = 0;    // farther than max_residual from the isosurface
-  std::int64_t mesh_off = 0;        // places of triangles farther than max_distance from the isosurface
-  std::int64_t isosurface_off = 0;  // places of the isosurface farther than max_distance from the mesh
+  std::int64_t crossing_pairs = 0;       // of triangles, in the coordinates as they are written
+  std::int64_t zero_area_triangles = 0;  // with corners in line: they cross nothing, but fit no promise
+  std::int64_t vertices_off = 0;         // farther than max_residual from the isosurface
+  std::int64_t mesh_off = 0;             // places of triangles farther than max_distance from the isosurface
+  std::int64_t isosurface_off = 0;       // places of the isosurface farther than max_distance from the mesh
   // The largest of these distances, where they were measured.
   std::optional<double> worst_vertex, worst_mesh, worst_isosurface;
 };

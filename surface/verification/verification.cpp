@@ -198,6 +198,7 @@ PromiseFigures figures_of(const Verification& v, const DistanceCounts& counts) {
   figures.off_box_edges = v.boundary.off_box_edges;
   figures.topology = v.topology.verdict;
   figures.crossing_pairs = v.self_intersection.found.crossing_pairs;
+  figures.zero_area_triangles = m.zero_area_triangles;
   figures.vertices_off = counts.vertices;
   figures.mesh_off = counts.mesh;
   figures.isosurface_off = counts.isosurface;

@@ -16,6 +16,7 @@
 #include "tests/support/raycast_fields.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
+#include "volume/regular_isovalue.h"
 #include "volume/scalar_grid.h"
 #include "volume/topology/exact_topology.h"
 

@@ -185,6 +185,11 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"near_samples_0.nrrd", 2, Boundary::kClosed}, Input{"near_samples_1.nrrd", 2, Boundary::kClosed},
         // Where masks are plane the surface was folded back on itself; rounded to world coordinates, the folds crossed.
         Input{"folded_mask_0.nrrd", 0.5}, Input{"folded_mask_1.nrrd", 0.5}, Input{"folded_mask_2.nrrd", 0.5},
+        // Samples of 1e-17 where terms cancel, on planes: crossings at each of them were one point, and triangles there
+        // had no area.
+        Input{"zero_planes_0.nrrd", 0}, Input{"zero_planes_1.nrrd", 0}, Input{"zero_planes_2.nrrd", 0},
+        // A hair above the lowest sample: the isovalue was lowered towards the layer that closes the solid.
+        Input{"near_the_lowest.nrrd", -0.999999999, Boundary::kClosed},
         // Cells 50 times as long as wide: finer cubes and the stage `shape` take longer than all else, and under a
         // fuzzer a minute.
         Input{"long_cells.nrrd", 3, Boundary::kClosed}),

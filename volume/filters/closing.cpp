@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "volume/regular_isovalue.h"
+
 namespace deliso {
 
 namespace {

@@ -8,6 +8,7 @@
 #include "delaunay/base/check.h"
 #include "delaunay/base/disjoint_sets.h"
 #include "delaunay/base/parallel.h"
+#include "volume/regular_isovalue.h"
 #include "volume/topology/cell_crossings.h"
 #include "volume/topology/cell_sweep.h"
 

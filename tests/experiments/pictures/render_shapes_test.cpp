@@ -15,6 +15,7 @@
 #include "tests/support/sphere_pictures.h"
 #include "volume/fields/field_slices.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/regular_isovalue.h"
 
 namespace deliso::testing {
 namespace {

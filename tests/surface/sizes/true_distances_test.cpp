@@ -9,6 +9,7 @@
 #include "surface/verification/surface_distance.h"
 #include "volume/fields/analytic_fields.h"
 #include "volume/filters/finer_grid.h"
+#include "volume/regular_isovalue.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {

@@ -210,6 +210,35 @@ TEST(Verification, SaysWhatIsWrong) {
   EXPECT_EQ(v.manifold.unreferenced_vertices, 1);
 }
 
+// An edge without length: all triangles that have an area are right, and those at the edge meet nothing.
+TEST(Verification, RefutesTrianglesWithoutArea) {
+  const ScalarGrid grid = ball_grid();
+  TriangleMesh mesh = ball_mesh(grid);
+  const auto first = mesh.triangles[0];
+  const auto across = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return (t[0] == first[1] && t[1] == first[0]) || (t[1] == first[1] && t[2] == first[0]) ||
+           (t[2] == first[1] && t[0] == first[0]);
+  });
+  ASSERT_NE(across, mesh.triangles.end());
+  const auto copy = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back(mesh.points[first[0]]);
+  const auto halves = [&](std::array<std::uint32_t, 3>& triangle) {
+    auto other = triangle;
+    std::replace(triangle.begin(), triangle.end(), first[0], copy);
+    std::replace(other.begin(), other.end(), first[1], copy);
+    return other;
+  };
+  const auto one = halves(mesh.triangles[0]), two = halves(*across);
+  mesh.triangles.push_back(one);
+  mesh.triangles.push_back(two);
+  const Verification v = verify_mesh(mesh, grid, 0);
+  EXPECT_TRUE(v.manifold.pass && v.self_intersection.pass);
+  EXPECT_EQ(v.manifold.zero_area_triangles, 2);
+  EXPECT_FALSE(v.proven);
+  EXPECT_EQ(v.failures.size(), 1U);
+  EXPECT_NE(v.failures.at(0).find("2 triangles have no area"), std::string::npos);
+}
+
 // Whatever the unit of the samples, within the range that is accepted (volume/isovalue_range.h).
 TEST(Verification, KnowsAReversedMeshWhateverTheScaleOfTheSamples) {
   const TriangleMesh mesh = ball_mesh(ball_grid());

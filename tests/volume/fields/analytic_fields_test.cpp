@@ -10,6 +10,7 @@
 
 #include "tests/support/volume_files.h"
 #include "tests/support/volume_tetrahedra_topology.h"
+#include "volume/regular_isovalue.h"
 #include "volume/trilinear_cell.h"
 
 namespace deliso {

@@ -9,6 +9,7 @@
 #include "volume/fields/analytic_fields.h"
 #include "volume/fields/field_slices.h"
 #include "volume/filters/closing.h"
+#include "volume/regular_isovalue.h"
 #include "volume/topology/exact_topology.h"
 
 namespace deliso {
