@@ -12,7 +12,7 @@ namespace deliso {
 namespace {
 
 constexpr unsigned kBits = 16;      // of the Hilbert curve's grid, per axis
-constexpr unsigned kRounds = 8;     // each but the last takes an eighth of the remaining points
+constexpr unsigned kRounds = 8;     // each takes about seven times as many points as all before it
 constexpr std::size_t kCrowd = 32;  // a cell of the grid with more points than this is sorted again
 constexpr unsigned kDigit = 11;     // bits per pass of the radix sort
 constexpr unsigned kKeyBits = 3 * kBits + 3;

@@ -33,7 +33,7 @@ void reverse(TriangleMesh& mesh) {
 }
 
 // What r_min is a fraction of the smallest side of. A constant number of voxels, unlike the paper's box of the volume,
-// does not change with empty slices around the surface; it is the side of the paper's largest volumes.
+// does not change with empty slices around the surface; it is the side of the paper's ENGINE and ANEURISM.
 Box3 r_min_box(const Isosurface& isosurface, RMinOf of) {
   constexpr double kVoxels = 256;
   return of == RMinOf::kBox ? isosurface.box() : Box3{{0, 0, 0}, {kVoxels, kVoxels, kVoxels}};

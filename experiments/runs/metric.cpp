@@ -43,4 +43,9 @@ const std::vector<std::string>& record_paths(Task task, bool distances) {
   return distances ? kMeshWithDistances : kMesh;
 }
 
+bool is_no_number(const Experiment& experiment, const std::string& path) {
+  const Json held = value_at(empty_record(experiment.task, experiment.distances), path);
+  return !held.is_null() && !held.is_number();
+}
+
 }  // namespace deliso

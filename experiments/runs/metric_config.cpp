@@ -26,6 +26,19 @@ void check_path(const StrictObject& object, std::string_view key, const Experime
   object.fail(key, "names no figure of a record: '" + path + "', the nearest is '" + nearest_name(path, paths) + "'");
 }
 
+// What is divided, and by what, are numbers.
+void check_numbers(const StrictObject& object, const Experiment& experiment, Mistakes& mistakes) {
+  const bool is_quotient = object.has("per") || object.has("over") || object.get("ratio", false);
+  for (const std::string_view key : {"value", "per"}) {
+    if (!is_quotient || !object.has(key)) continue;
+    mistakes.gather([&] {
+      const auto path = object.get<std::string>(key, "");
+      if (is_no_number(experiment, path))
+        object.fail(key, "is no number, of which there are quotients: '" + path + "'");
+    });
+  }
+}
+
 void check_column(const StrictObject& object, const Reference& reference) {
   if (!object.has("reference")) return;
   const auto column = object.get<std::string>("reference", "");
@@ -49,6 +62,7 @@ std::vector<Metric> parse_metrics(const StrictObject& object, const Experiment& 
                             &mistakes);
     mistakes.gather([&] { check_path(item, "value", experiment, paths); });
     mistakes.gather([&] { check_path(item, "per", experiment, paths); });
+    check_numbers(item, experiment, mistakes);
     mistakes.gather([&] { check_column(item, experiment.reference); });
     Metric metric;
     metric.name = item.get<std::string>("name", "");

@@ -91,6 +91,18 @@ std::string metric_name(const StrictObject& object, std::string_view key, const 
   object.fail(key, "names no metric: '" + name + "'" + nearest_name_hint(name, known));
 }
 
+// What a curve or bars draw are numbers.
+void check_drawn(const StrictObject& object, const Experiment& experiment, const Plot& plot) {
+  for (const Metric& metric : experiment.metrics) {
+    if (!is_no_number(experiment, metric.value)) continue;
+    const auto refuse = [&](std::string_view key) {
+      object.fail(key, "can draw numbers alone: the metric '" + metric.name + "' is none");
+    };
+    if (metric.name == plot.x) refuse("x");
+    if (std::find(plot.y.begin(), plot.y.end(), metric.name) != plot.y.end()) refuse("y");
+  }
+}
+
 void check_counts(const StrictObject& object, const Experiment& experiment) {
   const auto path = object.get<std::string>("value", "");
   std::vector<std::string> lists;
@@ -138,10 +150,14 @@ Plot parse_plot(const Json& value, const std::string& place, const Experiment& e
   plot.x_label = object.get<std::string>("x_label", "");
   plot.value = object.get<std::string>("value", "");
   if (plot.kind == PlotKind::kHistogram) check_counts(object, experiment);
-  if (plot.kind == PlotKind::kBars) return plot;
+  if (plot.kind == PlotKind::kBars) {
+    check_drawn(object, experiment, plot);
+    return plot;
+  }
   if (plot.kind == PlotKind::kCurve) {
     if (experiment.rows == RowKind::kDatasets) object.fail("kind", "curve needs a table whose rows are runs");
     plot.x = metric_name(object, "x", metrics);
+    check_drawn(object, experiment, plot);
     const std::vector<std::string> log = names_at(object, "log", "axis", {"x", "y"});
     plot.log_x = std::find(log.begin(), log.end(), "x") != log.end();
     plot.log_y = std::find(log.begin(), log.end(), "y") != log.end();

@@ -23,6 +23,37 @@ void apply_set(const StrictObject& object, Parameters& parameters, Mistakes& mis
   }
 }
 
+// Whether runs of a mesher depend on a parameter. Others than ours get the same field, and marching cubes a
+// certificate.
+bool reads(Mesher mesher, std::string_view path) {
+  if (mesher == Mesher::kDelIso || group_of(path) == "field" || path == "boundary" || path == "spacing") return true;
+  return mesher == Mesher::kMarchingCubes && path == "certify";
+}
+
+// What a variant sets must be what its runs depend on: the sweep has the last word, and other meshers read little.
+void check_set(const StrictObject& object, const StrictObject& experiment, Mesher mesher, Mistakes& mistakes) {
+  if (!object.has("set")) return;
+  const auto refuse = [&](const std::string& path, const std::string& why) {
+    mistakes.add(InputError(object.place_of("set").append("/").append(path).append(" ").append(why)));
+  };
+  for (const auto& item : object.at("set").items()) {
+    if (experiment.has("sweep") && experiment.at("sweep").contains(item.key())) {
+      refuse(item.key(), "has no effect: the sweep of the experiment sets it in every variant");
+    }
+    for (const ParameterField& field : parameter_table()) {
+      if (field.path != item.key() || reads(mesher, field.path)) continue;
+      refuse(item.key(), "has no effect: the mesher of this variant does not read it");
+    }
+  }
+}
+
+// Gives what a mesher does not read the values of the base.
+void forget_unread(const Variant& base, Variant& variant) {
+  for (const ParameterField& field : parameter_table()) {
+    if (!reads(variant.mesher, field.path)) field.set(variant.parameters, field.get(base.parameters));
+  }
+}
+
 // A list of texts or integers, each checked by `fits`.
 template <class T, class Fits>
 std::vector<T> items_at(const StrictObject& object, std::string_view key, std::vector<T> otherwise,
@@ -100,6 +131,7 @@ std::vector<Variant> parse_variants(const StrictObject& experiment, const Varian
     variant.name = name;
     mistakes.gather([&] { parse_mesher(object, folder, variant); });
     apply_set(object, variant.parameters, mistakes);
+    check_set(object, experiment, variant.mesher, mistakes);
     variants.push_back(variant);
     // A variant may have the base's name; variants that extend this name then extend the variant.
     std::erase_if(known, [&name](const Variant& other) { return other.name == name; });
@@ -191,6 +223,7 @@ std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Va
     }
   }
   check_consistent(experiment, variants, mistakes);
+  for (Variant& variant : variants) forget_unread(base, variant);
   return variants;
 }
 

@@ -26,8 +26,8 @@ struct Promise {
 // isosurface too where an error is stated or a distance below a voxel is promised (missed_places.h); else only its
 // crossings with the edges of the grid are asked for. The verification measures at points: of a triangle at its
 // centroid, at those of a lattice, and where the faces between voxel cells cut it; of the isosurface at its crossings
-// with the edges of the grid, for distances below a voxel also with those of a finer one. A lattice has at most so many
-// points along an edge.
+// with the edges of the grid, for distances below 0.75 voxel also with those of a finer one. A lattice has at most so
+// many points along an edge.
 inline constexpr int kMostSamplesPerEdge = 64;
 
 // What was found of a mesh. A count of 0 is right.

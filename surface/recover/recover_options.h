@@ -32,7 +32,7 @@ struct RecoverStats : StageStats {
   std::int64_t uncovered = 0;        // crossings far from the mesh
   std::int64_t boundary_splits = 0;  // points of boundary curves among the insertions
   std::int64_t in_slabs = 0;         // insertions in slabs of the volume that several threads refine
-  // Violations left, because the size bound forbids the point that would be inserted.
+  // How often the size bound forbade the point that a violation asked for. One violation may ask more than once.
   std::int64_t refused_by_size_bound = 0;
   std::int64_t hits_against_signs = 0;  // dual edges whose hits contradicted the signs at their ends
   SearchCounters search;

@@ -11,8 +11,9 @@ namespace deliso {
 // The pole height of every vertex, in mesh-space units. The umbrella of a vertex splits its Voronoi cell in two. On
 // each side the pole is the Voronoi vertex farthest from the vertex. The pole height is the smaller of the two
 // distances (or, for comparison, the larger or their mean). The signs of the tetrahedra tell which side a Voronoi
-// vertex is on. A side on which the cell is unbounded counts as infinite (except at vertices on the box, whose cells
-// are always unbounded); when both sides are, the height is the diagonal of the box.
+// vertex is on. No distance counts as more than the diagonal of the box, and a side on which the cell is unbounded
+// counts as that (except at vertices on the box, whose cells are always unbounded: there such a side has its bounded
+// Voronoi vertices alone). A side without a Voronoi vertex leaves the height to the other.
 std::vector<double> compute_poles(const SignedDelaunay& restricted, PoleHeight rule = PoleHeight::kNearer);
 // The same when only the wanted vertices matter, on several threads. The heights of the others are unspecified.
 std::vector<double> compute_poles(const SignedDelaunay& restricted, const std::vector<bool>& wanted, PoleHeight rule,

@@ -1,4 +1,4 @@
-// Points of the isosurface within voxel cells, where distances below a voxel are judged.
+// Points of the isosurface within voxel cells, where distances below 0.75 voxel are judged.
 #pragma once
 
 #include <cstdint>

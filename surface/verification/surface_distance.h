@@ -24,10 +24,12 @@ std::vector<std::optional<double>> vertex_distances(const TriangleMesh& mesh, Is
 // The figure of these distances; the mean is over vertices.
 DistanceFigure vertices_to_isosurface(const TriangleMesh& mesh, std::span<const std::optional<double>> distances);
 
-// Triangles to the isosurface. Sampled are the edge midpoints and the centroid of each triangle, and on triangles with
-// an edge longer than two voxels further points, about one per voxel (promise.h). The mean is over area. Vertices are
-// not sampled here. `beyond`, if given, gets the number of samples that are farther than `most`, after a complete
-// search.
+// Triangles to the isosurface. Sampled are the centroid of each triangle and the points of a lattice without its
+// corners, at least the edge midpoints: a voxel apart, or 2 `most` where that is less, but not below a quarter of a
+// voxel (kMostSamplesPerEdge in promise.h has the most). Of triangles that reach farther than `most` from their corners
+// also the points where faces between voxel cells cut their edges, and the one midway between two. The mean is over
+// area, by the lattice and the centroid. Vertices are not sampled here. `beyond`, if given, gets the number of samples
+// that are farther than `most`, after a complete search.
 DistanceFigure triangles_to_isosurface(const TriangleMesh& mesh, IsosurfaceProbe& probe, double most = 0,
                                        std::int64_t* beyond = nullptr);
 

@@ -144,7 +144,7 @@ NormalCheck check_normals(const TriangleMesh& voxels, std::span<const NextToCent
 void in_world(DistanceFigure& figure, const IsosurfaceProbe& probe) { figure.worst = probe.to_world(figure.worst); }
 
 // The points of the isosurface whose distances are judged: its crossings with the edges of the grid, and for distances
-// below a voxel with those of a finer one.
+// below kLarge also with those of a finer one.
 std::vector<Vec3> judged_points(const ScalarGrid& grid, double isovalue, const IsosurfaceProbe& probe,
                                 const IsosurfaceTopology& truth, std::span<const std::uint8_t> is_dropped,
                                 double most) {

@@ -67,7 +67,7 @@ struct ResidualCheck {
 struct DistanceCheck {
   bool pass = false;                  // both at most promise.max_distance
   DistanceFigure mesh_to_isosurface;  // points sampled on the triangles
-  DistanceFigure isosurface_to_mesh;  // all points where the isosurface crosses a grid edge
+  DistanceFigure isosurface_to_mesh;  // its crossings with grid edges; below 0.75 voxel also with those of a finer grid
 };
 
 struct NormalCheck {

@@ -19,9 +19,9 @@ Lesson.CellChapter = class {
     const isAlternating = signs[0] === signs[3] && signs[1] === signs[2] && signs[0] !== signs[1];
     if (!isAlternating) return "The signs do not alternate around the face: one arc at most, and nothing to decide.";
     const difference = f00 * f11 - f10 * f01;
-    const joined = difference === 0   ? "none: the curve is a cross, and the isosurface singular" :
-        (difference > 0) === signs[0] ? "the corners 00 and 11" :
-                                        "the corners 10 and 01";
+    const joined = difference === 0 ? "none: the curve is a cross, and the isosurface singular" :
+        difference > 0              ? "the corners 00 and 11" :
+                                      "the corners 10 and 01";
     return `The signs alternate. f00 · f11 − f10 · f01 = ${Lesson.numberText(difference)}: the saddle joins ${joined}.`;
   }
 

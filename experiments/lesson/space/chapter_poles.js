@@ -22,33 +22,54 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     const {run} = this;
     const list = [{kind: "start", event: this.last}];
     const replay = run.at(this.last);
+    const inMesh = new Set(replay.restricted().flat());
     for (let q = 0; q < replay.points.length && list.length < 60; ++q) {
-      const poles = this.poles(replay, q);
-      if (!poles.above && !poles.below) continue;
-      const counts = !poles.below || (poles.above && poles.above.distance <= poles.below.distance) ? "above" : "below";
-      list.push({kind: counts, event: this.last, q});
+      const counts = inMesh.has(q) ? this.counting(replay, q) : null;
+      if (counts) list.push({kind: counts, event: this.last, q});
     }
     if (run.meshAt >= 0) list.push({kind: "mesh", event: run.meshAt});
     return list;
   }
 
-  // The Voronoi vertices of q: its tetrahedra's circumcenters. At the hull the cell is not bounded, and the box limits
-  // it.
   poles(replay, q) {
     if (!this.found.has(q)) this.found.set(q, this.findPoles(replay, q));
     return this.found.get(q);
   }
 
+  // On either side the farthest Voronoi vertex of q, the circumcenter of one of its tetrahedra; null where there is
+  // none. At the hull a side of the cell is unbounded: infinitely far, without a point. On the box all cells are, and
+  // only bounded Voronoi vertices count.
   findPoles(replay, q) {
     const found = {above: null, below: null};
     for (const {v, above} of replay.tets.values()) {
-      if (!v.includes(q) || v.some((corner) => replay.isVirtual(corner))) continue;
-      const point = Lesson.vectors.circumcenter(v.map((corner) => replay.points[corner]));
-      const distance = Lesson.vectors.distance(point, replay.points[q]);
+      const isUnbounded = v.includes(-1);
+      if (!v.includes(q) || (isUnbounded && this.isOnBox(replay.points[q]))) continue;
+      const point = isUnbounded ? null : Lesson.vectors.circumcenter(v.map((corner) => replay.points[corner]));
+      const distance = isUnbounded ? Infinity : Lesson.vectors.distance(point, replay.points[q]);
       const side = above ? "above" : "below";
       if (!found[side] || distance > found[side].distance) found[side] = {point, distance};
     }
     return found;
+  }
+
+  isOnBox(p) {
+    const [low, high] = this.run.box;
+    return p.some((x, axis) => Math.min(Math.abs(x - low[axis]), Math.abs(x - high[axis])) < 1e-5);
+  }
+
+  // The side whose pole counts, the nearer one; null where neither is bounded.
+  counting(replay, q) {
+    const {above, below} = this.poles(replay, q);
+    const [a, b] = [above, below].map((pole) => pole?.distance ?? Infinity);
+    if (Math.min(a, b) === Infinity) return null;
+    return a <= b ? "above" : "below";
+  }
+
+  // h_q: the distance of the pole that counts, at most the diagonal of the box.
+  height(replay, q) {
+    const side = this.counting(replay, q);
+    const diagonal = Lesson.vectors.distance(...this.run.box);
+    return side ? Math.min(this.poles(replay, q)[side].distance, diagonal) : diagonal;
   }
 
   draw(picture, step) {
@@ -70,7 +91,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     const poles = this.poles(replay, q);
     for (const side of ["above", "below"]) {
       const pole = poles[side];
-      if (!pole) continue;
+      if (!pole?.point) continue;
       const end = picture.clampTo(this.around(replay, q), pole.point);
       picture.line([replay.points[q], end], side === kind ? "target" : "poleLine", 9);
       picture.mark(end, "diamond", "pole", 9, side === kind ? 8 : 5);
@@ -87,10 +108,14 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     if (kind === "start") return "Recover has ended. Every Voronoi cell is cut in two by the surface.";
     if (kind === "mesh")
       return "BuildTriMesh: the triangles stay, the tetrahedra go. What needs their empty balls can never be asked again.";
-    const {above, below} = this.poles(this.run.at(event), q);
-    const text = (pole) => (pole ? Lesson.numberText(pole.distance) : "none (not bounded)");
-    return `Vertex ${q}: the pole above is ${text(above)} away, the one below ${text(below)}. The nearer one counts: ${
-        kind}.`;
+    const replay = this.run.at(event);
+    const poles = this.poles(replay, q);
+    const text = (side) => !poles[side] ? "no Voronoi vertex" :
+        poles[side].point               ? `the pole is ${Lesson.numberText(poles[side].distance)} away` :
+                                          "the cell is unbounded";
+    const height = this.height(replay, q);
+    const limit = poles[kind].distance > height ? `, as far as the box's diagonal, ${Lesson.numberText(height)}` : "";
+    return `Vertex ${q}: above, ${text("above")}; below, ${text("below")}. The nearer one counts: ${kind}${limit}.`;
   }
 
   question(step) {
@@ -122,7 +147,7 @@ Lesson.PolesChapter.code = (() => {
     {text: "BuildTriMesh", file: "surface/extract/build_triangle_mesh.h", name: "build_triangle_mesh", kinds: ["mesh"]},
   ];
   return {
-    title: "Figure 9, lines 1 and 2",
+    title: "Figure 9, lines 2 and 3",
     lines,
     lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))
   };

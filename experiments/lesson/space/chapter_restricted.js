@@ -90,7 +90,8 @@ Lesson.RestrictedChapter = class extends Lesson.SpaceChapter {
           "How many dual edges have an even number of hits, so that their facets are not restricted though there is one?",
       answer: () => odd,
       because: () =>
-          "MultiIntersect inserts a hit of each of them first; with one sign a tetrahedron their facets do not count.",
+          "with one sign a tetrahedron their facets do not count. MultiIntersect inserts hits until no such edge is " +
+          "left; an insertion often removes several of them.",
     }];
   }
 };

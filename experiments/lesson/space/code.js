@@ -67,7 +67,7 @@ Lesson.spaceCode = (() => {
   const make = (title, lines) =>
       ({title, lines, lineOf: (kind) => lines.findIndex((line) => line.kinds?.includes(kind))});
   return {
-    stage1: make("Figures 4 and 5", [...figure4.slice(0, 1), ...figure5, ...figure9.slice(0, 2)]),
+    stage1: make("Figures 4, 5 and 9", [...figure4.slice(0, 1), ...figure5, ...figure9.slice(0, 2)]),
     stage2: make("Figures 9 and 3", figure9),
     whole: make("Figure 4", figure4),
   };

@@ -188,6 +188,7 @@ TEST(Plot, MistakesNameThePlaceAndTheNearestName) {
   EXPECT_MESSAGE(refusal("/plots/2/y", nullptr), "#/plots/2/y is required for a plot of the kind bars");
   EXPECT_MESSAGE(refusal("/plots/3/value", "vertices"), "#/plots/3/value names no list of numbers of a record");
   EXPECT_MESSAGE(refusal("/plots/3/bin_width", 0), "#/plots/3/bin_width must be a number from 1e-09");
+  EXPECT_MESSAGE(refusal("/metrics/0/value", "certificate.verdict"), "can draw numbers alone: the metric");
   EXPECT_MESSAGE(refusal("/plots/1/name", "curve"), "#/plots/1/name 'curve' is the name of two plots");
   EXPECT_MESSAGE(refusal("/plots/1/name", "../curve"), "#/plots/1/name becomes the name of a file");
 }

@@ -75,8 +75,9 @@ TEST(RunConfig, ParametersThatContradictEachOtherAreFoundBeforeTheFirstRun) {
   EXPECT_MESSAGE(refusal_with("/sweep", Json{{"stage2.pole_height", {"nearer", "mean"}}}),
                  "small.json#/variants: the parameters of 'coarse stage2.pole_height=mean' " + contradict);
   Json document = small_document();
-  document["variants"][1]["set"] = set;
-  document["variants"][1]["mesher"] = "marching_cubes";  // which does not read them
+  document["base"]["set"] = set;
+  document["variants"][1].erase("set");
+  for (Json& variant : document["variants"]) variant["mesher"] = "marching_cubes";  // which does not read them
   EXPECT_EQ(refusal(document), "");
 }
 
@@ -156,6 +157,42 @@ TEST(RunConfig, ContradictionsAreRefused) {
   EXPECT_MESSAGE(refusal_with("/datasets/0",
                               Json{{"name", "a"}, {"file", "a.nrrd"}, {"isovalue", 1}, {"get", "x"}, {"sha256", "12"}}),
                  "64 lower-case hexadecimal digits");
+}
+
+TEST(RunConfig, WhatAVariantSetsWithoutEffectIsRefused) {
+  Json document = small_document();
+  document["variants"][1]["set"] = {{"stage2.epsilon1", 0.3}};
+  document["sweep"] = {{"stage2.epsilon1", {0.1, 0.2}}};
+  EXPECT_MESSAGE(refusal(document), "#/variants/1/set/stage2.epsilon1 has no effect: the sweep");
+  document["sweep"] = {{"stage2.epsilon2", {0.1, 0.2}}};
+  document["metrics"][1].erase("over");
+  EXPECT_EQ(refusal(document), "");
+
+  document["variants"][1]["mesher"] = "marching_cubes";
+  EXPECT_MESSAGE(refusal(document), "#/variants/1/set/stage2.epsilon1 has no effect: the mesher");
+  document["variants"][1]["set"] = {{"boundary", "closed"}, {"certify", false}, {"spacing", "ignore"}};
+  EXPECT_EQ(refusal(document), "");
+  document["variants"][1]["mesher"] = {{"command", {"mesher"}}};
+  EXPECT_MESSAGE(refusal(document), "#/variants/1/set/certify has no effect: the mesher");
+}
+
+// What another mesher does not read is that of the base, so that the experiment can be read back.
+TEST(RunConfig, OtherMeshersTakeOfAnotherVariantWhatTheyRead) {
+  Json document = small_document();
+  document["variants"][1]["set"] = {{"stage2.epsilon1", 0.3}, {"boundary", "closed"}};
+  document["variants"].push_back({{"name", "cubes"}, {"extends", "coarse"}, {"mesher", "marching_cubes"}});
+  document["sweep"] = {{"stage2.epsilon2", {0.1, 0.2}}};
+  document["metrics"][1].erase("over");
+  const Experiment experiment = parse_experiment(document, "small.json");
+  const Parameters& cubes = experiment.variants.back().parameters;
+  EXPECT_EQ(cubes.boundary, Boundary::kClosed);
+  EXPECT_EQ(cubes.stage2.epsilon1, experiment.base.parameters.stage2.epsilon1);
+  EXPECT_EQ(refusal(experiment_to_json(experiment)), "");
+}
+
+TEST(RunConfig, QuotientsNeedNumbers) {
+  EXPECT_MESSAGE(refusal_with("/metrics/1/value", "certificate.verdict"), "#/metrics/1/value is no number");
+  EXPECT_MESSAGE(refusal_with("/metrics/0/per", "volume.dims"), "#/metrics/0/per is no number");
 }
 
 TEST(RunConfig, SweepsAreCartesian) {
