@@ -42,9 +42,9 @@ struct ChosenField {
   double isovalue = 0;
   FieldParameters parameters;
 };
-// NaN lies outside or inside, as far beyond the isovalue as the farthest sample is on the other side, and infinities on
-// their own side. Where only a region of the volume is meshed, its samples alone decide. Throws InputError when there
-// are such samples and none are wanted, or the isovalue is missing.
+// NaN lies outside or inside, as far beyond the isovalue as the farthest sample is on either side of it, and infinities
+// on their own side. Where only a region of the volume is meshed, its samples alone decide. Throws InputError when
+// there are such samples and none are wanted, or the isovalue is missing.
 ChosenField choose_field(const std::string& path, const Volume& volume, const FieldOptions& options,
                          const FieldParameters& parameters, const SampleRegion& region = {});
 // choose_field and meshed_field; the spacing is the grid's.

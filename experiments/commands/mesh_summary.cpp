@@ -46,6 +46,16 @@ void remark_shape(const ShapeStats& shape, const Parameters& parameters) {
             << number_text(worst.centroid.y) << ' ' << number_text(worst.centroid.z) << '\n';
 }
 
+// Without the stage that improves them.
+void remark_unimproved_angles(const Meshed& meshed) {
+  constexpr double kSmall = 1;
+  const double least = meshed.quality.min_angle_degrees;
+  const MeshingResult& result = meshed.result;
+  if (result.shape.seconds > 0 || result.stopped_early() || result.mesh.triangles.empty() || least >= kSmall) return;
+  std::cerr << "deliso: the least angle is " << number_text(least)
+            << " degrees: with these parameters no stage improves small ones (shape.rounds)\n";
+}
+
 }  // namespace
 
 void print_summary(const Meshed& meshed, std::ostream& stream) {
@@ -83,6 +93,7 @@ void print_remarks(const Meshed& meshed) {
   remark_isovalue(is_as_read ? &chosen.grid : nullptr, chosen.isovalue, result.isovalue_used);
   if (is_as_read) remark_gap(result, chosen.grid, chosen.isovalue);
   remark_shape(result.shape, parameters);
+  remark_unimproved_angles(meshed);
   for (const std::string& remark : size_remarks(parameters, result)) std::cerr << "deliso: " << remark << '\n';
   for (const std::string& goal : unmet_goals(meshed.meshing, result)) std::cerr << "deliso: " << goal << '\n';
   constexpr std::size_t kShown = 10;

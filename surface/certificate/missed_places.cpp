@@ -98,7 +98,7 @@ class CellSearch {
  private:
   // Boxes whose diagonal is so small a part of the distance are not divided. What is not settled in them may be
   // farther than what is looked for by so much.
-  static constexpr double kLeast = 100;
+  static constexpr double kLeast = 40;
   static constexpr std::size_t kMostDepth = 24;
 
   [[nodiscard]] Vec3 place(const Vec3& in_cell) const { return scaled(isosurface_.step(), low_ + in_cell); }

@@ -154,6 +154,15 @@ TEST_F(SizeOptionsTest, EdgesOfWholeVoxelsAreSampledAtTheSamePlacesByBoth) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
 }
 
+TEST_F(SizeOptionsTest, SmallAnglesAreToldWhereNoStageImprovesThem) {
+  ASSERT_EQ(run_deliso({"generate", "noise", "--size", "12", "-o", folder_ / "n.nrrd"}).exit_code, 0);
+  const std::vector<std::string> command = {"mesh", folder_ / "n.nrrd", "--isovalue", "100", "-o", folder_ / "n.ply"};
+  std::vector<std::string> without = command;
+  without.insert(without.end(), {"--set", "shape.rounds=0"});
+  EXPECT_NE(run_deliso(without).err.find("no stage improves small ones"), std::string::npos);
+  EXPECT_EQ(run_deliso(command).err.find("no stage improves small ones"), std::string::npos);
+}
+
 // Edges in faces between cells come to lie a hair beside them in single precision, where verify looked at their
 // middles.
 TEST_F(SizeOptionsTest, EdgesInCellFacesAreSampledAtTheSamePlacesByBoth) {
