@@ -197,14 +197,20 @@ void Pipeline::certify(SurfaceMesh mesh) {
   drop_crossings();
   if (!result_.dropped.empty()) keep_components(topology_, surface_->is_dropped);
   result_.certificate = final_certificate(last_.pieces, topology_, last_.places, result_.build.bounds_a_solid);
-  if (controls_.stopped() || !result_.build.bounds_a_solid) return;
+  if (!result_.build.bounds_a_solid) return;
   PromiseFigures figures;
   figures.triangles = static_cast<std::int64_t>(result_.mesh.triangles.size());
   figures.is_manifold = result_.certificate.manifold;
   figures.misoriented_edges = result_.certificate.oriented ? 0 : 1;
+  figures.topology = result_.certificate.verdict;
+  if (controls_.stopped()) {
+    // Checks end with the run: what they have found by then says nothing of the rest.
+    result_.certificate.broken = broken_promises(figures, promise_);
+    result_.certificate.broken.push_back(unchecked_when_stopped());
+    return;
+  }
   figures.reversed_components = last_.geometry.reversed_components;
   figures.off_box_edges = static_cast<std::int64_t>(last_.geometry.off_box_edges.size());
-  figures.topology = result_.certificate.verdict;
   figures.crossing_pairs = last_.crossing.crossing_pairs;
   figures.zero_area_triangles = std::max(without_area, last_.crossing.zero_area_triangles);
   figures.vertices_off = last_.geometry.vertices_off;

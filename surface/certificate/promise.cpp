@@ -40,4 +40,9 @@ std::vector<std::string> broken_promises(const PromiseFigures& figures, const Pr
   return broken;
 }
 
+std::string unchecked_when_stopped() {
+  return "the run was stopped before it was checked which way triangles face, whether they cross, and how far mesh and "
+         "isosurface are from each other";
+}
+
 }  // namespace deliso

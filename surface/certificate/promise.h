@@ -51,4 +51,7 @@ struct PromiseFigures {
 // One sentence for each condition that does not hold; none: the mesh is proven.
 std::vector<std::string> broken_promises(const PromiseFigures& figures, const Promise& promise);
 
+// The sentence for what a run that was stopped has not looked at, so that its mesh is not proven.
+std::string unchecked_when_stopped();
+
 }  // namespace deliso

@@ -2,7 +2,7 @@
 //
 // Times are wall-clock seconds on the steady clock. `total_seconds` is the mesher's own time, from the volume in memory
 // to the certified mesh; `stages.*.seconds` add up to it. A quotient without a denominator (seconds per insertion
-// without insertions) is null.
+// without insertions) is null, and so is the distance promised where a run was stopped before it was checked.
 #pragma once
 
 #include <cstdint>
