@@ -17,16 +17,22 @@ namespace {
 class FigureBuilder {
  public:
   void add(double distance, double weight, const Vec3& where) {
-    if (distance > figure_.max_voxels || weight_ == 0) {
+    if (distance > figure_.max_voxels || count_ == 0) {
       figure_.max_voxels = distance;
       figure_.worst = where;
     }
     sum_ += weight * distance;
     weight_ += weight;
+    plain_sum_ += distance;
+    ++count_;
   }
   [[nodiscard]] DistanceFigure figure() const {
     DistanceFigure result = figure_;
-    if (weight_ > 0) result.mean_voxels = sum_ / weight_;
+    if (weight_ > 0) {
+      result.mean_voxels = sum_ / weight_;
+    } else if (count_ > 0) {
+      result.mean_voxels = plain_sum_ / static_cast<double>(count_);  // of triangles without area
+    }
     return result;
   }
 
@@ -34,6 +40,8 @@ class FigureBuilder {
   DistanceFigure figure_;
   double sum_ = 0;
   double weight_ = 0;
+  double plain_sum_ = 0;
+  std::int64_t count_ = 0;
 };
 
 // The squared distance from p to the triangle abc: to the nearest point of its three edges, or to the foot of p in its
