@@ -37,11 +37,11 @@ std::optional<Volume> read(const std::filesystem::path& path) {
   if (const char* const format = std::getenv("DELISO_FUZZ_FORMAT")) options.format = format;
   options.accepts_not_finite = true;
   Reading reading = try_to_read(path, options);
-  if (!reading.volume && reading.refusal.find("choose one with --array") != std::string::npos) {
+  if (!reading.volume && reading.refusal.find("choose one with its name") != std::string::npos) {
     options.array = "a";
     reading = try_to_read(path, options);
   }
-  if (!reading.volume && reading.refusal.find("choose one with --channel") != std::string::npos) {
+  if (!reading.volume && reading.refusal.find("choose one with its number") != std::string::npos) {
     options.channel = 1;
     reading = try_to_read(path, options);
   }

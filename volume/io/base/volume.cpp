@@ -40,7 +40,7 @@ void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleL
     file.fail("the number of channels is 0 or beyond reason, expected a scalar, vector or time series volume");
   const std::uint64_t count = layout.components * layout.volumes;
   if (!choice.channel && count > 1) {
-    file.fail("the file holds " + choices_text(layout) + ": choose one with --channel N");
+    file.fail("the file holds " + choices_text(layout) + ": choose one with its number (--channel N)");
   }
   layout.channel = choice.channel.value_or(0);
   if (layout.channel < count) return;

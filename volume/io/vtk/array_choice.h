@@ -20,7 +20,8 @@ inline std::size_t choose_array(const ByteStream& file, const std::vector<std::s
     if (names[n] == wanted) return n;
   }
   if (!wanted.empty()) file.fail("there is no array " + in_quotes(wanted) + " of point data: the file has " + list);
-  if (names.size() > 1) file.fail("the file has several arrays of point data: choose one with --array, of " + list);
+  if (names.size() > 1)
+    file.fail("the file has several arrays of point data: choose one with its name (--array), of " + list);
   return 0;
 }
 
