@@ -2,34 +2,29 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "delaunay/base/shortest_text.h"
 #include "experiments/commands/field_options.h"
 #include "experiments/commands/world.h"
+#include "surface/library/mesh_notes.h"
 
 namespace deliso {
 namespace {
 
-constexpr std::string_view kLabelNote = "field.label", kSmoothNote = "field.smooth", kInvertNote = "field.invert",
-                           kNanNote = "field.nan", kBoundaryNote = "boundary";
-
-std::string note(std::string_view key, const std::string& value) { return std::string(key) + " " + value; }
+constexpr std::string_view kNanNote = "field.nan";
 
 }  // namespace
 
-void append_field_notes(const FieldOptions& options, const FieldParameters& parameters, bool is_closed,
-                        std::vector<std::string>& lines) {
-  if (parameters.smooth) lines.push_back(note(kSmoothNote, shortest_text(*parameters.smooth)));
-  if (parameters.invert) lines.push_back(note(kInvertNote, "true"));
-  if (options.nan != "refuse") lines.push_back(note(kNanNote, options.nan));
-  if (is_closed) lines.push_back(note(kBoundaryNote, "closed"));
+void append_field_notes(const FieldOptions& options, const Parameters& parameters, std::vector<std::string>& lines) {
+  for (std::string& line : field_notes(parameters)) lines.push_back(std::move(line));
+  if (options.nan != "refuse") lines.push_back(note_line(kNanNote, options.nan));
 }
 
 std::string label_note(const std::vector<std::int32_t>& labels) {
   std::string list;
   for (const std::int32_t label : labels) list += (list.empty() ? "" : ",") + std::to_string(label);
-  return note(kLabelNote, list);
+  return note_line(kLabelNote, list);
 }
 
 void keep_noted_labels(MeshFile& file) {

@@ -8,6 +8,7 @@
 
 #include "experiments/commands/command.h"
 #include "experiments/config/json.h"
+#include "surface/base/parameters.h"
 #include "surface/mesh/io/mesh_io.h"
 #include "volume/filters/labels.h"
 #include "volume/filters/meshed_field.h"
@@ -71,8 +72,7 @@ std::string kinds_remark(const SampleKinds& kinds, const ChosenField* chosen = n
 
 // How a mesh file tells of its field, and how `verify` takes it from there where the options do not say: lines of a key
 // and a value.
-void append_field_notes(const FieldOptions& options, const FieldParameters& parameters, bool is_closed,
-                        std::vector<std::string>& lines);
+void append_field_notes(const FieldOptions& options, const Parameters& parameters, std::vector<std::string>& lines);
 std::string label_note(const std::vector<std::int32_t>& labels);
 // Medit gives every triangle a number: it is a label only where the file notes several labels.
 void keep_noted_labels(MeshFile& file);

@@ -30,6 +30,7 @@
 #include "experiments/system/progress_bar.h"
 #include "experiments/system/stop_signal.h"
 #include "surface/deliso.h"
+#include "surface/library/mesh_notes.h"
 #include "surface/library/rounded_output.h"
 #include "surface/library/run_report.h"
 #include "surface/mesh/mesh_frame.h"
@@ -112,10 +113,9 @@ MeshFileOptions file_options(const MeshCommandOptions& options, const Meshed& me
   file.ascii = options.ascii;
   file.gmsh_version = gmsh_version(options.format);
   file.metres = metres_in_unit(world.units);
-  std::vector<std::string> notes = kept_comments(parameters, meshed.result);
-  append_field_notes(options.field, parameters.field, parameters.boundary == Boundary::kClosed, notes);
-  file.comments = mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used,
-                                meshed.result.promised_distance, world, notes);
+  std::vector<std::string> notes = kept_notes(parameters, meshed.result);
+  append_field_notes(options.field, parameters, notes);
+  file.comments = mesh_comments(options.volume.path, sha256, meshed.result.isovalue_used, world, notes);
   if (holds_fields(*file.format)) {
     const SampleRegion region = region_of(parameters.region);
     const ScalarGrid& grid = meshed.chosen.grid;

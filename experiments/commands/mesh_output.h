@@ -8,6 +8,7 @@
 #include "experiments/commands/command.h"
 #include "experiments/config/json.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/io/stl_notes.h"
 #include "surface/mesh/triangle_mesh.h"
 
 namespace deliso {
@@ -35,18 +36,6 @@ std::string write_mesh_output(const TriangleMesh& mesh, const std::string& path,
 
 // From the file, or from standard input where the path is `-`. The comments of binary STL are in their long form again.
 MeshFile read_mesh_input(const std::string& path, const MeshFormatOptions& options);
-
-// The lines of mesh_comments() as the header of a binary STL file holds them: first a line of short words for what
-// decides a verification, without what is the default, like "DelIso RAS inv closed local sp=1 nan=in l=2 drop=1 d=.75
-// s=1.5 r=0:9,2:8,1:7" (spacing ignored, label, components dropped, promised distance, smoothing, region); then
-// isovalue, local origin, version and volume, those for which there is room.
-struct StlNotes {
-  MeshComments comments;
-  std::string options_needed;  // of `verify`, for what has no room
-};
-StlNotes short_stl_notes(const MeshComments& comments);
-// The lines again. Comments that are not of the short form, of earlier versions or other programs, stay as they are.
-MeshComments long_stl_notes(const MeshComments& comments);
 
 // area, enclosed_volume (null where the mesh has a boundary), box; `components`: the same of
 // each with its vertices, triangles, Euler characteristic and boundary loops. In the coordinates of the mesh's file.

@@ -16,15 +16,11 @@
 #include "experiments/system/parse_number.h"
 #include "experiments/system/text_table.h"
 #include "surface/base/sizes.h"
-#include "surface/library/rounded_output.h"
+#include "surface/library/mesh_notes.h"
 #include "volume/region.h"
 
 namespace deliso {
 namespace {
-
-constexpr std::string_view kDropped = "components dropped ";
-constexpr std::string_view kRegion = "region ";
-constexpr std::string_view kSpacingIgnored = "spacing ignore";
 
 double positive_length(const std::string& text, const std::string& option, const Volume* volume) {
   const double length = parse_length(text, option, volume);
@@ -117,28 +113,19 @@ void apply_size_options(const SizeOptions& options, const Volume* volume, Parame
   if (!options.region.empty()) set_region(options.region, parameters);
 }
 
-std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result) {
-  std::vector<std::string> lines;
-  const std::int64_t dropped = result.dropped_components;
-  if (dropped > 0) lines.push_back(std::string(kDropped) + std::to_string(dropped));
-  const SampleRegion region = region_of(parameters.region);
-  if (!region.is_all()) lines.push_back(std::string(kRegion) + region_text(region));
-  if (parameters.spacing == SpacingUse::kIgnore) lines.emplace_back(kSpacingIgnored);
-  return lines;
-}
-
 KeptInFile kept_in_file(const std::vector<std::string>& comments) {
+  const std::string of_dropped = note_line(kDroppedNote, ""), of_region = note_line(kRegionNote, "");
   KeptInFile kept;
   for (const std::string& comment : comments) {
-    if (comment.starts_with(kDropped)) {
+    if (comment.starts_with(of_dropped)) {
       std::int64_t count = 0;
-      const char* const number = comment.data() + kDropped.size();
+      const char* const number = comment.data() + of_dropped.size();
       const auto error = std::from_chars(number, comment.data() + comment.size(), count).ec;
       if (error == std::errc() && count > 0) kept.dropped = count;
     }
-    if (comment == kSpacingIgnored) kept.ignores_spacing = true;
-    if (!comment.starts_with(kRegion)) continue;
-    const std::string text = comment.substr(kRegion.size());
+    if (comment == note_line(kSpacingNote, "ignore")) kept.ignores_spacing = true;
+    if (!comment.starts_with(of_region)) continue;
+    const std::string text = comment.substr(of_region.size());
     const bool is_one = text.find_first_not_of("0123456789:,") == std::string::npos &&
                         std::count(text.begin(), text.end(), ':') == 3 &&
                         std::count(text.begin(), text.end(), ',') == 2;

@@ -23,10 +23,7 @@ void add_size_options(Command& command, SizeOptions& options);
 // Sets what was given. Throws InputError naming the option. Without a volume only the form of lengths is checked.
 void apply_size_options(const SizeOptions& options, const Volume* volume, Parameters& parameters);
 
-// What a file of the mesh says for `verify` of components and samples left out and of a spacing that was ignored; none
-// when nothing is.
-std::vector<std::string> kept_comments(const Parameters& parameters, const MeshingResult& result);
-// What such lines of a mesh file say, if it has any.
+// What a mesh file says of components and samples left out and of a spacing that was ignored (mesh_notes.h).
 struct KeptInFile {
   std::int64_t dropped = 0;
   std::string region;  // empty: all samples

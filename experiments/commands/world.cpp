@@ -12,12 +12,13 @@
 #include "delaunay/base/shortest_text.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/program_info.h"
+#include "surface/library/mesh_notes.h"
 
 namespace deliso {
 namespace {
 
 // What begins a line of a mesh file's comments.
-constexpr std::string_view kPromise = "promise.max_distance", kSpace = "space", kLocalOrigin = "local origin";
+constexpr std::string_view kSpace = "space", kLocalOrigin = "local origin";
 
 Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
@@ -32,13 +33,6 @@ double units_in_a_millimetre(const std::string& units) {
   if (units == "um" || units == "microns" || units == "µm") return 1e3;
   if (units == "nm") return 1e6;
   return units == "angstrom" ? 1e7 : 1;
-}
-
-// File names may have line ends in them.
-std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
-  return text;
 }
 
 }  // namespace
@@ -110,11 +104,10 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
 }
 
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
-                                       double promised, const World& world, const std::vector<std::string>& more) {
+                                       const World& world, const std::vector<std::string>& notes) {
   std::vector<std::string> lines;
   lines.push_back("DelIso " + program_info().version + ", isovalue " + shortest_text(isovalue));
-  lines.push_back(std::string(kPromise) + " " + shortest_text(promised));
-  lines.insert(lines.end(), more.begin(), more.end());
+  lines.insert(lines.end(), notes.begin(), notes.end());
   lines.push_back(std::string(kSpace) + " " + or_unknown(world.space) + ", units " + or_unknown(world.units));
   if (world.local_origin) {
     const Vec3& o = *world.local_origin;
@@ -136,7 +129,7 @@ std::optional<std::string> note_in(const std::vector<std::string>& comments, std
 }
 
 std::optional<double> promised_distance(const std::vector<std::string>& comments) {
-  const std::string text = note_in(comments, kPromise).value_or("");
+  const std::string text = note_in(comments, kPromiseNote).value_or("");
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && value > 0 && std::isfinite(value)) return value;

@@ -47,9 +47,9 @@ std::optional<double> metres_in_unit(const std::string& units);
 
 // What a mesh file says of its origin: program and isovalue, promise, space and units, volume, hash, one line each. A
 // binary STL file holds them in a short form (short_stl_notes).
-// `promised`: promise.max_distance, in voxels. `more`: further lines, after the promise.
+// `notes`: what mesh_notes.h and the field's options say, after the isovalue.
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
-                                       double promised, const World& world, const std::vector<std::string>& more = {});
+                                       const World& world, const std::vector<std::string>& notes);
 // The text after a key in lines that are a key and a value, if there is such a line.
 std::optional<std::string> note_in(const std::vector<std::string>& comments, std::string_view key);
 // The promise.max_distance that one of such lines of a mesh file names, if any does.

@@ -11,6 +11,7 @@
 #include "surface/base/progress_share.h"
 #include "surface/library/json_tree.h"
 #include "surface/mesh/mesh_topology.h"
+#include "volume/filters/labels.h"
 
 namespace deliso {
 namespace {
@@ -75,6 +76,25 @@ Parameters engine_parameters(const ParameterSet& set) {
   for (const auto& [name, value] : set.values()) apply(name, value, parameters);
   check_parameters(parameters);
   return parameters;
+}
+
+double isovalue_of_field(const Parameters& parameters, double asked) {
+  if (!parameters.field.label) return asked;
+  if (std::isnan(asked) || asked == kLabelIsovalue) return kLabelIsovalue;
+  throw InputError("isovalue: the surface of a label lies half-way between it and all others, found " +
+                   shortest_text(asked) + " beside field.label, expected " + shortest_text(kLabelIsovalue));
+}
+
+const std::filesystem::path& checked_path(const std::filesystem::path& path) {
+  const std::string& name = path.native();
+  const std::size_t zero = name.find('\0');
+  if (zero == std::string::npos) return path;
+  throw InputError("path: expected a file name, found '" + name.substr(0, zero) + "' followed by a null character");
+}
+
+void VolumeView::refuse_spacing(double length) {
+  throw Error(Error::Kind::kInput, "spacing: expected three lengths > 0, found " + shortest_text(length) +
+                                       "; an affine map may turn axes the other way round");
 }
 
 int thread_count(int asked) {

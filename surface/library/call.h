@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cfenv>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <utility>
@@ -95,6 +96,13 @@ auto call_watched(const ProgressCallback& callback, Work&& work) {
 
 // The engine's parameters. Throws InputError when they contradict each other.
 Parameters engine_parameters(const ParameterSet& set);
+
+// The isovalue, or of a label's surface the one that it has: then NaN or the same may be asked for. Throws InputError
+// for any other beside a label, which would say nothing.
+double isovalue_of_field(const Parameters& parameters, double asked);
+
+// Throws InputError for a name that the system would cut off.
+const std::filesystem::path& checked_path(const std::filesystem::path& path);
 
 // As many threads as asked for; 0: as many as the machine has. Throws InputError for a negative number.
 int thread_count(int asked);

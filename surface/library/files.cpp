@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "surface/library/call.h"
+#include "surface/library/mesh_notes.h"
 #include "surface/mesh/io/mesh_io.h"
+#include "surface/mesh/io/stl_notes.h"
 #include "volume/io/volume_file.h"
 #include "volume/sample_type.h"
 
@@ -59,7 +62,7 @@ LoadedVolume load_volume(const std::filesystem::path& path, std::optional<std::u
     options.channel = channel;
     options.array = array;
     options.accepts_not_finite = true;  // who meshes it is told
-    const Volume volume = read_placed_volume(path, options);
+    const Volume volume = read_placed_volume(checked_path(path), options);
     const auto samples = std::make_shared<const Samples>(volume.as_read ? *volume.as_read : volume.grid.samples());
     LoadedVolume loaded;
     loaded.view = view_as_file(volume, *samples);
@@ -71,11 +74,22 @@ LoadedVolume load_volume(const std::filesystem::path& path, std::optional<std::u
 }
 
 Mesh load_mesh(const std::filesystem::path& path) {
-  return call_guarded([&] { return public_mesh(read_mesh(path)); });
+  return call_guarded([&] {
+    MeshFile file = read_mesh_file(checked_path(path));
+    Mesh mesh = public_mesh(file.mesh);
+    mesh.comments = file.format == MeshFormat::kStl ? long_stl_notes(file.comments) : std::move(file.comments);
+    return mesh;
+  });
 }
 
 void save_mesh(const Mesh& mesh, const std::filesystem::path& path) {
-  call_guarded([&] { write_mesh(engine_mesh(mesh), path); });
+  call_guarded([&] {
+    MeshFileOptions options;
+    options.format = mesh_format_of(checked_path(path));
+    for (const std::string& line : mesh.comments) options.comments.push_back(on_one_line(line));
+    if (options.format == MeshFormat::kStl) options.comments = short_stl_notes(options.comments).comments;
+    write_mesh(engine_mesh(mesh), path, options);
+  });
 }
 
 }  // namespace deliso

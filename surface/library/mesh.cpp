@@ -1,11 +1,15 @@
 // deliso::mesh: the caller's samples in, a mesh and what is known of it out.
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "delaunay/base/shortest_text.h"
 #include "surface/certificate/certificate.h"
 #include "surface/deliso.h"
 #include "surface/library/call.h"
 #include "surface/library/json_tree.h"
+#include "surface/library/mesh_notes.h"
 #include "surface/library/placed_grid.h"
 #include "surface/library/rounded_output.h"
 #include "surface/library/run_report.h"
@@ -35,12 +39,26 @@ std::vector<std::pair<std::string, double>> seconds_by_stage(const MeshingResult
           {"certify", result.certify_stage.seconds}};
 }
 
-JsonTree volume_tree(const VolumeView& volume, const PlacedGrid& placed) {
+JsonTree volume_tree(const VolumeView& volume, const PlacedGrid& placed, bool is_copied) {
   return JsonTree{{"dims", volume.dims},
                   {"type", placed.grid.type_name()},
                   {"range", std::array{placed.grid.range().first, placed.grid.range().second}},
                   {"index_to_world", volume.affine},
-                  {"copied_samples", placed.is_copied}};
+                  {"copied_samples", is_copied}};
+}
+
+// What `deliso verify` has to know of the mesh, where it reads a file of it.
+std::vector<std::string> comments_of(const Parameters& parameters, const MeshingResult& result) {
+  std::vector<std::string> lines = {"DelIso " + version() + ", isovalue " + shortest_text(result.isovalue_used)};
+  for (std::string& line : kept_notes(parameters, result)) lines.push_back(std::move(line));
+  for (std::string& line : field_notes(parameters)) lines.push_back(std::move(line));
+  if (const auto& label = parameters.field.label) lines.push_back(note_line(kLabelNote, std::to_string(*label)));
+  return lines;
+}
+
+// Whether the mesher works on samples that are made of the caller's.
+bool has_new_field(const Parameters& parameters) {
+  return parameters.field.label || parameters.field.smooth || parameters.boundary == Boundary::kClosed;
 }
 
 MeshReport report_of(const MeshingOptions& options, const MeshingResult& result, const MeshQuality& quality) {
@@ -78,24 +96,27 @@ MeshResult mesh_watched(const VolumeView& volume, double isovalue, const MeshOpt
   const PlacedGrid placed = placed_grid(volume, region_of(meshing.parameters.region));
   MeshingOptions of_region = meshing;
   of_region.parameters.region = {};  // it is all of the grid
-  MeshingResult result = mesh_isosurface(placed.grid, isovalue, of_region);
+  const double value = isovalue_of_field(meshing.parameters, isovalue);
+  MeshingResult result = mesh_isosurface(placed.grid, value, of_region);
   if (meshing.parameters.certify && !placed.is_exact()) {
     const Vec3& s = placed.grid.spacing();
     judge_rounding(result.mesh, placed.to_world, std::min({s.x, s.y, s.z}), "the mesh", MeshFormat::kPly, std::nullopt,
                    result.certificate);
   }
+  const MeshQuality quality = measure_quality(result.mesh, meshing.threads);  // before a shear
   move_to_world(result, placed.to_world);
   MeshResult given;
-  const MeshQuality quality = measure_quality(result.mesh, meshing.threads);
   given.report = report_of(meshing, result, quality);
-  given.report.copied_samples = placed.is_copied;
+  given.report.copied_samples = placed.is_copied || has_new_field(meshing.parameters);
+  given.mesh = public_mesh(result.mesh);
+  given.mesh.comments = comments_of(meshing.parameters, result);
+  if (result.stage1_mesh) given.stage1 = public_mesh(*result.stage1_mesh);
   JsonTree json{{"schema", "deliso-report-1"},
                 {"program", JsonTree{{"version", version()}}},
-                {"volume", volume_tree(volume, placed)}};
-  json.update(run_report(isovalue, meshing, result, quality));
+                {"volume", volume_tree(volume, placed, given.report.copied_samples)}};
+  json.update(run_report(value, meshing, result, quality));
+  json["comments"] = given.mesh.comments;
   given.report.json = json.text();
-  given.mesh = public_mesh(result.mesh);
-  if (result.stage1_mesh) given.stage1 = public_mesh(*result.stage1_mesh);
   return given;
 }
 

@@ -279,8 +279,9 @@ PlacedGrid placed_grid(const VolumeView& volume, const SampleRegion& region) {
   }
 }
 
-PlainSamples samples_of(const VolumeView& volume) {
+PlainSamples samples_of(const VolumeView& volume, const SampleRegion& region) {
   StridedSamples given = as_given(volume);
+  take_part(given, region);
   turn_axes_forwards(given);
   const StridedSamples samples = in_order_of_memory(given);
   return {take(samples).samples, samples.dims};

@@ -24,12 +24,12 @@ struct PlacedGrid {
 // and frame_of. Samples that are not copied have to outlive it.
 PlacedGrid placed_grid(const VolumeView& volume, const SampleRegion& region);
 
-// The samples as they are, with NaN and infinities, in the order of the grid that placed_grid would make, and its
-// dimensions.
+// The samples of the region as they are, with NaN and infinities, in the order of the grid that placed_grid would make,
+// and its dimensions.
 struct PlainSamples {
   Samples samples;
   Dims dims{};
 };
-PlainSamples samples_of(const VolumeView& volume);
+PlainSamples samples_of(const VolumeView& volume, const SampleRegion& region);
 
 }  // namespace deliso

@@ -1,8 +1,11 @@
 // deliso::verify, topology and info: what is true of a volume and of anybody's mesh.
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "delaunay/base/shortest_text.h"
 #include "delaunay/base/stopwatch.h"
 #include "surface/base/sizes.h"
 #include "surface/certificate/certificate.h"
@@ -36,8 +39,8 @@ ScalarGrid grid_to_judge(const PlacedGrid& placed, const Parameters& parameters)
 }
 
 MeshedField field_of(const ScalarGrid& grid, double isovalue, const Parameters& parameters, int threads) {
-  return meshed_field(grid, isovalue, parameters.field, parameters.boundary == Boundary::kClosed, grid.spacing(),
-                      threads);
+  return meshed_field(grid, isovalue_of_field(parameters, isovalue), parameters.field,
+                      parameters.boundary == Boundary::kClosed, grid.spacing(), threads);
 }
 
 // From the caller's coordinates to those of the grid that is judged.
@@ -103,7 +106,8 @@ VerifyReport verify(const Mesh& mesh, const VolumeView& volume, double isovalue,
     const TriangleMesh own = mesh_to_judge(mesh, placed, parameters);
     const MeshedField field =
         field_of(grid_to_judge(placed, parameters), isovalue, parameters, thread_count(options.threads));
-    if (!(options.max_distance >= 0)) throw InputError("max_distance: expected a number >= 0");
+    if (!(options.max_distance >= 0))
+      throw InputError("max_distance: expected a number >= 0, found " + shortest_text(options.max_distance));
     if (options.dropped_components < 0) {
       throw InputError("dropped_components: expected a number >= 0, found " +
                        std::to_string(options.dropped_components));
@@ -113,7 +117,7 @@ VerifyReport verify(const Mesh& mesh, const VolumeView& volume, double isovalue,
         .dropped_components = options.dropped_components};
     Verification v = verify_mesh(own, field.grid, field.isovalue, promise, step);
     if (parameters.spacing == SpacingUse::kUse) move_places(v, placed.to_world);
-    return report_of_verification(v, isovalue, promise);
+    return report_of_verification(v, isovalue_of_field(parameters, isovalue), promise);
   });
 }
 
@@ -139,7 +143,7 @@ TopologyReport topology(const VolumeView& volume, double isovalue, const Topolog
                           ""};
     report.json = JsonTree{{"schema", "deliso-topology-1"},
                            {"program", JsonTree{{"version", version()}}},
-                           {"isovalue", isovalue},
+                           {"isovalue", isovalue_of_field(parameters, isovalue)},
                            {"isovalue_used", regular.isovalue},
                            {"components", sum.components},
                            {"euler_characteristic", sum.euler_characteristic},
@@ -153,9 +157,26 @@ TopologyReport topology(const VolumeView& volume, double isovalue, const Topolog
   });
 }
 
+double named_isovalue(const VolumeView& volume, std::string_view name, const ParameterSet& parameters) {
+  return call_guarded([&] {
+    std::optional<NamedIsovalue> known;
+    try {
+      known = parse_isovalue_name(name);
+    } catch (const InputError& error) {
+      throw InputError(std::string("isovalue: ") + error.what());
+    }
+    if (!known) {
+      throw InputError("isovalue: expected a number, 'otsu', 'mean', 'median' or 'P%', found '" + std::string(name) +
+                       "'");
+    }
+    const Samples all = samples_of(volume, region_of(engine_parameters(parameters).region)).samples;
+    return isovalue_of(count_not_finite(all).count() == 0 ? all : finite_samples(all), *known);
+  });
+}
+
 VolumeInfo info(const VolumeView& volume) {
   return call_guarded([&] {
-    const PlainSamples all = samples_of(volume);
+    const PlainSamples all = samples_of(volume, {});
     const NotFiniteCounts counts = count_not_finite(all.samples);
     const bool is_finite = counts.count() == 0;
     const Samples finite = is_finite ? all.samples : finite_samples(all.samples);

@@ -40,8 +40,7 @@ namespace deliso {
 // The version of the library that runs, "0.2.0"; that of the header is DELISO_VERSION_TEXT.
 DELISO_API std::string version();
 
-// ---- Errors
-// -----------------------------------------------------------------------------------------------------------
+// ---- Errors ----
 
 // what() is one sentence: what was given, and what was expected.
 class DELISO_API Error : public std::runtime_error {
@@ -64,8 +63,7 @@ class DELISO_API Error : public std::runtime_error {
   Kind kind_;
 };
 
-// ---- Volumes
-// ----------------------------------------------------------------------------------------------------------
+// ---- Volumes ----
 
 enum class ScalarType : std::uint8_t {
   kUint8,
@@ -86,8 +84,9 @@ enum class ScalarType : std::uint8_t {
 //
 // No sample is copied where the three axes are packed without gaps, in any order and each forwards or backwards, the
 // samples are aligned, and their type is not kUint32, kUint64, kInt64 or kFloat16 (these become int32 where all fit,
-// else doubles, and floats). Else the samples are copied once. A region copies the samples of the region.
-// `field.smooth`, `field.label` and `boundary` = closed make a new field. MeshReport::copied_samples tells.
+// else doubles, and floats). Else the samples are copied once. A region copies the samples of the region where they
+// are not packed by themselves. `field.smooth`, `field.label` and `boundary` = closed make a new field.
+// MeshReport::copied_samples tells.
 //
 // In which order the axes lie in memory decides which vertices are taken, not what is true of the mesh: a transposed
 // copy of a volume gives another proven mesh of the same isosurface.
@@ -99,12 +98,15 @@ struct VolumeView {
   // Sample (i, j, k) lies at affine * (i, j, k, 1); rows. Vertices are there, too.
   std::array<std::array<double, 4>, 3> affine{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
+  // Three lengths > 0; else an Error is thrown. For axes the other way round there is the affine map.
   void set_spacing(const std::array<double, 3>& spacing, const std::array<double, 3>& origin = {0, 0, 0}) {
     for (std::size_t row = 0; row < 3; ++row) {
+      if (!(spacing[row] > 0)) refuse_spacing(spacing[row]);
       affine[row] = {0, 0, 0, origin[row]};
       affine[row][row] = spacing[row];
     }
   }
+  [[noreturn]] DELISO_API static void refuse_spacing(double length);
 };
 
 template <class Sample>
@@ -153,8 +155,7 @@ struct VolumeInfo {
 };
 DELISO_API VolumeInfo info(const VolumeView& volume);
 
-// ---- Parameters
-// -------------------------------------------------------------------------------------------------------
+// ---- Parameters ----
 
 // monostate: null, no limit.
 using ParameterInput = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
@@ -177,6 +178,9 @@ class ParameterSet {
     } else if constexpr (std::is_floating_point_v<Value>) {
       set_value(name, static_cast<double>(value));
     } else {
+      if constexpr (std::is_pointer_v<Value>) {
+        if (value == nullptr) return set(name, nullptr);
+      }
       set_value(name, std::string(value));
     }
     return *this;
@@ -199,8 +203,7 @@ struct ParameterInfo {
 // All parameters, in their order.
 DELISO_API std::vector<ParameterInfo> parameters();
 
-// ---- Progress and stop
-// ------------------------------------------------------------------------------------------------
+// ---- Progress and stop ----
 
 struct StageProgress {
   std::string_view stage;     // "index", "initial", "recover", "repair", "refine", "shape", "decimate", "certify"
@@ -212,13 +215,14 @@ struct StageProgress {
 // mesh; verify() and topology() throw Error::Kind::kStopped. What it throws comes out of the function.
 using ProgressCallback = std::function<bool(const StageProgress&)>;
 
-// ---- Meshes
-// -----------------------------------------------------------------------------------------------------------
+// ---- Meshes ----
 
 // Triangles are counterclockwise seen from the side of lower values.
 struct Mesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  // Lines for the file: what mesh() says of the field, the region and the promise, which `deliso verify` reads there.
+  std::vector<std::string> comments{};
 };
 
 // By the extension: .ply, .off, .obj, .stl, .mesh, .msh, .smesh, .vtk, .vtp or .glb; all but .msh, .smesh and .glb are
@@ -258,12 +262,14 @@ struct MeshReport {
   double isovalue_used = 0;              // differs from the isovalue only where a sample or a saddle has that value
   std::int64_t components = 0, euler_characteristic = 0, boundary_loops = 0;  // of the mesh
   std::int64_t dropped_components = 0;  // left out as asked (`components.*`); verify() wants to know their number
-  double promised_distance = 0;
-  double min_angle_degrees = 0, max_angle_degrees = 0;
-  bool copied_samples = false;
+  double promised_distance = 0;         // of a run that was stopped: what would have been promised
+  double min_angle_degrees = 0, max_angle_degrees = 0;  // before the shear of a map that has one
+  bool copied_samples = false;                          // those of the caller, or a new field was made of them
   double seconds = 0;
   std::vector<std::pair<std::string, double>> stage_seconds;
-  std::string json;  // all that is known, as the program's --report has it, but for program and file
+  // With the keys of the program's --report, but for those of the file, the world, the field, the surface's measures
+  // and memory; and with the mesh's comments.
+  std::string json;
 };
 
 struct MeshResult {
@@ -273,11 +279,10 @@ struct MeshResult {
 };
 
 // Meshes the isosurface. Throws Error when something given is wrong: an isovalue outside the range of the samples, NaN
-// among them, a dimension below 2.
+// among them, a dimension below 2. The surface of `field.label` has the isovalue 0.5, which NaN stands for, too.
 DELISO_API MeshResult mesh(const VolumeView& volume, double isovalue, const MeshOptions& options = {});
 
-// ---- Second opinions
-// --------------------------------------------------------------------------------------------------
+// ---- Second opinions ----
 
 struct VerifyOptions {
   // Those that say what surface is meant count: `field.*`, `region.*`, `boundary`, `spacing`; and the distance allowed,
@@ -309,6 +314,10 @@ struct VerifyReport {
 // puts them.
 DELISO_API VerifyReport verify(const Mesh& mesh, const VolumeView& volume, double isovalue,
                                const VerifyOptions& options = {});
+
+// The isovalue "otsu", "mean", "median" or "P%", the share of the way from the lowest sample to the highest, of the
+// samples of `region.*` that are finite.
+DELISO_API double named_isovalue(const VolumeView& volume, std::string_view name, const ParameterSet& parameters = {});
 
 struct TopologyOptions {
   ParameterSet parameters;  // `field.*`, `region.*`, `boundary` and `spacing` count

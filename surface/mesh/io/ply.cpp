@@ -172,11 +172,14 @@ class BodyParser {
 }  // namespace
 
 std::string ply_bytes(const TriangleMesh& mesh, bool ascii, const MeshComments& comments) {
+  const std::string facing = "triangles are counterclockwise seen from the side of lower values";
   // Signed indices are what most readers expect; they do as long as they suffice.
   const bool is_small = mesh.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  std::string bytes = std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") +
-                      " 1.0\ncomment triangles are counterclockwise seen from the side of lower values";
-  for (const std::string& comment : comments) bytes += "\ncomment " + comment;
+  std::string bytes =
+      std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") + " 1.0\ncomment " + facing;
+  for (const std::string& comment : comments) {
+    if (comment != facing) bytes += "\ncomment " + comment;  // a mesh that was read has the line already
+  }
   bytes += "\nelement vertex " + std::to_string(mesh.points.size()) +
            "\nproperty double x\nproperty double y\nproperty double z" + "\nelement face " +
            std::to_string(mesh.triangles.size()) + "\nproperty list uchar " + (is_small ? "int" : "uint") +

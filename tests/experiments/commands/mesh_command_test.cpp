@@ -226,6 +226,12 @@ TEST_F(MeshCommand, VertexBudgetStopsWithAValidPartialMesh) {
   const TriangleMesh partial = read_mesh(folder_ / "m.ply");
   EXPECT_GT(partial.triangles.size(), 0u);
   EXPECT_TRUE(certify(partial, std::vector<ComponentTopology>()).manifold);
+  // What was not checked is not promised.
+  EXPECT_EQ(json["certificate"]["proven"], false);
+  EXPECT_NE(json["certificate"]["broken"].dump().find("the run was stopped before"), std::string::npos);
+  EXPECT_TRUE(json["promised_distance_voxels"].is_null());
+  for (const std::string& comment : read_mesh_file(folder_ / "m.ply").comments)
+    EXPECT_FALSE(comment.starts_with("promise")) << comment;
 }
 
 TEST_F(MeshCommand, SignalsStopWithAValidPartialMesh) {

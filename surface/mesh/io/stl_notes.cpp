@@ -1,4 +1,5 @@
-// How the header of a binary STL file holds what `verify` needs of the lines of mesh_comments(): in short words.
+#include "surface/mesh/io/stl_notes.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "delaunay/base/shortest_text.h"
-#include "experiments/commands/mesh_output.h"
 #include "surface/base/parameters.h"
 
 namespace deliso {
