@@ -48,13 +48,14 @@ VolumeView view_of_array(const py::array& array, const Rows& affine) {
 }
 
 // A number too large for any parameter as its digits, which the parameter refuses.
-ParameterInput whole_number(const py::int_& value) {
+ParameterInput whole_number(const py::handle& value) {
   int overflow = 0;
   const std::int64_t number = PyLong_AsLongLongAndOverflow(value.ptr(), &overflow);
   if (overflow == 0) return number;
   return py::repr(value).cast<std::string>();
 }
 
+// Of values that are None or of the types bool, int, float and str.
 ParameterSet parameter_set(const py::dict& named) {
   ParameterSet set;
   for (const auto& [name, value] : named) {
@@ -64,14 +65,12 @@ ParameterSet parameter_set(const py::dict& named) {
       input = std::monostate();
     } else if (py::isinstance<py::bool_>(value)) {
       input = value.cast<bool>();
-    } else if (py::isinstance<py::str>(value)) {
-      input = value.cast<std::string>();
-    } else if (PyIndex_Check(value.ptr()) != 0) {
-      input = whole_number(py::int_(py::reinterpret_borrow<py::object>(value)));
-    } else if (PyNumber_Check(value.ptr()) != 0) {
-      input = py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
+    } else if (py::isinstance<py::int_>(value)) {
+      input = whole_number(value);
+    } else if (py::isinstance<py::float_>(value)) {
+      input = value.cast<double>();
     } else {
-      input = py::repr(value).cast<std::string>();  // which the parameter refuses
+      input = value.cast<std::string>();
     }
     set.set(key, input);
   }
@@ -106,12 +105,19 @@ Mesh mesh_of(const Vertices& vertices, const Triangles& triangles) {
       const std::int64_t vertex = triangles.data()[3 * t + corner];
       if (vertex < 0 || vertex >= vertices.shape(0)) {
         throw py::value_error("triangle " + std::to_string(t) + " names the vertex " + std::to_string(vertex) +
-                              ", expected 0 to " + std::to_string(vertices.shape(0) - 1));
+                              (vertices.shape(0) == 0 ? ", but there are none" : ", expected 0 to ") +
+                              (vertices.shape(0) == 0 ? std::string() : std::to_string(vertices.shape(0) - 1)));
       }
       mesh.triangles[t][corner] = static_cast<std::uint32_t>(vertex);
     }
   }
   return mesh;
+}
+
+// For a Ctrl-C that came too late to stop anything, or where there is no partial result.
+[[noreturn]] void raise_interrupt() {
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
 }
 
 py::tuple mesh_array(const py::array& array, double isovalue, const Rows& affine, const py::dict& parameters,
@@ -130,6 +136,7 @@ py::tuple mesh_array(const py::array& array, double isovalue, const Rows& affine
         return mesh(view, isovalue, watched);
       },
       progress, array, interrupts);
+  if (interrupts > 0 && !result.report.stopped) raise_interrupt();
   return py::make_tuple(array_of_rows<double>(result.mesh.vertices), array_of_rows<std::int32_t>(result.mesh.triangles),
                         result.report.json);
 }
@@ -142,12 +149,11 @@ std::string report_of(Call call, const py::object& progress, const py::object& k
     const Report report = run_interruptible<Report>(
         [call = std::move(call)](const ProgressCallback& tell, std::atomic<bool>& /*stop*/) { return call(tell); },
         progress, kept, interrupts);
-    if (interrupts == 0) return report.json;  // else Ctrl-C came too late to stop anything
+    if (interrupts == 0) return report.json;
   } catch (const Error& error) {
     if (error.kind() != Error::Kind::kStopped || interrupts == 0) throw;
   }
-  PyErr_SetNone(PyExc_KeyboardInterrupt);
-  throw py::error_already_set();
+  raise_interrupt();
 }
 
 std::string verify_array(const Vertices& vertices, const Triangles& triangles, const py::array& array, double isovalue,
@@ -184,14 +190,30 @@ std::string topology_of_array(const py::array& array, double isovalue, const Row
       progress, array);
 }
 
+double isovalue_of_name(const py::array& array, const std::string& name, const py::dict& parameters) {
+  const VolumeView view = view_of_array(array, VolumeView().affine);
+  const ParameterSet set = parameter_set(parameters);
+  const py::gil_scoped_release unlocked;
+  return named_isovalue(view, name, set);
+}
+
 std::string info_of_array(const py::array& array) {
   const VolumeView view = view_of_array(array, VolumeView().affine);
   const py::gil_scoped_release unlocked;
   return info(view).json;
 }
 
-// The file's samples, which the array keeps, and the rows of the affine map.
-py::tuple read_volume_file(const std::string& path, std::optional<std::uint64_t> channel, const std::string& name) {
+// Text of a file or of an error, which may name one: bytes that are no UTF-8 become \xNN.
+py::str text_of(const std::string& bytes) {
+  PyObject* const text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+// The file's samples, which the array keeps, and the rows of the affine map. Paths are bytes, as the system has them.
+py::tuple read_volume_file(const py::bytes& name_of_file, std::optional<std::uint64_t> channel,
+                           const std::string& name) {
+  const std::string path = name_of_file;
   const LoadedVolume volume = [&] {
     const py::gil_scoped_release unlocked;
     return load_volume(path, channel, name);
@@ -210,16 +232,23 @@ py::tuple read_volume_file(const std::string& path, std::optional<std::uint64_t>
   const std::array<py::ssize_t, 3> strides = sx == 0 ? packed : std::array<py::ssize_t, 3>{sx, sy, sz};
   py::array array(type, {nx, ny, nz}, {strides[0], strides[1], strides[2]}, volume.view.samples, owner);
   array.attr("flags").attr("writeable") = false;
-  return py::make_tuple(array, volume.view.affine, volume.space, volume.units);
+  return py::make_tuple(array, volume.view.affine, text_of(volume.space), text_of(volume.units));
 }
 
-py::tuple read_mesh_file(const std::string& path) {
-  const Mesh mesh = load_mesh(path);
+py::tuple read_mesh_file(const py::bytes& name) {
+  const std::string path = name;
+  const Mesh mesh = [&] {
+    const py::gil_scoped_release unlocked;
+    return load_mesh(path);
+  }();
   return py::make_tuple(array_of_rows<double>(mesh.vertices), array_of_rows<std::int32_t>(mesh.triangles));
 }
 
-void write_mesh_file(const std::string& path, const Vertices& vertices, const Triangles& triangles) {
-  const Mesh mesh = mesh_of(vertices, triangles);
+void write_mesh_file(const py::bytes& name, const Vertices& vertices, const Triangles& triangles,
+                     const std::vector<std::string>& comments) {
+  const std::string path = name;
+  Mesh mesh = mesh_of(vertices, triangles);
+  mesh.comments = comments;
   const py::gil_scoped_release unlocked;
   save_mesh(mesh, path);
 }
@@ -239,7 +268,7 @@ void translate(std::exception_ptr thrown) {
     PyObject* const type = error.kind() == Error::Kind::kInput    ? PyExc_ValueError
                            : error.kind() == Error::Kind::kMemory ? PyExc_MemoryError
                                                                   : PyExc_RuntimeError;
-    PyErr_SetString(type, error.what());
+    PyErr_SetObject(type, text_of(error.what()).ptr());
   }
 }
 
@@ -251,6 +280,7 @@ PYBIND11_MODULE(_deliso, module) {
   module.def("mesh", &mesh_array);
   module.def("verify", &verify_array);
   module.def("topology", &topology_of_array);
+  module.def("named_isovalue", &isovalue_of_name);
   module.def("info", &info_of_array);
   module.def("load_volume", &read_volume_file);
   module.def("load_mesh", &read_mesh_file);

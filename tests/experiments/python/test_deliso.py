@@ -88,10 +88,48 @@ class Meshes(unittest.TestCase):
         self.assertEqual(deliso.mesh(array, ISOVALUE, spacing="ignore").report["parameters"]["spacing"], "ignore")
         self.assertEqual(deliso.mesh(array, ISOVALUE, budget_max_vertices=50).report["verdict"], "stopped")
 
+    def test_a_run_that_stops_is_not_proven(self):
+        report = deliso.mesh(two_balls(), ISOVALUE, budget_max_vertices=50).report
+        self.assertEqual((report["verdict"], report["certificate"]["proven"]), ("stopped", False))
+        self.assertIn("the run was stopped before", report["certificate"]["broken"][-1])
+
+    def test_numbers_of_numpy_are_numbers(self):
+        array = two_balls()
+        for value in (numpy.array(1.9), numpy.float32(1.875), numpy.array(3), numpy.int8(3), numpy.longdouble(1.5)):
+            found = deliso.mesh(array, ISOVALUE, stage2_rho=value).report["parameters"]["stage2"]["rho"]
+            self.assertEqual(found, float(value))
+        for value in (numpy.False_, numpy.array(False)):
+            self.assertEqual(deliso.mesh(array, ISOVALUE, certify=value).report["verdict"], "not checked")
+        self.assertEqual(deliso.mesh(array, numpy.array(ISOVALUE)).report["isovalue"], ISOVALUE)
+
     def test_isovalues_by_name(self):
+        array = two_balls()
+        array[0, 0, 0] = 1e6
+        region = {"i0": 2, "k1": 12}
+        part = array[2:, :, :13]
+        for name in ("otsu", "50%"):
+            of_part = deliso.mesh(part, name).report["isovalue"]
+            self.assertNotEqual(of_part, deliso.mesh(array, name, field_smooth=0.1).report["isovalue"])
+            for report in (deliso.mesh(array, name, region=region).report, deliso.topology(array, name, region=region)):
+                self.assertEqual(report["isovalue"], of_part)
         array = two_balls()
         self.assertEqual(deliso.mesh(array, "50%").report["isovalue"], array.max() / 2)
         self.assertEqual(deliso.mesh(array, "otsu").report["isovalue"], deliso.info(array)["named_isovalues"]["otsu"])
+
+    def test_labels_have_one_isovalue(self):
+        labels = (two_balls() > 20) * 3
+        for isovalue in (None, 0.5):
+            vertices, triangles, report = deliso.mesh(labels, isovalue, field_label=3)
+            self.assertEqual((report["verdict"], report["isovalue"]), ("proven", 0.5))
+            self.assertTrue(deliso.verify(vertices, triangles, labels, isovalue, field_label=3)["proven"])
+        with self.assertRaisesRegex(ValueError, "found 77 beside field.label, expected 0.5"):
+            deliso.mesh(labels, 77, field_label=3)
+
+    def test_angles_are_those_before_a_shear(self):
+        array, affine = two_balls(), [[1, 3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
+        vertices, triangles, report = deliso.mesh(array, ISOVALUE, affine=affine)
+        judged = deliso.verify(vertices, triangles, array, ISOVALUE, affine=affine)
+        self.assertAlmostEqual(report["quality"]["min_angle_degrees"], judged["quality"]["min_angle_degrees"], places=6)
 
     def test_the_same_from_two_threads_at_once(self):
         array, found = two_balls(), {}
@@ -118,6 +156,14 @@ class SecondOpinions(unittest.TestCase):
         self.assertAlmostEqual(moved["checks"]["distance"]["isosurface_to_mesh"]["max_voxels"], 2.5 * 3**0.5, delta=1)
         open_mesh = deliso.verify(vertices.tolist(), triangles[1:].tolist(), array, ISOVALUE)
         self.assertIn("boundary", " ".join(open_mesh["failures"]))
+
+    def test_the_worst_distance_of_triangles_without_area(self):
+        array = two_balls()
+        vertices = deliso.mesh(array, ISOVALUE).vertices
+        judged = deliso.verify(vertices, [[0, 0, len(vertices) - 1]], array, ISOVALUE)
+        figure = judged["checks"]["distance"]["mesh_to_isosurface"]
+        self.assertGreater(figure["max_voxels"], 1)
+        self.assertTrue(any(f"{figure['max_voxels']:.6f}" in failure for failure in judged["failures"]))
 
     def test_topology_is_exact(self):
         found = deliso.topology(two_balls(), ISOVALUE)
@@ -161,6 +207,7 @@ class Mistakes(unittest.TestCase):
         self.expect("found the dtype complex128", lambda: deliso.mesh(array * 1j, 1))
         self.expect("each must be at least 2", lambda: deliso.mesh(array[:1], 1))
         self.expect("spacing", lambda: deliso.mesh(array, 1, spacing=(1, 1)))
+        self.expect("three lengths > 0, found (-1, 1, 1)", lambda: deliso.mesh(array, 1, spacing=(-1, 1, 1)))
         self.expect("found both", lambda: deliso.mesh(array, 1, spacing=(1, 1, 1), affine=numpy.eye(4)))
         self.expect("'P%'", lambda: deliso.mesh(array, "most"))
         self.expect("names the vertex 9", lambda: deliso.verify(numpy.zeros((3, 3)), [[0, 1, 9]], array, 1))
@@ -178,6 +225,8 @@ class Mistakes(unittest.TestCase):
         self.expect("found nan", lambda: deliso.mesh(array, 1, stage2_rho=numpy.nan))
         self.expect("three lengths", lambda: deliso.mesh(array, 1, spacing=[[1], [1], [1]]))
         self.expect("masked", lambda: deliso.mesh(numpy.ma.masked_greater(array, 50), 1))
+        self.parameters(array)
+        self.arguments(array)
         # One number for all samples; its memory holds no others.
         for order in "<>":
             seven = numpy.broadcast_to(numpy.array(7, dtype=order + "f8"), (9, 9, 9))
@@ -185,6 +234,46 @@ class Mistakes(unittest.TestCase):
         array[3, 2, 1] = numpy.nan
         self.expect("sample (3, 2, 1) is NaN", lambda: deliso.mesh(array, 1))
         self.expect("none.nrrd", lambda: deliso.load_volume("none.nrrd"))
+
+
+    def parameters(self, array):
+        self.expect("size.max_error must be a number >= 1e-6 or null, found \"array([0.1, 0.2])\"",
+                    lambda: deliso.mesh(array, 1, size_max_error=numpy.array([0.1, 0.2])))
+        self.expect("found \"array([0.1])\"", lambda: deliso.mesh(array, 1, size_max_error=numpy.array([0.1])))
+        self.expect("found \"1j\"", lambda: deliso.mesh(array, 1, size_max_error=1j))
+        self.expect("found \"b'1'\"", lambda: deliso.mesh(array, 1, size_max_error=b"1"))
+        self.expect("unknown key 'direction'", lambda: deliso.mesh(array, 1, direction=numpy.eye(3)))
+        self.expect("'stage2.epsilon1'", lambda: deliso.mesh(array, 1, stage2_epsilon=0.1))
+        self.expect("found \"clo\\\\udce9\"", lambda: deliso.mesh(array, 1, boundary="clo\udce9"))
+        self.expect("unknown key", lambda: deliso.mesh(array, 1, **{"boundary\udce9": 1}))
+        self.expect("stage2.epsilon1: given twice",
+                    lambda: deliso.mesh(array, 1, stage2_epsilon1=0.2, stage2={"epsilon1": 0.3}))
+
+    def arguments(self, array):
+        corner, triangle = numpy.zeros((3, 3)), [[0, 1, 2]]
+        for wrong in ("0.5", [1], 1j):
+            self.expect("max_distance: expected a number", lambda: deliso.verify(corner, triangle, array, 1, max_distance=wrong))
+        self.expect("max_distance: expected a number > 0, found nan",
+                    lambda: deliso.verify(corner, triangle, array, 1, max_distance=numpy.nan))
+        for wrong in (3, False):
+            self.expect("progress: expected a function", lambda: deliso.mesh(array, 1, progress=wrong))
+        ragged = [[0, 1, 2], [0]]
+        self.expect("array: expected an array", lambda: deliso.info(ragged))
+        self.expect("vertices: expected an array", lambda: deliso.verify(ragged, triangle, array, 1))
+        self.expect("triangles: expected an array", lambda: deliso.verify(corner, ragged, array, 1))
+        masked = numpy.ma.masked_array(corner, mask=True)
+        self.expect("vertices: some values are masked", lambda: deliso.verify(masked, triangle, array, 1))
+        self.expect("found 18446744073709551615",
+                    lambda: deliso.verify(corner, numpy.array([[0, 1, 2**64 - 1]], dtype="u8"), array, 1))
+        self.expect("names the vertex 0, but there are none", lambda: deliso.verify(corner[:0], triangle, array, 1))
+        self.expect("name: expected the name of an array, found 3", lambda: deliso.load_volume("v.vtk", name=3))
+        for wrong in (None, 3.5):
+            self.expect("path: expected a file name", lambda: deliso.load_volume(wrong))
+            self.expect("path: expected a file name", lambda: deliso.load_mesh(wrong))
+            self.expect("path: expected a file name", lambda: deliso.save_mesh(wrong, corner, triangle))
+        self.expect("'a' followed by a null character", lambda: deliso.save_mesh("a\0b.ply", corner, triangle))
+        self.expect("a\\udce9.ply".replace("udc", "x"), lambda: deliso.load_mesh("a\udce9.ply"))
+        self.expect("report: expected the report", lambda: deliso.save_mesh("m.ply", corner, triangle, {}))
 
 
 class Interruptions(unittest.TestCase):
@@ -211,6 +300,25 @@ class Interruptions(unittest.TestCase):
             raise KeyError(stage)
         with self.assertRaises(KeyError):
             self.long_run(fail)
+
+    def test_without_a_partial_result_a_stop_is_an_error(self):
+        array = numpy.sin(numpy.arange(90**3).reshape(3 * [90]))
+        with self.assertRaisesRegex(RuntimeError, "stopped by the caller's callback"):
+            deliso.verify([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], array, 0.1, progress=lambda *told: False)
+
+    def test_ctrl_c_is_never_lost(self):
+        def press(stage, fraction):
+            if stage == "certify":
+                raise KeyboardInterrupt
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(100):  # once in a while the run is over before it is told of this stage
+                deliso.mesh(two_balls(), ISOVALUE, progress=press)
+        presser = self.interrupt(0.3)
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(2000):
+                if deliso.mesh(two_balls(), ISOVALUE).report["verdict"] == "stopped":
+                    raise KeyboardInterrupt
+        presser.join()
 
     def interrupt(self, *delays):
         def press():
@@ -255,6 +363,29 @@ class Files(unittest.TestCase):
             del volume
             self.assertFalse(array.flags.writeable)
             self.assertEqual(deliso.mesh(array, ISOVALUE).report["verdict"], "proven")
+
+    def test_names_of_files_are_those_of_the_system(self):
+        vertices, triangles, _ = deliso.mesh(two_balls(), ISOVALUE)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in (os.path.join(folder, "a\udce9.ply"), os.fsencode(folder) + b"/b.ply"):
+                deliso.save_mesh(name, vertices, triangles)
+                self.assertTrue(os.path.exists(name))
+                numpy.testing.assert_array_equal(deliso.load_mesh(name)[0], vertices)
+            self.assertEqual(sorted(os.listdir(folder)), ["a\udce9.ply", "b.ply"])
+
+    def test_meshes_are_saved_with_what_a_verification_needs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "mesh.ply"
+            deliso.save_mesh(path, *deliso.mesh(two_balls(), ISOVALUE, field_invert=True, promise_max_distance=0.75))
+            head = path.read_bytes()[:400]
+            self.assertIn(b"comment field.invert true", head)
+            self.assertIn(b"comment promise.max_distance 0.75", head)
+
+    def test_numpy_files_have_the_transpose(self):
+        array = two_balls("C", "i2")
+        with tempfile.TemporaryDirectory() as folder:
+            numpy.save(Path(folder) / "v.npy", array)
+            numpy.testing.assert_array_equal(deliso.load_volume(Path(folder) / "v.npy").array, array.T)
 
     def test_arrays_are_in_the_order_of_the_file(self):
         samples = numpy.arange(60, dtype="u1").reshape((5, 4, 3), order="F")

@@ -20,12 +20,13 @@ of threads. Mistakes are ValueError with one sentence.
 from __future__ import annotations
 
 import json
-import operator
-from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
 
 from . import _deliso
+from ._arguments import (ProgressCallback, _array, _callback, _count, _isovalue, _named, _number, _numbers, _path, _rows,
+                         _shown, _text, _whole)
 
 __all__ = ["mesh", "verify", "topology", "info", "parameters", "load_volume", "load_mesh", "save_mesh", "MeshResult",
            "Volume", "__version__"]
@@ -34,8 +35,6 @@ __version__: str = _deliso.version
 
 _MOST_SEED = 2**64 - 1
 _MOST_THREADS = 2**31 - 1
-
-ProgressCallback = Callable[[str, float], Optional[bool]]
 
 
 class MeshResult(NamedTuple):
@@ -55,13 +54,15 @@ class Volume(NamedTuple):
     units: str  # "mm", ...; likewise
 
 
-def mesh(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[float], str, None] = None, affine: Any = None,
-         seed: int = 1, threads: int = 1, progress: Optional[ProgressCallback] = None, **parameters: Any) -> MeshResult:
+def mesh(array: Any, isovalue: Union[float, str, None], *, spacing: Union[Sequence[float], str, None] = None,
+         affine: Any = None, seed: int = 1, threads: int = 1, progress: Optional[ProgressCallback] = None,
+         **parameters: Any) -> MeshResult:
     """Meshes the isosurface of a volume and proves the mesh.
 
     array      (nx, ny, nz) numbers, all finite; each dimension at least 2; array[i, j, k] is the sample at x index i
     isovalue   between the lowest and the highest sample; or "otsu", "mean", "median", "P%" of the range
-    spacing    three lengths, default (1, 1, 1): array[i, j, k] lies at (i sx, j sy, k sz)
+               (of the region, if there is one); None or 0.5 where field_label names a label
+    spacing    three lengths > 0, default (1, 1, 1): array[i, j, k] lies at (i sx, j sy, k sz)
                ("ignore": meshed as if it were 1, as the parameter of that name says)
     affine     instead of spacing: (4, 4) or (3, 4), from indices to the world, as nibabel's img.affine
     seed       of the random choices
@@ -75,13 +76,13 @@ def mesh(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[flo
     seen from the side of lower values, and a dict with all that is known of the run. report["verdict"] is "proven",
     "not proven" (report["certificate"] says what differs), "not checked" or "stopped".
 
-    Ctrl-C ends the run with the mesh as it is, valid and with the verdict "stopped"; a second one raises
-    KeyboardInterrupt at once (what is being worked on then ends by itself).
+    Ctrl-C ends the run with the mesh as it is, valid and with the verdict "stopped"; where it comes too late to stop
+    anything, or a second time, it raises KeyboardInterrupt (what is being worked on then ends by itself).
     """
-    own = _array(array)
-    vertices, triangles, text = _deliso.mesh(own, _isovalue(own, isovalue), _rows(spacing, affine), _named(parameters, spacing),
-                                             _count(seed, "seed", _MOST_SEED), _count(threads, "threads", _MOST_THREADS),
-                                             progress)
+    own, named = _array(array), _named(parameters, spacing)
+    vertices, triangles, text = _deliso.mesh(own, _isovalue(own, isovalue, named), _rows(spacing, affine), named,
+                                             _count(seed, "seed", _MOST_SEED),
+                                             _count(threads, "threads", _MOST_THREADS), _callback(progress))
     report = json.loads(text)
     report["volume"]["copied_samples"] |= own is not array and not numpy.may_share_memory(own, array)
     proven = report["certificate"]["proven"]
@@ -90,7 +91,7 @@ def mesh(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[flo
     return MeshResult(vertices, triangles, report)
 
 
-def verify(vertices: Any, triangles: Any, array: Any, isovalue: Union[float, str], *,
+def verify(vertices: Any, triangles: Any, array: Any, isovalue: Union[float, str, None], *,
            spacing: Union[Sequence[float], str, None] = None, affine: Any = None, max_distance: Optional[float] = None,
            dropped_components: int = 0, threads: int = 1, progress: Optional[ProgressCallback] = None,
            **parameters: Any) -> dict:
@@ -105,18 +106,20 @@ def verify(vertices: Any, triangles: Any, array: Any, isovalue: Union[float, str
 
     Returns a dict: "proven"; "failures", a sentence for each condition that fails; "checks" with the figures of each
     (manifold, orientation, boundary, topology, self_intersection, residual, distance; normals and delaunay_balls do not
-    count); "quality". Distances are in voxels. Ctrl-C raises KeyboardInterrupt.
+    count); "quality". Distances are in voxels. Ctrl-C raises KeyboardInterrupt, and a callback that returns False
+    RuntimeError: there is no partial result.
     """
-    own = _array(array)
-    if max_distance is not None and not _number(max_distance, "max_distance") > 0:
-        raise ValueError(f"max_distance: expected a number > 0, found {max_distance}")
-    return json.loads(_deliso.verify(_numbers(vertices, "vertices"), _whole(triangles), own, _isovalue(own, isovalue),
-                                     _rows(spacing, affine), _named(parameters, spacing), max_distance or 0.0,
+    own, named = _array(array), _named(parameters, spacing)
+    most = 0.0 if max_distance is None else _number(max_distance, "max_distance")
+    if max_distance is not None and not most > 0:
+        raise ValueError(f"max_distance: expected a number > 0, found {most}")
+    return json.loads(_deliso.verify(_numbers(vertices, "vertices"), _whole(triangles), own,
+                                     _isovalue(own, isovalue, named), _rows(spacing, affine), named, most,
                                      _count(dropped_components, "dropped_components", _MOST_THREADS),
-                                     _count(threads, "threads", _MOST_THREADS), progress))
+                                     _count(threads, "threads", _MOST_THREADS), _callback(progress)))
 
 
-def topology(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence[float], str, None] = None,
+def topology(array: Any, isovalue: Union[float, str, None], *, spacing: Union[Sequence[float], str, None] = None,
              affine: Any = None, threads: int = 1, progress: Optional[ProgressCallback] = None, **parameters: Any) -> dict:
     """The exact topology of an isosurface, without a mesh.
 
@@ -124,11 +127,12 @@ def topology(array: Any, isovalue: Union[float, str], *, spacing: Union[Sequence
     boundary and spacing count. Lengths between samples matter only where field.smooth is given.
 
     Returns a dict: "components", "euler_characteristic", "boundary_loops" of the whole, and "isosurface", a list of
-    {"euler_characteristic", "boundary_loops", "count"} of components that are alike.
+    {"euler_characteristic", "boundary_loops", "count"} of components that are alike. Ctrl-C raises KeyboardInterrupt,
+    and a callback that returns False RuntimeError.
     """
-    own = _array(array)
-    return json.loads(_deliso.topology(own, _isovalue(own, isovalue), _rows(spacing, affine),
-                                       _named(parameters, spacing), _count(threads, "threads", _MOST_THREADS), progress))
+    own, named = _array(array), _named(parameters, spacing)
+    return json.loads(_deliso.topology(own, _isovalue(own, isovalue, named), _rows(spacing, affine), named,
+                                       _count(threads, "threads", _MOST_THREADS), _callback(progress)))
 
 
 def info(array: Any) -> dict:
@@ -146,111 +150,35 @@ def parameters() -> dict:
             for name, default, allowed, unit, effect in _deliso.parameters()}
 
 
-def load_volume(path: Any, *, channel: Optional[int] = None, name: str = "") -> Volume:
+def load_volume(path: Any, *, channel: Optional[int] = None, name: Optional[str] = "") -> Volume:
     """Reads NRRD, NIfTI, MetaImage, VTK, NumPy, MRC, INR, PVM or .raw files, packed or not: (array, affine, space, units).
 
     channel   of a file with several values a voxel, or several volumes: which one, counted from 0
     name      of a .vtk or .vti file with several arrays: which one
+
+    Index 0 of the array is the file's x. Of a .npy file that is the last index, as in the program: its array is the
+    transpose of what numpy.load gives.
     """
     number = None if channel is None else _count(channel, "channel", _MOST_SEED)
-    array, rows, space, units = _deliso.load_volume(str(path), number, name)
+    if name is not None and not isinstance(name, str):
+        raise ValueError(f"name: expected the name of an array, found {_shown(name)}")
+    array, rows, space, units = _deliso.load_volume(_path(path), number, _text(name or ""))
     return Volume(array, numpy.array(rows + [[0, 0, 0, 1]]), space, units)
 
 
 def load_mesh(path: Any) -> tuple:
     """Reads .ply, .off, .obj, .stl, .mesh, .vtk or .vtp: ((n, 3) float64 vertices, (m, 3) int32 triangles)."""
-    return _deliso.load_mesh(str(path))
+    return _deliso.load_mesh(_path(path))
 
 
-def save_mesh(path: Any, vertices: Any, triangles: Any) -> None:
-    """Writes a mesh, whole or not at all: .ply, .off, .obj, .stl, .mesh, .msh, .smesh, .vtk, .vtp or .glb."""
-    _deliso.save_mesh(str(path), _numbers(vertices, "vertices"), _whole(triangles))
+def save_mesh(path: Any, vertices: Any, triangles: Any, report: Optional[Mapping[str, Any]] = None) -> None:
+    """Writes a mesh, whole or not at all: .ply, .off, .obj, .stl, .mesh, .msh, .smesh, .vtk, .vtp or .glb.
 
-
-def _array(array: Any) -> numpy.ndarray:
-    if numpy.ma.is_masked(array):
-        raise ValueError("array: some samples are masked; give them a value, as array.filled(value) does")
-    own = numpy.asarray(array)
-    if not own.dtype.isnative:
-        own = own.astype(own.dtype.newbyteorder("="))
-    # Strides of 0 alone would be taken for none: one number for all samples is copied.
-    return own.copy() if own.size > 1 and not any(own.strides) else own
-
-
-def _count(value: Any, name: str, most: int) -> int:
-    try:
-        count = operator.index(value)
-    except TypeError:
-        count = -1
-    if not 0 <= count <= most:
-        raise ValueError(f"{name}: expected a whole number, 0 to {most}, found {value!r}")
-    return count
-
-
-def _numbers(values: Any, name: str) -> numpy.ndarray:
-    if numpy.iscomplexobj(values):
-        raise ValueError(f"{name}: expected real numbers, found complex ones")
-    try:
-        return numpy.ascontiguousarray(values, dtype=numpy.float64)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: expected numbers ({error})") from None
-
-
-def _whole(triangles: Any) -> numpy.ndarray:
-    own = numpy.asarray(triangles)
-    if own.size > 0 and own.dtype.kind not in "iu":
-        raise ValueError(f"triangles: expected whole numbers, found the dtype {own.dtype}")
-    return numpy.ascontiguousarray(own, dtype=numpy.int64)
-
-
-def _number(value: Any, name: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name}: expected a number, found {value!r}") from None
-
-
-def _isovalue(array: numpy.ndarray, isovalue: Union[float, str]) -> float:
-    if not isinstance(isovalue, str):
-        return _number(isovalue, "isovalue")
-    found = info(array)
-    if isovalue in found["named_isovalues"]:
-        return found["named_isovalues"][isovalue]
-    try:
-        share = float(isovalue[:-1]) / 100 if isovalue.endswith("%") else -1.0
-    except ValueError:
-        share = -1.0
-    if not 0 <= share <= 1:
-        raise ValueError(f"isovalue: expected a number, 'otsu', 'mean', 'median' or 'P%', found '{isovalue}'")
-    low, high = found["range"]
-    return low + share * (high - low)
-
-
-def _rows(spacing: Union[Sequence[float], str, None], affine: Any) -> list:
-    if isinstance(spacing, str):
-        spacing = None  # the parameter of this name
-    if affine is None:
-        own = numpy.ones(3) if spacing is None else _numbers(spacing, "spacing")
-        if own.shape != (3,):
-            raise ValueError(f"spacing: expected three lengths, found {spacing}")
-        lengths = own.tolist()
-        return [[lengths[row] if row == column else 0.0 for column in range(4)] for row in range(3)]
-    if spacing is not None:
-        raise ValueError("expected spacing or affine, found both: an affine map has the spacing in it")
-    own = _numbers(affine, "affine")
-    if own.shape not in ((4, 4), (3, 4)) or (own.shape == (4, 4) and own[3].tolist() != [0, 0, 0, 1]):
-        raise ValueError(f"affine: expected an array of the shape (3, 4), or (4, 4) with the last row 0 0 0 1, found {affine}")
-    return own[:3].tolist()
-
-
-def _named(given: Mapping[str, Any], spacing: Any) -> dict:
-    """The parameters by their own names: `stage2_rho`, `"stage2.rho"` and `stage2={"rho": ...}` are one."""
-    known = {name.replace(".", "_"): name for name, *_ in _deliso.parameters()}
-    groups = {name.split(".")[0] for name in known.values() if "." in name}
-    found: dict = {"spacing": spacing} if isinstance(spacing, str) else {}
-    for key, value in given.items():
-        if isinstance(value, Mapping) and key in groups:
-            found.update({f"{key}.{inner}": of_inner for inner, of_inner in value.items()})
-        else:
-            found[known.get(key, key)] = value
-    return found
+    report   what mesh() has returned with it, save_mesh(path, *mesh(...)): the file then says what `deliso verify` has
+             to know of field, region, components left out and the distance promised
+    """
+    comments = [] if report is None else report.get("comments") if isinstance(report, Mapping) else None
+    if not isinstance(comments, list) or not all(isinstance(line, str) for line in comments):
+        raise ValueError("report: expected the report that mesh() returns, with its 'comments'")
+    _deliso.save_mesh(_path(path), _numbers(vertices, "vertices"), _whole(triangles),
+                      [_text(line) for line in comments])
