@@ -157,14 +157,6 @@ class SecondOpinions(unittest.TestCase):
         open_mesh = deliso.verify(vertices.tolist(), triangles[1:].tolist(), array, ISOVALUE)
         self.assertIn("boundary", " ".join(open_mesh["failures"]))
 
-    def test_the_worst_distance_of_triangles_without_area(self):
-        array = two_balls()
-        vertices = deliso.mesh(array, ISOVALUE).vertices
-        judged = deliso.verify(vertices, [[0, 0, len(vertices) - 1]], array, ISOVALUE)
-        figure = judged["checks"]["distance"]["mesh_to_isosurface"]
-        self.assertGreater(figure["max_voxels"], 1)
-        self.assertTrue(any(f"{figure['max_voxels']:.6f}" in failure for failure in judged["failures"]))
-
     def test_topology_is_exact(self):
         found = deliso.topology(two_balls(), ISOVALUE)
         self.assertEqual((found["components"], found["euler_characteristic"], found["boundary_loops"]), (1, 2, 0))
