@@ -132,15 +132,15 @@ class DistanceBins {
   std::array<Bin, kBins> bins_;
 };
 
-constexpr double kFarther = 0x1p44, kFarthest = 0x1p57;  // are others than remainders
+constexpr double kFarApart = 0x1p44, kFarthestApart = 0x1p57;  // are others from remainders
 
 std::optional<SamplesMeant> remainders_within(const ScalarGrid& grid, double isovalue, double distance) {
   const SamplesMeant meant = samples_within(grid, isovalue, distance);
   const double farthest = std::max(meant.highest - isovalue, isovalue - meant.lowest);
   const double others = std::min(isovalue - meant.below, meant.above - isovalue);
-  if (!(others < kInfinity) || others < kFarther * farthest) return std::nullopt;
+  if (!(others < kInfinity) || others < kFarApart * farthest) return std::nullopt;
   const bool is_between = meant.below > -kInfinity && meant.above < kInfinity;
-  const bool are_remainders = is_between && others <= kFarthest * farthest;
+  const bool are_remainders = is_between && others <= kFarthestApart * farthest;
   return meant.lowest == meant.highest || are_remainders ? std::optional(meant) : std::nullopt;
 }
 
@@ -149,11 +149,11 @@ std::optional<SamplesMeant> remainders_within(const ScalarGrid& grid, double iso
 // arbitrarily small, as samples that count are beside fill values.
 std::optional<SamplesMeant> remainders_meant(const ScalarGrid& grid, double isovalue, const Neighbors& near) {
   const double nearest = std::min(isovalue - near.lower, near.higher - isovalue);
-  if (!(kFarther * nearest <= grid.range().second - grid.range().first)) return std::nullopt;
+  if (!(kFarApart * nearest <= grid.range().second - grid.range().first)) return std::nullopt;
   DistanceBins distances;
   for_each_sample(grid, [&](double s) { distances.add(std::abs(s - isovalue)); });
   std::optional<SamplesMeant> largest;
-  for (const double most : distances.before_jumps(kFarther)) {
+  for (const double most : distances.before_jumps(kFarApart)) {
     const std::optional<SamplesMeant> meant = remainders_within(grid, isovalue, most);
     if (meant) largest = meant;
   }
