@@ -93,8 +93,11 @@ bool has_integers(const ScalarGrid& grid) {
                        []<class Sample>(const SampleArray<Sample>&) { return std::is_integral_v<Sample>; });
 }
 
-std::optional<SamplesMeant> steps_meant(const ScalarGrid& grid, double isovalue) {
+std::optional<SamplesMeant> steps_meant(const ScalarGrid& grid, double isovalue, const Neighbors& near) {
   const double size = std::abs(isovalue);
+  if (!near.equal && near.lower < isovalue - kRounding * size && near.higher > isovalue + kRounding * size) {
+    return std::nullopt;
+  }
   const SamplesMeant meant = samples_within(grid, isovalue, kRounding * size);
   if (meant.is_empty() || meant.below == -kInfinity) return std::nullopt;
   const bool is_alone = meant.highest - meant.lowest <= kSame * size && meant.lowest - meant.below > kApart * size &&
@@ -229,7 +232,7 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   if (is_surely_regular(grid, isovalue)) return isovalue;
   const Neighbors near = find_neighbors(grid, isovalue);
   std::optional<SamplesMeant> meant = remainders_meant(grid, isovalue, near);
-  if (!meant && !has_integers(grid)) meant = steps_meant(grid, isovalue);
+  if (!meant && !has_integers(grid)) meant = steps_meant(grid, isovalue, near);
   if (!meant) {
     const double most = isovalue + kSame * std::abs(isovalue);
     return near.equal ? lowered_below_sample(grid, isovalue, isovalue, most) : isovalue;

@@ -121,7 +121,7 @@ class PartsOfTriangle {
 // theirs: whether the isosurface passes by each of these corners as near as is left. It does where it is as flat as the
 // triangle, most of the large ones.
 bool is_near_by_points(const Isosurface& isosurface, const Part& corners, double squared_longest, double most) {
-  constexpr double kLeastLeft = 1.0 / 16;                        // of the distance
+  constexpr double kLeastLeft = 1.0 / 4;                         // of the distance: with less, too many fail
   const double longest = std::sqrt(squared_longest / 3) / most;  // the farthest that a point may be from the corners
   const int pieces = static_cast<int>(std::ceil(longest / (1 - kLeastLeft)));
   const double left = (1 - longest / pieces) * most;
@@ -146,7 +146,7 @@ std::int64_t count_far_parts(const Isosurface& isosurface, const std::array<Vec3
                 squared_distance(corners[2], corners[0])});
   // Every point of a triangle is within its longest edge over the square root of 3 of a corner.
   if (squared_longest <= 3 * most * most) return 0;
-  constexpr double kFew = 6;  // parts of the distance: edges so long take twelve points at most
+  constexpr double kFew = 12;  // parts of the distance: edges so long take 63 points at most
   if (squared_longest <= kFew * kFew * most * most && is_near_by_points(isosurface, corners, squared_longest, most)) {
     return 0;
   }
