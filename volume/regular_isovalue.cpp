@@ -42,14 +42,51 @@ struct Neighbors {
   double higher = kInfinity;  // the smallest sample above it
 };
 
+// Of samples given one after the other, by turns to several searches: no sample waits for the comparison of the one
+// before it.
+class NeighborSearch {
+ public:
+  explicit NeighborSearch(double value) : value_(value) {
+    lower_.fill(-kInfinity);
+    higher_.fill(kInfinity);
+  }
+  void add(std::size_t turn, double s) {
+    const double below = s < value_ ? s : -kInfinity, above = s > value_ ? s : kInfinity;
+    lower_[turn] = below > lower_[turn] ? below : lower_[turn];
+    higher_[turn] = above < higher_[turn] ? above : higher_[turn];
+    equal_[turn] += s == value_ ? 1 : 0;
+  }
+  [[nodiscard]] Neighbors found() const {
+    return {std::any_of(equal_.begin(), equal_.end(), [](double count) { return count > 0; }),
+            *std::max_element(lower_.begin(), lower_.end()), *std::min_element(higher_.begin(), higher_.end())};
+  }
+
+  static constexpr std::size_t kTurns = 8;
+
+ private:
+  double value_;
+  std::array<double, kTurns> lower_{}, higher_{}, equal_{};
+};
+
+template <class Sample, class Value>
+Neighbors find_neighbors_in(const SampleArray<Sample>& samples, double value, const Value& value_of) {
+  NeighborSearch search(value);
+  const Sample* const at = samples.data();
+  std::size_t i = 0;
+  for (; i + NeighborSearch::kTurns <= samples.size(); i += NeighborSearch::kTurns) {
+    for (std::size_t turn = 0; turn < NeighborSearch::kTurns; ++turn) search.add(turn, value_of(at[i + turn]));
+  }
+  for (; i < samples.size(); ++i) search.add(0, value_of(at[i]));
+  return search.found();
+}
+
 Neighbors find_neighbors(const ScalarGrid& grid, double value) {
-  Neighbors found;
-  for_each_sample(grid, [&](double s) {
-    if (s == value) found.equal = true;
-    if (s < value && s > found.lower) found.lower = s;
-    if (s > value && s < found.higher) found.higher = s;
+  return visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& samples) {
+    if (!grid.walls()) return find_neighbors_in(samples, value, [](Sample s) { return static_cast<double>(s); });
+    return find_neighbors_in(samples, value, [layer = samples.front()](Sample s) {
+      return s == layer ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(s);
+    });
   });
-  return found;
 }
 
 // Where an isovalue is that equals a sample, as a fraction of the gap to the next lower sample value.
@@ -163,9 +200,11 @@ std::optional<SamplesMeant> remainders_meant(const ScalarGrid& grid, double isov
   return largest;
 }
 
-// Whether samples have a value from `least` to `most`, and along some axis lower ones on both sides: there two sheets
-// of the isosurface meet, or leave a wall, a wire or a grain as thin as the isovalue is lowered.
-bool is_thin_at(const ScalarGrid& grid, double least, double most) {
+// Whether samples have a value from `least` to `most`, and along some axis lower ones on both sides (or higher ones):
+// there two sheets of the isosurface meet, or leave a wall, a wire or a grain as thin as the isovalue is moved.
+enum class Beside { kLower, kHigher };
+bool is_thin_at(const ScalarGrid& grid, double least, double most, Beside beside) {
+  const auto is_beside = [&](double s) { return beside == Beside::kLower ? s < least : s > most; };
   return visit_samples(grid.samples(), [&](const auto& samples) {
     const std::array<std::size_t, 3> n = {static_cast<std::size_t>(grid.dims()[0]),
                                           static_cast<std::size_t>(grid.dims()[1]),
@@ -175,8 +214,8 @@ bool is_thin_at(const ScalarGrid& grid, double least, double most) {
       if (const auto s = static_cast<double>(samples[i]); s < least || s > most) continue;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t at = i / stride.at(axis) % n.at(axis);
-        if (at > 0 && at + 1 < n.at(axis) && static_cast<double>(samples[i - stride.at(axis)]) < least &&
-            static_cast<double>(samples[i + stride.at(axis)]) < least) {
+        if (at > 0 && at + 1 < n.at(axis) && is_beside(static_cast<double>(samples[i - stride.at(axis)])) &&
+            is_beside(static_cast<double>(samples[i + stride.at(axis)]))) {
           return true;
         }
       }
@@ -204,7 +243,7 @@ double lowered_below_sample(const ScalarGrid& grid, double given, double sample,
       const double lower = sample - kLowered * std::max(1.0, std::abs(sample));
       return std::isfinite(lower) ? lower : std::nextafter(sample, -kInfinity);
     }
-    const double lowered = has_lower && is_thin_at(grid, sample, most) ? kLoweredWhereThin : kLowered;
+    const double lowered = has_lower && is_thin_at(grid, sample, most, Beside::kLower) ? kLoweredWhereThin : kLowered;
     for (const double fraction : {lowered, 0.5}) {
       const double candidate = sample - fraction * gap;
       if (candidate < sample && candidate > near.lower) return candidate;
@@ -217,9 +256,19 @@ double lowered_below_sample(const ScalarGrid& grid, double given, double sample,
   return sample;
 }
 
+constexpr double kNear = 1e-6;  // of an integer: no other number is meant
+
+// Of integers, some of them a hair from the isovalue: away from them, on the side of them that it is on.
+double away_from_integers(const ScalarGrid& grid, double isovalue, const Neighbors& near) {
+  if (near.lower == -kInfinity || near.higher == kInfinity) return isovalue;
+  if (near.higher - isovalue <= kNear) return lowered_below_sample(grid, isovalue, near.higher, near.higher);
+  if (isovalue - near.lower > kNear) return isovalue;
+  const double raised = is_thin_at(grid, near.lower, near.lower, Beside::kHigher) ? kLoweredWhereThin : kLowered;
+  return near.lower + raised * (near.higher - near.lower);
+}
+
 // Whether no sample is so near to the isovalue that it might equal it, as its type alone tells.
 bool is_surely_regular(const ScalarGrid& grid, double isovalue) {
-  constexpr double kNear = 1e-6;
   const bool never_equal = visit_samples(grid.samples(), [isovalue]<class Sample>(const SampleArray<Sample>&) {
     return SideTest<Sample>(isovalue).never_equal();
   });
@@ -235,7 +284,8 @@ double regular_isovalue(const ScalarGrid& grid, double isovalue) {
   if (!meant && !has_integers(grid)) meant = steps_meant(grid, isovalue, near);
   if (!meant) {
     const double most = isovalue + kSame * std::abs(isovalue);
-    return near.equal ? lowered_below_sample(grid, isovalue, isovalue, most) : isovalue;
+    if (near.equal) return lowered_below_sample(grid, isovalue, isovalue, most);
+    return has_integers(grid) ? away_from_integers(grid, isovalue, near) : isovalue;
   }
   if (meant->below == -kInfinity && meant->lowest < isovalue) {
     return meant->lowest + kLowered * (meant->above - meant->lowest);

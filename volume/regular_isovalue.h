@@ -18,6 +18,9 @@ namespace deliso {
 // where it lies just above the lowest one, raised by that; if all samples are equal, lowered by 1 % of their amount and
 // 0.01 at least. When a gap is too narrow to hold a double, the next gap below is taken; throws InputError when none is
 // left. A layer around walls() is no part of the volume, and does not count.
+//
+// Within 1e-6 of samples that are integers, an isovalue is moved away from them likewise, but stays on the side of them
+// that it is on: 0.999999999 is lowered, 1.000000001 raised. (The surface would pinch at each of them.)
 double regular_isovalue(const ScalarGrid& grid, double isovalue);
 
 // A value lowered by 1 % of the gap to the next lower sample value. It lies between the same sample values, so the same

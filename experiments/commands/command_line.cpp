@@ -1,5 +1,6 @@
 #include "experiments/commands/command_line.h"
 
+#include <cmath>
 #include <cstdint>
 #include <iostream>
 #include <limits>
@@ -178,11 +179,20 @@ Volume load_volume(const VolumeOptions& options) {
   return volume;
 }
 
+namespace {
+
+bool has_sample_at(const ScalarGrid& grid, double value) {
+  return samples_around(grid, std::nextafter(value, std::numeric_limits<double>::infinity())).first == value;
+}
+
+}  // namespace
+
 void remark_isovalue(const ScalarGrid* grid, double isovalue, double used) {
   if (used == isovalue) return;
   const std::string at = grid == nullptr                                 ? "a sample or a saddle of the interpolant"
-                         : regular_isovalue(*grid, isovalue) != isovalue ? "a sample"
-                                                                         : "a saddle of the interpolant";
+                         : regular_isovalue(*grid, isovalue) == isovalue ? "a saddle of the interpolant"
+                         : has_sample_at(*grid, isovalue)                ? "a sample"
+                                                                         : "up to rounding, a sample";
   // Few digits, unless they would be those of the isovalue itself.
   const std::string used_text = short_text(used) == short_text(isovalue) ? shortest_text(used) : short_text(used);
   std::cerr << "deliso: " << at << " equals the isovalue " << shortest_text(isovalue)

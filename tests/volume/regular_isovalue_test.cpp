@@ -121,6 +121,27 @@ TEST(RegularIsovalue, IsTheIsovalueItselfAmongSamplesThatHardlyDiffer) {
   EXPECT_DOUBLE_EQ(regular_isovalue(large, 100'000'000), 100'000'000 - 0.01);
 }
 
+// The same samples are above and below it, but the surface no longer pinches at those next to it.
+TEST(RegularIsovalue, IsMovedAwayFromIntegersOnTheirSide) {
+  for (const double hair : {1e-12, 1e-9, 4e-8}) {
+    const std::vector<std::int16_t> wide = {10, 20, 20, 30, 10, 20, 40, 40};
+    const ScalarGrid grid({2, 2, 2}, wide);
+    EXPECT_DOUBLE_EQ(regular_isovalue(grid, 20 * (1 - hair)), 19.9);
+    EXPECT_DOUBLE_EQ(regular_isovalue(grid, 20 * (1 + hair)), 20.1);
+    const ScalarGrid thin({3, 2, 2}, std::vector<std::int16_t>{10, 20, 10, 10, 10, 10, 30, 20, 30, 30, 30, 30});
+    EXPECT_DOUBLE_EQ(regular_isovalue(thin, 20 * (1 - hair)), 20 - 3.82);
+    EXPECT_DOUBLE_EQ(regular_isovalue(thin, 20 * (1 + hair)), 20 + 3.82);
+    // Nothing lies beyond the lowest and the highest sample, and samples that are no integers differ by less.
+    EXPECT_EQ(regular_isovalue(grid, 10 * (1 - hair)), 10 * (1 - hair));
+    EXPECT_EQ(regular_isovalue(grid, 40 * (1 + hair)), 40 * (1 + hair));
+  }
+  const ScalarGrid near({2, 2, 2}, std::vector<std::int16_t>{0, 0, 0, 0, 1, 1, 1, 1});
+  EXPECT_EQ(regular_isovalue(near, 1e-5), 1e-5);
+  EXPECT_DOUBLE_EQ(regular_isovalue(near, 1e-9), 0.01);
+  const ScalarGrid floats({2, 2, 2}, std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1});
+  EXPECT_EQ(regular_isovalue(floats, 1e-9), 1e-9);
+}
+
 TEST(RegularIsovalue, TellsTheSamplesAroundAValue) {
   const ScalarGrid grid({2, 2, 2}, std::vector<float>{1, 3, 3, 1, 7, 7, 1, 1});
   EXPECT_EQ(samples_around(grid, 3.5), std::pair(3.0, 7.0));
