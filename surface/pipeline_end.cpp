@@ -17,24 +17,12 @@
 #include "surface/certificate/kept_components.h"
 #include "surface/certificate/mesh_pieces.h"
 #include "surface/mesh/side_adjacency.h"
-#include "surface/mesh/triangle_shape.h"
+#include "surface/mesh/triangle_area.h"
 #include "surface/pipeline.h"
 #include "surface/refine/refine.h"
 #include "surface/shape/shape.h"
 
 namespace deliso {
-
-namespace {
-
-std::int64_t count_without_area(const SurfaceMesh& mesh) {
-  constexpr double kSurelyNot = 1e-20;  // squared sine of an angle
-  return std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
-    const Vec3 &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]], &c = mesh.points[triangle[2]];
-    return !(squared_sine_of_least_angle(a, b, c) > kSurelyNot) && !has_area(a, b, c);
-  });
-}
-
-}  // namespace
 
 void Pipeline::finish(SurfaceMesh& mesh, const RefineOptions& options) {
   if (parameters_.size.max_edge) limit_edges(mesh, options);

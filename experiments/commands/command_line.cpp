@@ -147,6 +147,13 @@ void crop(Volume& volume, const SampleRegion& region) {
     map.offset = map.offset + volume.first[axis] * map.columns[axis];
   }
   volume.grid = cropped(volume.grid, region);
+  if (!volume.as_read) return;
+  // What stands for NaN and infinities is taken from these samples alone.
+  const auto [low, high] = finite_range(*volume.as_read);
+  ScalarGrid finite(volume.grid.dims(), with_finite_samples(*volume.as_read, low, low, high), volume.grid.spacing(),
+                    volume.grid.origin());
+  finite.set_backwards(volume.grid.backwards());
+  volume.grid = std::move(finite);
 }
 
 }  // namespace

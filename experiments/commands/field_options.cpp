@@ -63,7 +63,9 @@ ScalarGrid finite_grid(const Volume& volume, const FieldOptions& options, const 
                        const SampleRegion& region, double isovalue) {
   const ScalarGrid& grid = volume.grid;
   const bool is_above = (options.nan == "inside") != parameters.invert;
-  const auto [lowest, highest] = region.is_all() ? grid.range() : cropped(grid, region).range();
+  // Of what is read: in the grid NaN has a value by now.
+  const auto [lowest, highest] =
+      finite_range(region.is_all() ? *volume.as_read : cropped(*volume.as_read, grid, region));
   double low = std::min(lowest, 2 * isovalue - highest), high = std::max(highest, 2 * isovalue - lowest);
   double nan = is_above ? high : low;
   if (parameters.label) {

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/counted.h"
+#include "delaunay/base/shortest_text.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -106,7 +108,22 @@ Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volum
   return {std::move(chosen), std::move(field), std::move(verification)};
 }
 
-void print_judged(const Json& report, const Volume& volume, const VerifyCommandOptions& options, const Judged& judged) {
+// What the verdict is of: its bound, and what the mesh may lack. A mesh file may name a large bound, and much left out.
+std::string scope_text(const VerifyCommandOptions& options, const Promise& promise) {
+  const std::string of_file = ", as the mesh file says";
+  std::string text = "distances both ways are at most " + short_text(promise.max_distance) +
+                     (promise.max_distance == 1 ? " voxel" : " voxels");
+  if (options.max_distance.empty() && promise.max_distance != PromiseParameters().max_distance) text += of_file;
+  if (promise.dropped_components > 0) {
+    text += "; " + counted(promise.dropped_components, "component", "components") + " left out" +
+            (options.dropped.empty() ? of_file : "");
+  }
+  if (!options.volume.region.empty()) text += "; of the region " + options.volume.region;
+  return text;
+}
+
+void print_judged(const Json& report, const Volume& volume, const VerifyCommandOptions& options, const Promise& promise,
+                  const Judged& judged) {
   const Verification& v = judged.verification;
   // Where the report goes to standard output, nothing else does.
   std::ostream& out = is_standard_stream(options.report) ? std::cerr : std::cout;
@@ -116,7 +133,9 @@ void print_judged(const Json& report, const Volume& volume, const VerifyCommandO
   }
   remark_isovalue(&judged.field.grid, judged.chosen.isovalue, v.isovalue_used);
   const std::string field = field_text(judged.chosen.parameters);
-  out << '\n' << (v.proven ? "proven" : "not proven") << (field.empty() ? "" : ": " + field) << '\n';
+  out << '\n'
+      << (v.proven ? "proven" : "not proven") << (field.empty() ? "" : ": " + field) << " ("
+      << scope_text(options, promise) << ")\n";
   for (const std::string& failure : v.failures) out << "  " << failure << '\n';
   constexpr std::size_t kMostDifferences = 10;
   const std::vector<std::string>& differences = v.topology.differences;
@@ -175,7 +194,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
     const Promise promise = promise_of(label);
     const Judged judged = judge(options, part_with_label(mesh, label), volume, world, parameters, promise);
     reports.push_back(verify_report(options, volume, world, promise, judged));
-    print_judged(reports.back(), volume, options, judged);
+    print_judged(reports.back(), volume, options, promise, judged);
     is_proven = is_proven && judged.verification.proven;
   }
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';

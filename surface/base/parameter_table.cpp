@@ -248,8 +248,9 @@ constexpr std::array kTable = {
     row<&P::components, &ComponentParameters::fill_cavities>(
         "components.fill_cavities", kAny, "",
         "leave out closed components that bound a hole in what is inside, and all within them"),
-    row<&P::components, &ComponentParameters::min_vertices>("components.min_vertices", kAtLeastOne, "vertices",
-                                                            "leave out components with fewer vertices in the mesh"),
+    row<&P::components, &ComponentParameters::min_vertices>(
+        "components.min_vertices", kAtLeastOne, "vertices",
+        "leave out components with fewer vertices, before a stated size removes some"),
     row<&P::components, &ComponentParameters::min_area>("components.min_area", kPositive, "voxels^2",
                                                         "leave out components of a smaller area"),
     row<&P::components, &ComponentParameters::min_volume>(

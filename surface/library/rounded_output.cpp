@@ -13,6 +13,7 @@
 #include "surface/intersection/self_intersection.h"
 #include "surface/mesh/io/mesh_io.h"
 #include "surface/mesh/mesh_frame.h"
+#include "surface/mesh/triangle_area.h"
 
 namespace deliso {
 namespace {
@@ -36,18 +37,23 @@ void judge_rounding(const TriangleMesh& mesh, const Affine& to_world, double vox
   constexpr double kFarthest = 5e-4;
   TriangleMesh rounded = as_stored(transformed(mesh, to_world), format, metres);
   if (!std::all_of(rounded.points.begin(), rounded.points.end(), is_finite)) return;
+  const std::int64_t flat_as_written = count_without_area(rounded);
   if (is_moved) rounded = transformed(std::move(rounded), to_world.inverse());
   double moved = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     moved = std::max(moved, distance(rounded.points[v], mesh.points[v]) / voxel);
   // In STL vertices are one where they coincide; in other files they are what their numbers say.
   const std::int64_t together = format == MeshFormat::kStl ? coinciding(rounded.points) : 0;
-  const std::int64_t crossing = self_intersections(rounded).crossing_pairs;
+  const SelfIntersections found = self_intersections(rounded);
+  const std::int64_t crossing = found.crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
-  if (together == 0 && !crosses && moved <= kFarthest) return;
+  const std::int64_t flat = std::max(flat_as_written, found.zero_area_triangles);
+  const bool is_flat = flat > count_without_area(mesh);
+  if (together == 0 && !crosses && !is_flat && moved <= kFarthest) return;
   const std::string what = "; here vertices move by up to " + short_text(moved) + " voxels, " +
-                           counted(together, "vertex coincides with another", "vertices coincide with others") +
-                           " and " + counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + ".";
+                           counted(together, "vertex coincides with another", "vertices coincide with others") + ", " +
+                           counted(crossing, "pair of triangles crosses", "pairs of triangles cross") + " and " +
+                           counted(flat, "triangle has no area", "triangles have no area") + ".";
   certificate.broken.push_back(keeps_floats(format)
                                    ? path + ": " + std::string(name_of(format)) +
                                          " rounds coordinates to single precision" + what +

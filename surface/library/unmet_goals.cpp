@@ -1,12 +1,16 @@
 // What a report says of goals that were not reached.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "delaunay/base/counted.h"
 #include "delaunay/base/shortest_text.h"
 #include "surface/library/run_report.h"
+#include "surface/mesh/triangle_shape.h"
 
 namespace deliso {
 namespace {
@@ -21,6 +25,33 @@ std::string what_fewer_do_not_keep(const SizeParameters& size, double distance) 
   return "fewer do not keep the topology, the angles" +
          (size.max_edge ? ", edges of at most " + short_text(*size.max_edge) : std::string()) + " and a distance of " +
          short_text(distance) + (distance == 1 ? " voxel" : " voxels");
+}
+
+// The angle and the ratio of longest edge to smallest height asked for, where triangles miss them.
+void append_unmet_shapes(const SizeParameters& size, const TriangleMesh& mesh, std::vector<std::string>& goals) {
+  if (!size.min_angle && !size.max_aspect) return;
+  constexpr double kDegree = std::numbers::pi / 180, kRounding = 1 + 1e-9;
+  const double least_wanted = std::sin(size.min_angle.value_or(0) * kDegree);
+  std::int64_t small = 0, slender = 0;
+  double least = 1, most = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
+    const double sine = sine_of_least_angle(a, b, c), longest = longest_edge({a, b, c});
+    const double aspect = longest * longest / norm(cross(b - a, c - a));
+    small += sine * kRounding < least_wanted ? 1 : 0;
+    slender += size.max_aspect && aspect > kRounding * *size.max_aspect ? 1 : 0;
+    least = std::min(least, sine);
+    most = std::max(most, aspect);
+  }
+  if (small > 0) {
+    goals.push_back("size.min_angle: " + counted(small, "triangle has", "triangles have") + " a smaller angle than " +
+                    short_text(*size.min_angle) + " degrees, the least " + short_text(std::asin(least) / kDegree));
+  }
+  if (slender > 0) {
+    goals.push_back("size.max_aspect: " + counted(slender, "triangle has", "triangles have") +
+                    " a longest edge of more than " + short_text(*size.max_aspect) +
+                    " times its smallest height, the most " + short_text(most));
+  }
 }
 
 // The sizes asked for that a run to its end did not reach.
@@ -42,6 +73,7 @@ std::vector<std::string> unmet_sizes(const SizeParameters& size, const MeshingRe
     goals.push_back("size.max_edge: the longest edge has " + short_text(result.longest_edge) + " voxels, not " +
                     short_text(*size.max_edge) + ": insertions beside it were refused");
   }
+  append_unmet_shapes(size, result.mesh, goals);
   return goals;
 }
 

@@ -81,7 +81,8 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineLoop loop(part, task.isosurface, task.options, counted);
     loop.run(controls, threads.count());
     if (round == Round::kRest) release_free_memory();  // the peak memory may be in the check
-    if (!task.options.restart_at_crossings) {
+    // Of a run that is stopped nothing is promised, and its time is over.
+    if (!task.options.restart_at_crossings || (restarts == 0 && controls.stopped())) {
       stats = counted;
       return;
     }

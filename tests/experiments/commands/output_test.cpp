@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/config/json.h"
@@ -134,6 +135,19 @@ TEST_F(Output, MeshesThatRoundingSpoilsAreNotCalledProven) {
     EXPECT_EQ(json["certificate"]["proven"], is_kept);
     EXPECT_EQ(json["certificate"]["broken"].empty(), is_kept);
     EXPECT_EQ(run_deliso({"verify", folder_ / name, volume_, "--isovalue", "0"}).exit_code, is_kept ? 0 : 1);
+  }
+}
+
+// Samples over 24 decades: corners that single precision, or a tilted map to the world, brings into one line.
+TEST_F(Output, TrianglesThatRoundingLeavesWithoutAreaAreNotCalledProven) {
+  for (const auto& [volume, name] :
+       {std::pair{"flat_when_rounded.nrrd", "flat.stl"}, std::pair{"flat_in_world.nrrd", "flat.ply"}}) {
+    SCOPED_TRACE(name);
+    const std::string path = std::string(DELISO_SOURCE_DIR) + "/tests/regression/" + volume, written = folder_ / name;
+    const ProgramResult result = run_deliso({"mesh", path, "--isovalue", "0", "-o", written});
+    EXPECT_EQ(result.exit_code, run_deliso({"verify", written, path, "--isovalue", "0"}).exit_code) << result.err;
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("no area"), std::string::npos) << result.err;
   }
 }
 

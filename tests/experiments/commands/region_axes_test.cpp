@@ -163,5 +163,25 @@ TEST_F(RegionAxes, MessagesNameSamplesAndRegionsAsTheFileDoes) {
   }
 }
 
+// A region is meshed as a file of its samples alone, whatever lies beyond it.
+TEST_F(RegionAxes, NotANumberIsAsFarBeyondTheIsovalueAsSamplesOfTheRegion) {
+  std::vector<float> samples = two_balls();
+  samples[2 + kBallNx * (3 + kBallNy * 2)] = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> others = samples;
+  others[13] = -5e4F;
+  for (const std::string side : {"inside", "outside"}) {
+    std::vector<std::string> bodies;
+    for (const std::vector<float>& all : {samples, others}) {
+      write_file(folder_ / "n.nrrd", two_balls_file(kTilted, all));
+      const ProgramResult result = run({"mesh", folder_ / "n.nrrd", "-o", folder_ / "n.ply", "--nan", side}, kLow);
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_EQ(run({"verify", folder_ / "n.ply", folder_ / "n.nrrd"}, {"--nan", side}).exit_code, 0);
+      const std::string file = read_file(folder_ / "n.ply");
+      bodies.push_back(file.substr(file.find("end_header")));
+    }
+    EXPECT_TRUE(bodies[0] == bodies[1]) << side;
+  }
+}
+
 }  // namespace
 }  // namespace deliso::testing

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,19 @@ TEST_F(SizeOptionsTest, AnEdgeThatIsLongerThanAskedForIsUnmet) {
   EXPECT_TRUE(json("noise.json")["unmet"].empty());
 }
 
+TEST_F(SizeOptionsTest, AnglesAndRatiosThatAreMissedAreUnmet) {
+  for (const auto& [option, value, key] :
+       {std::tuple{"--min-angle", "35", "size.min_angle: "}, std::tuple{"--max-aspect", "3", "size.max_aspect: "}}) {
+    const ProgramResult result = mesh({option, value, "--set", "shape.rounds=0"});
+    ASSERT_EQ(json("r.json")["unmet"].size(), 1u) << option;
+    const std::string said = json("r.json")["unmet"][0];
+    EXPECT_EQ(said.find(key), 0u) << said;
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+  }
+  mesh({"--min-angle", "1", "--max-aspect", "40"});
+  EXPECT_TRUE(json("r.json")["unmet"].empty());
+}
+
 TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--keep-largest", "1"},
                                                   {"--min-component", "area:100"},
@@ -97,9 +111,16 @@ TEST_F(SizeOptionsTest, WhatIsLeftOutIsToldAndKnownToVerify) {
     EXPECT_NE(made.err.find("left out: 1 component "), std::string::npos) << made.err;
     EXPECT_EQ(json("r.json")["dropped"].size(), 1u);
     EXPECT_EQ(json("r.json")["components"], 1);
-    EXPECT_EQ(verify().exit_code, 0);
+    // Any file may say so, so it is part of the verdict.
+    const ProgramResult verified = verify();
+    EXPECT_EQ(verified.exit_code, 0);
+    EXPECT_NE(verified.out.find("at most 1 voxel; 1 component left out, as the mesh file says)"), std::string::npos)
+        << verified.out;
     EXPECT_EQ(verify({"--dropped", "0"}).exit_code, 1);
   }
+  mesh({"--max-error", "0.25"});
+  EXPECT_NE(verify().out.find("(distances both ways are at most 0.25 voxels, as the mesh file says)"),
+            std::string::npos);
   EXPECT_EQ(mesh({"--keep-largest", "1"}, "m.off").exit_code, 0);
   EXPECT_EQ(verify({}, "m.off").exit_code, 0);
   EXPECT_EQ(mesh({"--keep-largest", "1"}, "m.stl").exit_code, 0);
