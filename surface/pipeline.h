@@ -78,6 +78,7 @@ class Pipeline {
   void look_in_world(SurfaceMesh& mesh);
   void uncross_by_steps(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);
+  bool merge_in_world(SurfaceMesh& mesh) const;
   MeshFaults shaped_cubes(SurfaceMesh& mesh);
   void take_back_shape(const ShapeStats& before);
   void bring_cubes_near(SurfaceMesh& mesh, MeshFaults& faults);

@@ -168,7 +168,11 @@ void Pipeline::certify(SurfaceMesh mesh) {
     squared_longest = std::max(squared_longest, squared_longest_edge(mesh, t));
   }
   result_.longest_edge = std::max(result_.longest_edge, std::sqrt(squared_longest));
-  const std::int64_t without_area = count_without_area(mesh);
+  std::int64_t without_area = count_without_area(mesh);
+  if (without_area > 0 && !controls_.stopped() && merge_in_world(mesh)) {
+    without_area = count_without_area(mesh);
+    if (parameters_.certify) last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
+  }
   if (result_.shape.seconds > 0) {
     count_bad_triangles(mesh, shape_options(parameters_), options_.threads, result_.shape);
   }

@@ -11,6 +11,7 @@
 #include "surface/certificate/finer_cubes.h"
 #include "surface/certificate/geometry_check.h"
 #include "surface/mesh/equal_vertices.h"
+#include "surface/mesh/flat_triangles.h"
 #include "surface/pipeline.h"
 #include "surface/repair/finish/last_resort.h"
 #include "surface/repair/lattice/cell_pieces.h"
@@ -18,11 +19,23 @@
 
 namespace deliso {
 
+// Merges vertices that are written at one place, and flips triangles in one line, which may bring such together.
+bool Pipeline::merge_in_world(SurfaceMesh& mesh) const {
+  constexpr int kMostTimes = 16;
+  bool is_changed = false;
+  for (int time = 0; time < kMostTimes; ++time) {
+    is_changed = merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0 || is_changed;
+    if (flip_flat_triangles(mesh) == 0) break;
+    is_changed = true;
+  }
+  return is_changed;
+}
+
 // Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to
 // crossing triangles in mesh space.
 void Pipeline::look_in_world(SurfaceMesh& mesh) {
   const bool is_exact = is_exact_in_world(*isosurface_);
-  if (!is_exact && merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh) > 0) {
+  if (!is_exact && merge_in_world(mesh)) {
     last_.geometry = check_geometry(mesh, *surface_, promise_);
   }
   if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || last_.crossing.crossing_pairs > 0 || !is_exact) {
@@ -120,7 +133,7 @@ void Pipeline::take_back_shape(const ShapeStats& before) {
 // to the distance promised at what the others have left too far; or as they were.
 MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
   constexpr int kMostTimes = 3;
-  merge_equal_vertices(places_in_world(mesh, *isosurface_), mesh);
+  merge_in_world(mesh);
   const ShapeStats shape_before = result_.shape;
   Observer* const observer = controls_.observer();
   controls_.set_observer(nullptr);  // the mesh may be taken back
@@ -134,7 +147,7 @@ MeshFaults Pipeline::shaped_cubes(SurfaceMesh& mesh) {
     } else {
       improve_within_promise(shaped, missed);
     }
-    merge_equal_vertices(places_in_world(shaped, *isosurface_), shaped);
+    merge_in_world(shaped);
     faults = faults_of(shaped);
     if (faults.count() > 0 && !unshaped) unshaped = faults_of(mesh);
     if (!unshaped || faults.count() <= unshaped->count()) {

@@ -9,12 +9,15 @@
 
 namespace deliso {
 
+inline bool is_without_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kSurelyNot = 1e-20;  // squared sine of an angle
+  return !(squared_sine_of_least_angle(a, b, c) > kSurelyNot) && !has_area(a, b, c);
+}
+
 template <class Mesh>
 std::int64_t count_without_area(const Mesh& mesh) {
-  constexpr double kSurelyNot = 1e-20;  // squared sine of an angle
   return std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
-    const Vec3 &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]], &c = mesh.points[triangle[2]];
-    return !(squared_sine_of_least_angle(a, b, c) > kSurelyNot) && !has_area(a, b, c);
+    return is_without_area(mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]]);
   });
 }
 
