@@ -226,6 +226,7 @@ ExitCode run_info(const InfoCommandOptions& options) {
   }
   const Volume volume = load_volume(options.volume);
   const Looked looked = look_at(volume, options);
+  print_units_remark(options.volume.path, volume, {options.smooth});
   const Json report = info_report(options, volume, looked);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   if (is_standard_stream(options.report)) return ExitCode::kDone;  // the JSON stands there already

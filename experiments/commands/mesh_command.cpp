@@ -164,6 +164,10 @@ void print_volume_remarks(const MeshCommandOptions& options, const Volume& volum
   for (const std::string& remark : field_remarks(volume, options.field, chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  std::vector<std::string> lengths = options.assignments;
+  const SizeOptions& sizes = options.sizes;
+  lengths.insert(lengths.end(), {options.field.smooth, sizes.max_error, sizes.max_edge, sizes.min_component});
+  print_units_remark(options.volume.path, volume, lengths);
   const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen);
   if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
 }

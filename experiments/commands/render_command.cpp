@@ -248,6 +248,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  print_units_remark(options.volume.path, volume, {options.field.smooth});
   remark_isovalue(&grid, field.chosen.isovalue, used);
   remark_meshes_outside(panels, framed);
   return ExitCode::kDone;

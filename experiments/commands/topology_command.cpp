@@ -9,6 +9,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/field_options.h"
+#include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
@@ -87,6 +88,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  print_units_remark(options.volume.path, volume, {options.field.smooth});
   remark_isovalue(&field.meshed.grid, field.chosen.isovalue, used);
   return ExitCode::kDone;
 }

@@ -179,6 +179,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
     is_proven = is_proven && judged.verification.proven;
   }
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
+  print_units_remark(options.volume.path, volume, {options.max_distance, options.field.smooth});
   if (!options.report.empty()) write_text(json_text(one_or_all(std::move(reports))), options.report);
   return is_proven ? ExitCode::kDone : ExitCode::kNotProven;
 }
