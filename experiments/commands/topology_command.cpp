@@ -56,6 +56,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"--report", options.report}});
   const Stopwatch stopwatch;
   const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
   const RegularTopology regular = regular_topology(field.meshed.grid, field.meshed.isovalue);

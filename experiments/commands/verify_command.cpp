@@ -150,6 +150,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
   if (options.volume.region.empty()) options.volume.region = kept.region;
   if (kept.ignores_spacing) options.ignore_spacing = true;
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"--report", options.report}});
   take_world_notes(file.comments, volume, options.world);
   const World world = world_of(volume, options.world);
   // Of several labels in a file each has its own.

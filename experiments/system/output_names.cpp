@@ -47,6 +47,13 @@ void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Name
   }
 }
 
+void check_apart_from_data(const std::vector<fs::path>& data_files, const std::vector<NamedFile>& outputs) {
+  std::vector<NamedFile> inputs;
+  inputs.reserve(data_files.size());
+  for (const fs::path& file : data_files) inputs.push_back({"the samples of VOLUME", file});
+  check_distinct(inputs, outputs);
+}
+
 void check_one_standard_output(const std::vector<NamedFile>& outputs) { check_one(outputs, "standard output"); }
 
 void check_one_standard_input(const std::vector<NamedFile>& inputs) { check_one(inputs, "standard input"); }

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "volume/affine.h"
 #include "volume/io/base/byte_stream.h"
@@ -40,6 +42,8 @@ struct Volume {
   // Where the grid is a part of what was read: the origin of the whole, from which local coordinates count.
   std::optional<Vec3> whole_origin{};
   std::array<std::int32_t, 3> first{};  // the file's number of the part's first sample
+  // Where the file is a header, or a folder: those that hold the samples.
+  std::vector<std::filesystem::path> data_files{};
 };
 
 // Which of several values to read where a file has more than one.

@@ -243,7 +243,9 @@ Volume read_nifti(UnpackedFile& file, const ChannelChoice& choice) {
   } catch (const InputError& error) {
     bytes.fail(std::string("the data file ") + error.what());
   }
-  return read_described(image->bytes(), volume, choice, image->mappable());
+  Volume read = read_described(image->bytes(), volume, choice, image->mappable());
+  read.data_files = {image->file().path()};
+  return read;
 }
 
 }  // namespace deliso
