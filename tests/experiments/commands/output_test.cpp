@@ -74,6 +74,8 @@ TEST_F(Output, TakesThePlaceOfNoOtherOutput) {
   expect_clash(mesh({"-o", mesh_, "--report", mesh_}), "--report", "-o");
   expect_clash(mesh({"-o", mesh_, "--report", again}), "--report", "-o");
   expect_clash(mesh({"-o", mesh_, "--stage1-out", again}), "--stage1-out", "-o");
+  fs::create_symlink("later.ply", folder_ / "dangling.ply");
+  expect_clash(mesh({"-o", folder_ / "dangling.ply", "--stage1-out", folder_ / "later.ply"}), "--stage1-out", "-o");
   // Neither is there yet.
   expect_clash(mesh({"-o", folder_ / "new.ply", "--stage1-out", folder_ / "././new.ply"}), "--stage1-out", "-o");
   expect_clash(mesh({"-o", mesh_, "--stage1-out", folder_ / "s.ply", "--report", folder_ / "s.ply"}), "--report",
