@@ -50,6 +50,20 @@ TYPED_TEST(RawOfType, OptionsGoBeforeTheName) {
   EXPECT_EQ(grid.origin(), (Vec3{-1, -2, -3}));
 }
 
+TEST(VolumeFile, AttributesInQuotesMayHoldTheEndOfATag) {
+  const TemporaryFolder directory;
+  for (const char quote : {'"', '\''}) {
+    write_text(directory / "a.vti",
+               std::string("<?xml version=\"1.0\"?>\n<!-- it's -->\n<VTKFile type=\"ImageData\">"
+                           "<ImageData WholeExtent=\"0 1 0 1 0 1\"><Piece Extent=\"0 1 0 1 0 1\"><PointData>"
+                           "<DataArray type=\"UInt8\" format=\"ascii\" Name=") +
+                   quote + "a > b />" + quote +
+                   ">1 2 3 4 5 6 7 8</DataArray></PointData></Piece></ImageData></VTKFile>\n");
+    const ScalarGrid grid = read_volume(directory / "a.vti");
+    EXPECT_EQ(grid.samples(), Samples(std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+  }
+}
+
 TEST(VolumeFile, RawNamesMayHaveMoreWords) {
   const TemporaryFolder directory;
   const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
