@@ -64,6 +64,18 @@ TEST(VolumeFile, AttributesInQuotesMayHoldTheEndOfATag) {
   }
 }
 
+TEST(VolumeFile, InrKeysMayHaveBlanksAroundTheirSign) {
+  const TemporaryFolder directory;
+  std::string header =
+      "#INRIMAGE-4#{\nXDIM = 2\nYDIM =2\n\tZDIM\t= 2 \r\nTYPE = unsigned fixed\nPIXSIZE= 8 bits\nCPU = decm\n"
+      "VX = 2\nVY = 3\nVZ= 4\n";
+  header.resize(256 - 4, '\n');
+  write_text(directory / "a.inr", header + "##}\nabcdefgh");
+  const ScalarGrid grid = read_volume(directory / "a.inr");
+  EXPECT_EQ(grid.dims(), (Dims{2, 2, 2}));
+  EXPECT_EQ(grid.spacing(), (Vec3{2, 3, 4}));
+}
+
 TEST(VolumeFile, RawNamesMayHaveMoreWords) {
   const TemporaryFolder directory;
   const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
