@@ -128,6 +128,19 @@ TEST_F(BadVolume, GeometryThatIsNone) {
   }
 }
 
+// The header is to blame, not the file of the samples.
+TEST_F(BadVolume, MetaImagesWithoutASenseOrWithTwo) {
+  const std::string head = "NDims = 3\nElementType = MET_UCHAR\n", tail = "ElementDataFile = d.raw\n";
+  write_text(directory_ / "d.raw", kSamples);
+  refuse(head + "DimSize = 2 3 2\nTransformMatrix = 1 0 0 1 0 0 0 0 1\n" + tail, {"v.mhd: ", "in a plane"}, "v.mhd");
+  refuse(head + "DimSize = 2 3 2\nDimSize = 3 2 2\n" + tail,
+         {"line 4", "\"DimSize\"", "\"3 2 2\"", "\"2 3 2\"", "expected one value"}, "v.mhd");
+  refuse(head + "DimSize = 2 3 2\nElementSpacing = 1 1 1\nElementSpacing = 2 3 4\n" + tail,
+         {"line 5", "\"ElementSpacing\""}, "v.mhd");
+  write_text(directory_ / "v.mhd", head + "DimSize = 2 3 2\nDimSize = 2 3 2\n" + tail);
+  EXPECT_EQ(read_volume(directory_ / "v.mhd").at(1, 2, 1), 'l');
+}
+
 TEST_F(BadVolume, DataFilesAndSkipsThatLeadNowhere) {
   const auto with = [](const std::string& lines) {
     Header header;

@@ -59,6 +59,10 @@ void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleL
 // volume is axis-parallel (the map stays that of the file). To be called before the samples are read.
 void turn_forwards(VolumeDescription& description);
 
+// Throws InputError naming the file of the header when the geometry is none that can be computed with; where the
+// samples lie in another file, to be called before that is opened.
+void check_geometry(const ByteStream& header, const VolumeDescription& description);
+
 // The volume, with finite samples. Throws InputError naming the file when the geometry is none that can be computed
 // with, or no sample is finite.
 Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples);

@@ -35,8 +35,12 @@ class MetaFields {
       if (equals == std::string::npos)
         file.fail("line " + std::to_string(n) + ": " + in_quotes(*line) +
                   " is no header line, expected \"Key = value\"");
-      std::string key = trimmed_text(line->substr(0, equals));
-      fields_[key] = trimmed_text(line->substr(equals + 1));
+      const std::string key = trimmed_text(line->substr(0, equals));
+      const std::string value = trimmed_text(line->substr(equals + 1));
+      const auto [known, is_new] = fields_.emplace(key, value);
+      if (!is_new && known->second != value)
+        file.fail("line " + std::to_string(n) + ": \"" + key + "\" is " + in_quotes(value) + ", but " +
+                  in_quotes(known->second) + " in a line before, expected one value: delete one of the lines");
       if (key == "ElementDataFile") return;
     }
     file.fail("the header has no key \"ElementDataFile\", its last line");
@@ -260,6 +264,7 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
   layout.endian = fields.is_true("BinaryDataByteOrderMSB") || fields.is_true("ElementByteOrderMSB") ? Endian::kBig
                                                                                                     : Endian::kLittle;
   take_meta_geometry(fields, axes, volume);
+  check_geometry(bytes, volume);
   choose_channel(bytes, choice, layout);
   const std::uint64_t count = std::uint64_t{sample_count_of(bytes, layout.dims)};
   constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
