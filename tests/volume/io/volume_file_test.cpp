@@ -76,6 +76,15 @@ TEST(VolumeFile, InrKeysMayHaveBlanksAroundTheirSign) {
   EXPECT_EQ(grid.spacing(), (Vec3{2, 3, 4}));
 }
 
+TEST(VolumeFile, NoFileIsCalledPackedThatIsNot) {
+  const TemporaryFolder directory;
+  const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
+  for (const char* name : {"a.nrrd.gz", "a_2x3x4_float32.raw.gz", "a.nrrd.GZ"}) {
+    expect_input_error([&] { write_volume(grid, directory / name); }, {"expected .nrrd"}, name);
+    EXPECT_FALSE(std::filesystem::exists(directory / name));
+  }
+}
+
 TEST(VolumeFile, RawNamesMayHaveMoreWords) {
   const TemporaryFolder directory;
   const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
