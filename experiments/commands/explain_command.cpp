@@ -70,8 +70,10 @@ std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options, const
     check_field_options(field);
     VolumeOptions volume;
     volume.path = options.volume;
-    const ChosenField chosen = choose_field(options.volume, load_volume(volume), field, meshing.parameters.field,
-                                            region_of(meshing.parameters.region));
+    const Volume loaded = load_volume(volume);
+    check_apart_from_data(loaded.data_files, {{"-o", options.output}, {"--trace", options.trace}});
+    const ChosenField chosen =
+        choose_field(options.volume, loaded, field, meshing.parameters.field, region_of(meshing.parameters.region));
     runs.push_back(
         run_observed(std::filesystem::path(options.volume).filename().string(), chosen.grid, chosen.isovalue, meshing));
   }

@@ -225,7 +225,9 @@ ExitCode run_info(const InfoCommandOptions& options) {
     return run_mesh_info(options.volume.path, options.mesh, options.report, options.json);
   }
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"--report", options.report}});
   const Looked looked = look_at(volume, options);
+  print_units_remark(options.volume.path, volume, {options.smooth});
   const Json report = info_report(options, volume, looked);
   if (!options.report.empty()) write_text(json_text(report), options.report);
   if (is_standard_stream(options.report)) return ExitCode::kDone;  // the JSON stands there already

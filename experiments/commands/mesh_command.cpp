@@ -1,7 +1,6 @@
 // deliso mesh: a volume and an isovalue in, a certified Delaunay mesh out.
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -69,24 +68,27 @@ Parameters resolved_parameters(const MeshCommandOptions& options, const Volume* 
   return parameters;
 }
 
+std::vector<NamedFile> named_outputs(const MeshCommandOptions& options, std::optional<std::int32_t> label) {
+  return {{"-o", name_for(options.output, label)},
+          {"--stage1-out", name_for(options.stage1_output, label)},
+          {"--report", name_for(options.report, label)}};
+}
+
 // Finds everything that could prevent the results from being written before the work starts.
 void check_outputs(const MeshCommandOptions& options, const std::vector<std::int32_t>& labels) {
   check_label_names(options.output, "-o", labels, output_format(options.output, "-o", options.format));
-  const bool has_stage1 = !options.stage1_output.empty();
-  check_label_names(
-      options.stage1_output, "--stage1-out", labels,
-      has_stage1 ? std::optional(output_format(options.stage1_output, "--stage1-out", {})) : std::nullopt);
+  std::optional<MeshFormat> stage1_format;
+  if (!options.stage1_output.empty()) stage1_format = output_format(options.stage1_output, "--stage1-out", {});
+  check_label_names(options.stage1_output, "--stage1-out", labels, stage1_format);
   check_label_names(options.report, "--report", labels, std::nullopt);
-  const Labels runs = runs_of(labels);
-  for (const std::optional<std::int32_t> label : runs) {
+  for (const std::optional<std::int32_t> label : runs_of(labels)) {
     const std::string output = name_for(options.output, label), stage1 = name_for(options.stage1_output, label),
                       report = name_for(options.report, label);
     check_mesh_output(output, "-o", options.format);
     if (!stage1.empty()) check_mesh_output(stage1, "--stage1-out", {"", options.format.gmsh_version});
     if (!report.empty()) check_writable(report, "--report");
-    check_one_standard_output({{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
-    check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}},
-                   {{"-o", output}, {"--stage1-out", stage1}, {"--report", report}});
+    check_one_standard_output(named_outputs(options, label));
+    check_distinct({{"VOLUME", options.volume.path}, {"--config", options.config}}, named_outputs(options, label));
   }
 }
 
@@ -164,6 +166,10 @@ void print_volume_remarks(const MeshCommandOptions& options, const Volume& volum
   for (const std::string& remark : field_remarks(volume, options.field, chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  std::vector<std::string> lengths = options.assignments;
+  const SizeOptions& s = options.sizes;
+  lengths.insert(lengths.end(), {options.field.smooth, s.max_error, s.max_edge, s.min_component});
+  print_units_remark(options.volume.path, volume, lengths);
   const std::string remark = kinds_remark(kind_of_samples(chosen.grid), &chosen);
   if (!remark.empty()) std::cerr << "deliso: " << remark << '\n';
 }
@@ -212,6 +218,7 @@ ExitCode run_mesh(const MeshCommandOptions& options) {
   check_outputs(options, labels);
   meshing.stop = &catch_stop_signals();
   const Volume volume = load_volume(options.volume);
+  for (const auto label : runs_of(labels)) check_apart_from_data(volume.data_files, named_outputs(options, label));
   const World world = world_of(volume, options.world);
   meshing.parameters = resolved_parameters(options, &volume);
   const std::string sha256 = sha256_as_read(volume);

@@ -200,6 +200,7 @@ void check_mesh_options(const RenderCommandOptions& options) {
   std::vector<NamedFile> inputs = {{"VOLUME", options.volume.path}};
   for (const std::string& mesh : options.meshes) inputs.push_back({"--mesh", mesh});
   check_one_standard_input(inputs);
+  check_distinct(inputs, {{"-o", options.output}});
 }
 
 ExitCode run_render(const RenderCommandOptions& options) {
@@ -217,6 +218,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   check_mesh_options(options);
 
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"-o", options.output}});
   const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
   const ScalarGrid& grid = field.meshed.grid;
   const double used = regular_isovalue(grid, field.meshed.isovalue);
@@ -248,6 +250,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  print_units_remark(options.volume.path, volume, {options.field.smooth});
   remark_isovalue(&grid, field.chosen.isovalue, used);
   remark_meshes_outside(panels, framed);
   return ExitCode::kDone;

@@ -2,6 +2,8 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "delaunay/base/check.h"
 #include "experiments/commands/command.h"
@@ -12,6 +14,8 @@
 #include "experiments/runs/experiment_datasets.h"
 #include "experiments/runs/run_progress.h"
 #include "experiments/runs/runner.h"
+#include "experiments/system/files.h"
+#include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 #include "experiments/system/progress_bar.h"
 #include "experiments/system/stop_signal.h"
@@ -75,6 +79,15 @@ fs::path data_folder(const RunCommandOptions& options) {
   return options.data;
 }
 
+// The experiment's file may be the folder's own, which stays as it is, but nothing that takes its place.
+void check_experiment_stays(const RunCommandOptions& options, const Experiment& experiment, const fs::path& folder) {
+  std::vector<NamedFile> outputs;
+  for (const std::string_view name : kResultFiles) outputs.push_back({"--out", folder / name});
+  if (read_text(options.experiment) != json_text(experiment_to_json(experiment)))
+    outputs.push_back({"--out", folder / "experiment.json"});
+  check_distinct({{"EXPERIMENT", options.experiment}}, outputs);
+}
+
 ExitCode run_run(const RunCommandOptions& options) {
   // The experiment and every option are checked before the first run.
   Experiment experiment = read_experiment(options.experiment);
@@ -83,6 +96,7 @@ ExitCode run_run(const RunCommandOptions& options) {
   RunnerOptions runner;
   runner.data_folder = data_folder(options);
   runner.out_folder = options.out.empty() ? fs::path("out") / experiment.name : fs::path(options.out);
+  check_experiment_stays(options, experiment, runner.out_folder);
   runner.shard = parse_shard(options.shard);
   runner.threads = parse_threads(options.threads);
   constexpr std::uint64_t kMostJobs = 1024;

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "delaunay/base/check.h"
@@ -11,6 +12,7 @@
 #include "experiments/results/comparison.h"
 #include "experiments/results/results.h"
 #include "experiments/runs/experiment_config.h"
+#include "experiments/system/output_names.h"
 #include "experiments/system/parse_number.h"
 
 namespace deliso {
@@ -40,6 +42,9 @@ ExitCode run_comparison(const TableCommandOptions& options, const std::vector<st
 ExitCode run_table(const TableCommandOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
   const std::filesystem::path target = options.output.empty() ? folders.front() : std::filesystem::path(options.output);
+  std::vector<NamedFile> outputs;
+  for (const std::string_view name : kResultFiles) outputs.push_back({"-o", target / name});
+  check_distinct({{"--experiment", options.experiment}}, outputs);
   if (!options.by.empty()) return run_comparison(options, folders, target);
   Experiment experiment = experiment_of(folders);
   if (!options.experiment.empty()) experiment = experiment_for_records(options.experiment, experiment);

@@ -9,6 +9,7 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/field_options.h"
+#include "experiments/commands/world.h"
 #include "experiments/runs/record.h"
 #include "experiments/system/files.h"
 #include "experiments/system/output_names.h"
@@ -55,6 +56,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   if (!options.report.empty()) check_writable(options.report, "--report");
   check_distinct({{"VOLUME", options.volume.path}}, {{"--report", options.report}});
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"--report", options.report}});
   const Stopwatch stopwatch;
   const FieldOfOptions field = field_of_options(options.volume.path, volume, options.field, options.closed);
   const RegularTopology regular = regular_topology(field.meshed.grid, field.meshed.isovalue);
@@ -87,6 +89,7 @@ ExitCode run_topology(const TopologyCommandOptions& options) {
   for (const std::string& remark : field_remarks(volume, options.field, field.chosen)) {
     std::cerr << "deliso: " << remark << '\n';
   }
+  print_units_remark(options.volume.path, volume, {options.field.smooth});
   remark_isovalue(&field.meshed.grid, field.chosen.isovalue, used);
   return ExitCode::kDone;
 }

@@ -169,6 +169,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
   if (options.volume.region.empty()) options.volume.region = kept.region;
   if (kept.ignores_spacing) options.ignore_spacing = true;
   const Volume volume = load_volume(options.volume);
+  check_apart_from_data(volume.data_files, {{"--report", options.report}});
   take_world_notes(file.comments, volume, options.world);
   const World world = world_of(volume, options.world);
   // Of several labels in a file each has its own.
@@ -198,6 +199,7 @@ ExitCode run_verify(VerifyCommandOptions options) {
     is_proven = is_proven && judged.verification.proven;
   }
   if (world.is_sheared) std::cerr << "deliso: " << shear_remark(world) << '\n';
+  print_units_remark(options.volume.path, volume, {options.max_distance, options.field.smooth});
   if (!options.report.empty()) write_text(json_text(one_or_all(std::move(reports))), options.report);
   return is_proven ? ExitCode::kDone : ExitCode::kNotProven;
 }

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
@@ -26,13 +28,56 @@ Json name_json(const std::string& name) { return name.empty() ? Json() : Json(na
 
 std::string or_unknown(const std::string& name) { return name.empty() ? "unknown" : name; }
 
-// Units of the world in a millimetre; 1 where the volume does not say its units.
-double units_in_a_millimetre(const std::string& units) {
-  if (units == "m") return 1e-3;
-  if (units == "cm") return 0.1;
-  if (units == "um" || units == "microns" || units == "µm") return 1e3;
-  if (units == "nm") return 1e6;
-  return units == "angstrom" ? 1e7 : 1;
+// Units of the world in a millimetre; none where the name is not known.
+std::optional<double> units_in_a_millimetre(const std::string& units) {
+  // The micro sign and the Greek letter look alike.
+  static constexpr std::array<std::pair<std::string_view, double>, 29> kUnits{{{"mm", 1},
+                                                                               {"millimeter", 1},
+                                                                               {"millimeters", 1},
+                                                                               {"millimetre", 1},
+                                                                               {"millimetres", 1},
+                                                                               {"m", 1e-3},
+                                                                               {"meter", 1e-3},
+                                                                               {"meters", 1e-3},
+                                                                               {"metre", 1e-3},
+                                                                               {"metres", 1e-3},
+                                                                               {"cm", 0.1},
+                                                                               {"centimeter", 0.1},
+                                                                               {"centimeters", 0.1},
+                                                                               {"km", 1e-6},
+                                                                               {"um", 1e3},
+                                                                               {"\u00b5m", 1e3},
+                                                                               {"\u03bcm", 1e3},
+                                                                               {"micron", 1e3},
+                                                                               {"microns", 1e3},
+                                                                               {"micrometer", 1e3},
+                                                                               {"micrometers", 1e3},
+                                                                               {"micrometre", 1e3},
+                                                                               {"micrometres", 1e3},
+                                                                               {"nm", 1e6},
+                                                                               {"angstrom", 1e7},
+                                                                               {"angstroms", 1e7},
+                                                                               {"inch", 1 / 25.4},
+                                                                               {"inches", 1 / 25.4},
+                                                                               {"in", 1 / 25.4}}};
+  for (const auto& [name, in_a_millimetre] : kUnits) {
+    if (name == units) return in_a_millimetre;
+  }
+  return std::nullopt;
+}
+
+// Where the file names no units, those of the world are taken for millimetres (print_units_remark).
+double millimetre_of(const Volume& volume, const std::string& option) {
+  const std::string& units = volume.placement.units;
+  if (units.empty()) return 1;
+  if (const std::optional<double> unit = units_in_a_millimetre(units)) return *unit;
+  throw InputError(option + ": a length in mm needs units that are known, the volume's are " + in_quotes(units) +
+                   ", expected mm, um, inch or the like; give it in units of the world with w, as in 0.5w, or in "
+                   "voxels, as in 0.5");
+}
+
+bool is_in_millimetres(std::string_view text) {
+  return text.ends_with("mm") || text.ends_with("mm2") || text.ends_with("mm3");
 }
 
 }  // namespace
@@ -86,7 +131,7 @@ double parse_length(const std::string& text, const std::string& option, const Vo
   const double length = parse_number(number, option, text);
   if (volume == nullptr) return length;
   const Vec3& s = volume->grid.spacing();
-  const double unit = in_millimetres ? units_in_a_millimetre(volume->placement.units) : 1;
+  const double unit = in_millimetres ? millimetre_of(*volume, option) : 1;
   return length * unit / std::min({s.x, s.y, s.z});
 }
 
@@ -101,6 +146,12 @@ std::string with_length_in_voxels(const std::string& assignment, const Volume* v
   const std::string value = assignment.substr(equals + 1);
   if (!value.ends_with("mm") && !value.ends_with("w")) return assignment;
   return key + "=" + shortest_text(parse_length(value, "--set " + key, volume));
+}
+
+void print_units_remark(const std::string& path, const Volume& volume, const std::vector<std::string>& lengths) {
+  if (!volume.placement.units.empty() || !std::any_of(lengths.begin(), lengths.end(), is_in_millimetres)) return;
+  std::cerr << "deliso: " << path
+            << ": the file names no units of its space; units of its world are taken for millimetres\n";
 }
 
 std::vector<std::string> mesh_comments(const std::string& volume_path, const std::string& sha256, double isovalue,
@@ -137,9 +188,8 @@ std::optional<double> promised_distance(const std::vector<std::string>& comments
 }
 
 std::optional<double> metres_in_unit(const std::string& units) {
-  const bool is_millimetre = units == "mm";
-  if (!is_millimetre && units_in_a_millimetre(units) == 1) return std::nullopt;
-  return 1e-3 / units_in_a_millimetre(units);
+  const std::optional<double> unit = units_in_a_millimetre(units);
+  return unit ? std::optional(1e-3 / *unit) : std::nullopt;
 }
 
 Json source_json(const Volume& volume) {

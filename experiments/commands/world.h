@@ -36,11 +36,16 @@ World world_of(const Volume& volume, const WorldOptions& options);
 void check_space(const std::string& space);
 
 // A length as typed, in voxels (smallest spacings): a plain number, or with the suffix `w` in units of the world, or
-// with `mm`. Throws InputError naming the option. Without a volume only the form is checked.
+// with `mm`. Throws InputError naming the option, also where the volume's units have a name that is not known. Without
+// a volume only the form is checked.
 double parse_length(const std::string& text, const std::string& option, const Volume* volume);
 // An assignment `key=value` of --set with its value in voxels, where the key is a length and the value is in units of
 // the world; any other as it is.
 std::string with_length_in_voxels(const std::string& assignment, const Volume* volume);
+
+// One line on stderr where one of these lengths, as typed, is in mm (or areas in mm2, volumes in mm3) and the file does
+// not tell its units.
+void print_units_remark(const std::string& path, const Volume& volume, const std::vector<std::string>& lengths);
 
 // Metres in a unit of the world; none where the units are unknown.
 std::optional<double> metres_in_unit(const std::string& units);

@@ -1,13 +1,20 @@
 // The results of an experiment in folders: records in, tables out.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/runs/experiment.h"
 
 namespace deliso {
+
+// What write_tables and write_comparison write besides plots: no input may lie there.
+inline constexpr std::array<std::string_view, 9> kResultFiles{"table.md",       "table.csv",       "table.json",
+                                                              "table.tex",      "table.py",        "comparison.md",
+                                                              "comparison.csv", "comparison.json", "comparison.tex"};
 
 // The experiment of which these folders hold records. Throws InputError when a folder has no experiment.json, or
 // another experiment's.

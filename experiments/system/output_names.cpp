@@ -5,6 +5,7 @@
 
 #include "delaunay/base/check.h"
 #include "experiments/system/files.h"
+#include "volume/io/base/atomic_file.h"
 
 namespace deliso {
 namespace {
@@ -15,8 +16,8 @@ bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
   // At least one of them does not exist yet.
-  const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
-  const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  const fs::path whole_a = fs::weakly_canonical(fs::absolute(behind_links(a), error), error);
+  const fs::path whole_b = fs::weakly_canonical(fs::absolute(behind_links(b), error), error);
   return !error && whole_a == whole_b;
 }
 
@@ -45,6 +46,13 @@ void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Name
     check_apart_from(outputs[i], inputs);
     check_apart_from(outputs[i], std::span(outputs).first(i));
   }
+}
+
+void check_apart_from_data(const std::vector<fs::path>& data_files, const std::vector<NamedFile>& outputs) {
+  std::vector<NamedFile> inputs;
+  inputs.reserve(data_files.size());
+  for (const fs::path& file : data_files) inputs.push_back({"the samples of VOLUME", file});
+  check_distinct(inputs, outputs);
 }
 
 void check_one_standard_output(const std::vector<NamedFile>& outputs) { check_one(outputs, "standard output"); }

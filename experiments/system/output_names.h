@@ -17,6 +17,9 @@ struct NamedFile {
 // links included. Empty names and devices (/dev/stdout) are left out.
 void check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
+// The same of the files beside a volume that hold its samples, which are known once its header is read.
+void check_apart_from_data(const std::vector<std::filesystem::path>& data_files, const std::vector<NamedFile>& outputs);
+
 // Throws InputError when more than one of the outputs is `-`, standard output.
 void check_one_standard_output(const std::vector<NamedFile>& outputs);
 

@@ -141,6 +141,10 @@ void write_volume(const ScalarGrid& grid, const std::filesystem::path& path, Nrr
 
 void write_volume(const VolumeHeader& header, const SampleSource& next, const std::filesystem::path& path,
                   NrrdEncoding encoding) {
+  // Of a packed file it is the extension of what is packed.
+  if (path.extension() == ".gz" || path.extension() == ".GZ")
+    throw InputError(path.string() +
+                     ": a volume is not written packed as a whole, expected .nrrd, whose samples are packed, or .raw");
   const std::string extension = lower_case_extension(path);
   if (extension == ".nrrd") return write_nrrd(header, next, path, encoding);
   if (extension == ".raw") return write_raw(header, next, path);

@@ -74,6 +74,8 @@ TEST_F(Output, TakesThePlaceOfNoOtherOutput) {
   expect_clash(mesh({"-o", mesh_, "--report", mesh_}), "--report", "-o");
   expect_clash(mesh({"-o", mesh_, "--report", again}), "--report", "-o");
   expect_clash(mesh({"-o", mesh_, "--stage1-out", again}), "--stage1-out", "-o");
+  fs::create_symlink("later.ply", folder_ / "dangling.ply");
+  expect_clash(mesh({"-o", folder_ / "dangling.ply", "--stage1-out", folder_ / "later.ply"}), "--stage1-out", "-o");
   // Neither is there yet.
   expect_clash(mesh({"-o", folder_ / "new.ply", "--stage1-out", folder_ / "././new.ply"}), "--stage1-out", "-o");
   expect_clash(mesh({"-o", mesh_, "--stage1-out", folder_ / "s.ply", "--report", folder_ / "s.ply"}), "--report",
@@ -92,6 +94,59 @@ TEST_F(Output, TakesThePlaceOfNoInput) {
     expect_clash(mesh({"-o", folder_ / "new.ply", "--report", report}), "--report", "--config");
   }
   expect_clash({"verify", mesh_, volume_, "--isovalue", "0", "--report", mesh_}, "--report", "MESH");
+}
+
+// Files that a header names hold the samples: one, a numbered row, a list, and the .img beside a .hdr.
+TEST_F(Output, TakesThePlaceOfNoDataFileOfAHeader) {
+  const std::string whole = ball(""), samples = whole.substr(whole.find("\n\n") + 2);
+  const std::string fields = "NRRD0004\ntype: float\ndimension: 3\nsizes: 8 8 8\nendian: little\nencoding: raw\n";
+  const std::string meta = "NDims = 3\nDimSize = 8 8 8\nElementType = MET_FLOAT\nElementDataFile = ";
+  write_file(folder_ / "s.raw", samples);
+  write_file(folder_ / "p1.raw", samples.substr(0, 1024));
+  write_file(folder_ / "p2.raw", samples.substr(1024));
+  write_file(folder_ / "one.nhdr", fields + "data file: s.raw\n");
+  write_file(folder_ / "list.nhdr", fields + "data file: LIST\np1.raw\np2.raw\n");
+  write_file(folder_ / "row.nhdr", fields + "data file: p%d.raw 1 2 1\n");
+  write_file(folder_ / "one.mhd", meta + "s.raw\n");
+  write_file(folder_ / "list.mhd", meta + "LIST\np1.raw\np2.raw\n");
+  fs::create_symlink(folder_ / "p2.raw", folder_ / "other");
+  for (const auto& [header, data] : {std::pair<std::string, std::string>{"one.nhdr", "s.raw"},
+                                     {"list.nhdr", "p1.raw"},
+                                     {"list.nhdr", "other"},
+                                     {"row.nhdr", "p2.raw"},
+                                     {"one.mhd", "s.raw"},
+                                     {"list.mhd", "p2.raw"}}) {
+    SCOPED_TRACE(header);
+    const std::string volume = folder_ / header, taken = folder_ / data, before = read_file(taken);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"mesh", volume, "--isovalue", "0", "-o", folder_ / "new.ply", "--report", taken},
+          {"mesh", volume, "--isovalue", "0", "-o", taken, "--format", "ply"},
+          {"info", volume, "--report", taken},
+          {"topology", volume, "--isovalue", "0", "--report", taken}})
+      expect_clash(arguments, arguments[0] == "mesh" && arguments[5] == taken ? "-o" : "--report",
+                   "the samples of VOLUME");
+    EXPECT_EQ(read_file(taken), before);
+  }
+}
+
+// A table of an experiment is no experiment, but may have its name.
+TEST_F(Output, TakesThePlaceOfNoExperiment) {
+  const std::string experiment =
+      R"({"title":"t","datasets":[{"name":"s","field":"sphere","size":12}],"base":{"name":"d","parameters":{}},)"
+      R"("variants":[{"name":"a","extends":"d"}],"metrics":[{"name":"v","value":"vertices"}]})";
+  const std::string here = folder_.path().string();
+  for (const std::string name : {"table.json", "experiment.json"}) {
+    const std::string file = folder_ / name;
+    write_file(file, experiment);
+    expect_clash({"run", file, "--out", here}, "--out", "EXPERIMENT");
+    EXPECT_EQ(read_file(file), experiment);
+  }
+  expect_clash({"table", here, "--experiment", folder_ / "table.json"}, "-o", "--experiment");
+  // What a run leaves there is its own file, with which another may begin.
+  const std::string out = folder_ / "out";
+  fs::remove(folder_ / "experiment.json");
+  ASSERT_EQ(run_deliso({"run", folder_ / "table.json", "--out", out}).exit_code, 0);
+  EXPECT_EQ(run_deliso({"run", out + "/experiment.json", "--out", out, "--resume"}).exit_code, 0);
 }
 
 TEST(OutputNames, DevicesAndEmptyNamesAreNoFiles) {

@@ -60,6 +60,47 @@ TEST_F(SizeOptionsTest, AnErrorIsPromisedAndKept) {
   }
 }
 
+// Spacings of 2 units, whatever these are.
+TEST_F(SizeOptionsTest, MillimetresFollowTheUnitsThatTheFileNames) {
+  const std::string written = read_file(volume()), millimetres = "space units: \"mm\" \"mm\" \"mm\"\n";
+  const auto mesh_in = [&](const std::string& units, std::vector<std::string> more) {
+    std::string bytes = written;
+    const std::string line = units.empty() ? "" : "space units: " + units + "\n";
+    write_file(volume(), bytes.replace(bytes.find(millimetres), millimetres.size(), line));
+    return mesh(more);
+  };
+  for (const auto& [units, typed] :
+       {std::pair<std::string, std::string>{"\"micron\" \"micron\" \"micron\"", "0.0005mm"},
+        {"\"\u00b5m\" \"\u00b5m\" \"\u00b5m\"", "0.0005mm"},
+        {"\"inch\" \"inch\" \"inch\"", "12.7mm"},
+        {"\"km\" \"km\" \"km\"", "500000mm"}}) {
+    const ProgramResult made = mesh_in(units, {"--max-error", typed});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_NEAR(json("r.json")["parameters"]["size"]["max_error"].get<double>(), 0.25, 1e-12) << units;
+  }
+  for (const std::string units : {"\"parsec\" \"parsec\" \"parsec\"", "\"mm\" \"mm\" \"um\""}) {
+    for (const auto& [option, typed] : {std::pair<std::string, std::string>{"--max-error", "0.5mm"},
+                                        {"--smooth", "0.5mm"},
+                                        {"--min-component", "area:2mm2"},
+                                        {"--set", "stage2.max_distance=0.5mm"}}) {
+      const ProgramResult refused = mesh_in(units, {option, typed});
+      EXPECT_EQ(refused.exit_code, 2) << units << ' ' << option;
+      EXPECT_NE(refused.err.find("the volume's are"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(mesh_in(units, {"--max-error", "0.5w"}).exit_code, 0);
+  }
+  const std::string remark = "names no units";
+  for (const std::string typed : {"0.5mm", "0.5w"}) {
+    const ProgramResult made = mesh_in("", {"--max-error", typed});
+    EXPECT_EQ(made.err.find(remark) != std::string::npos, typed == "0.5mm") << made.err;
+    EXPECT_EQ(json("r.json")["parameters"]["size"]["max_error"], 0.25);
+  }
+  EXPECT_EQ(mesh_in("", {"--max-error", "0.5mm", "--quiet"}).err.find(remark), std::string::npos);
+  EXPECT_EQ(mesh_in("\"mm\" \"mm\" \"mm\"", {"--max-error", "0.5mm"}).err.find(remark), std::string::npos);
+  const ProgramResult told = run_deliso({"topology", volume(), "--isovalue", "99.5", "--smooth", "0.5mm"});
+  EXPECT_EQ(told.err.find(remark), std::string::npos) << told.err;
+}
+
 TEST_F(SizeOptionsTest, ANumberOfVerticesIsReachedOrToldOf) {
   EXPECT_EQ(mesh({"--target-vertices", "300"}).exit_code, 0);
   EXPECT_EQ(json("r.json")["vertices"], 300);

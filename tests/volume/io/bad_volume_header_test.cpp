@@ -1,6 +1,8 @@
 // Headers that describe no volume: lines, fields, types, dimensions and geometry that are refused.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,6 +127,37 @@ TEST_F(BadVolume, GeometryThatIsNone) {
     Header header;
     header.more = lines;
     refuse(header, {"line ", part});
+  }
+}
+
+// The header is to blame, not the file of the samples.
+TEST_F(BadVolume, MetaImagesWithoutASenseOrWithTwo) {
+  const std::string head = "NDims = 3\nElementType = MET_UCHAR\n", tail = "ElementDataFile = d.raw\n";
+  write_text(directory_ / "d.raw", kSamples);
+  refuse(head + "DimSize = 2 3 2\nTransformMatrix = 1 0 0 1 0 0 0 0 1\n" + tail, {"v.mhd: ", "in a plane"}, "v.mhd");
+  refuse(head + "DimSize = 2 3 2\nDimSize = 3 2 2\n" + tail,
+         {"line 4", "\"DimSize\"", "\"3 2 2\"", "\"2 3 2\"", "expected one value"}, "v.mhd");
+  refuse(head + "DimSize = 2 3 2\nElementSpacing = 1 1 1\nElementSpacing = 2 3 4\n" + tail,
+         {"line 5", "\"ElementSpacing\""}, "v.mhd");
+  write_text(directory_ / "v.mhd", head + "DimSize = 2 3 2\nDimSize = 2 3 2\n" + tail);
+  EXPECT_EQ(read_volume(directory_ / "v.mhd").at(1, 2, 1), 'l');
+}
+
+// A mirrored volume is none that MRC can tell of.
+TEST_F(BadVolume, MrcCellsOfNoLength) {
+  std::string bytes(1024, '\0');
+  const auto put = [&bytes](std::size_t place, auto number) { std::memcpy(&bytes[place], &number, sizeof number); };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(4 * axis, std::int32_t{2});
+    put(28 + 4 * axis, std::int32_t{2});
+    put(40 + 4 * axis, 4.0f);
+  }
+  bytes[212] = kHostEndian == Endian::kLittle ? '\x44' : '\x11';
+  write_text(directory_ / "v.mrc", bytes + "abcdefgh");
+  EXPECT_EQ(read_volume(directory_ / "v.mrc").spacing(), (Vec3{2, 2, 2}));
+  for (const float length : {-4.0f, 0.0f}) {
+    put(44, length);
+    refuse(bytes + "abcdefgh", {"CELLA", "along y", "above 0"}, "v.mrc");
   }
 }
 

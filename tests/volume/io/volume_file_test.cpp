@@ -50,6 +50,41 @@ TYPED_TEST(RawOfType, OptionsGoBeforeTheName) {
   EXPECT_EQ(grid.origin(), (Vec3{-1, -2, -3}));
 }
 
+TEST(VolumeFile, AttributesInQuotesMayHoldTheEndOfATag) {
+  const TemporaryFolder directory;
+  for (const char quote : {'"', '\''}) {
+    write_text(directory / "a.vti",
+               std::string("<?xml version=\"1.0\"?>\n<!-- it's -->\n<VTKFile type=\"ImageData\">"
+                           "<ImageData WholeExtent=\"0 1 0 1 0 1\"><Piece Extent=\"0 1 0 1 0 1\"><PointData>"
+                           "<DataArray type=\"UInt8\" format=\"ascii\" Name=") +
+                   quote + "a > b />" + quote +
+                   ">1 2 3 4 5 6 7 8</DataArray></PointData></Piece></ImageData></VTKFile>\n");
+    const ScalarGrid grid = read_volume(directory / "a.vti");
+    EXPECT_EQ(grid.samples(), Samples(std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+  }
+}
+
+TEST(VolumeFile, InrKeysMayHaveBlanksAroundTheirSign) {
+  const TemporaryFolder directory;
+  std::string header =
+      "#INRIMAGE-4#{\nXDIM = 2\nYDIM =2\n\tZDIM\t= 2 \r\nTYPE = unsigned fixed\nPIXSIZE= 8 bits\nCPU = decm\n"
+      "VX = 2\nVY = 3\nVZ= 4\n";
+  header.resize(256 - 4, '\n');
+  write_text(directory / "a.inr", header + "##}\nabcdefgh");
+  const ScalarGrid grid = read_volume(directory / "a.inr");
+  EXPECT_EQ(grid.dims(), (Dims{2, 2, 2}));
+  EXPECT_EQ(grid.spacing(), (Vec3{2, 3, 4}));
+}
+
+TEST(VolumeFile, NoFileIsCalledPackedThatIsNot) {
+  const TemporaryFolder directory;
+  const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));
+  for (const char* name : {"a.nrrd.gz", "a_2x3x4_float32.raw.gz", "a.nrrd.GZ"}) {
+    expect_input_error([&] { write_volume(grid, directory / name); }, {"expected .nrrd"}, name);
+    EXPECT_FALSE(std::filesystem::exists(directory / name));
+  }
+}
+
 TEST(VolumeFile, RawNamesMayHaveMoreWords) {
   const TemporaryFolder directory;
   const ScalarGrid grid({2, 3, 4}, random_samples<float>(24, 1));

@@ -1,5 +1,6 @@
 #include "volume/io/base/atomic_file.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,14 +11,28 @@
 
 namespace deliso {
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path_, ignored);
-  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(status)) {
-    target_ = std::filesystem::canonical(path_, ignored);
+std::filesystem::path behind_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as for the system
+  std::error_code error;
+  for (int n = 0; n < kMostLinks && std::filesystem::is_symlink(path, error); ++n) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / next;
   }
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  return path;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), target_(behind_links(path_)) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(target_, ignored);
+  const bool is_there = std::filesystem::exists(status);
+  if (std::filesystem::is_symlink(target_, ignored))
+    throw InputError(path_.string() + ": cannot write here, this link leads to no file");
+  if (is_there && !std::filesystem::is_regular_file(status))
     throw InputError(path_.string() + ": cannot write here, this is not a regular file");
+  // Renaming would replace it all the same.
+  errno = 0;
+  if (is_there && ::access(target_.c_str(), W_OK) != 0) fail("the file that is there may not be written");
   // A name of our own: "x" refuses a file that exists, so another writer's file is never touched.
   constexpr int kTries = 100;
   std::string suffix = std::to_string(::getpid());
@@ -30,6 +45,9 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), tar
     if (file_ == nullptr && errno != EEXIST) break;
   }
   if (file_ == nullptr) fail("the file cannot be made");
+  // The new file lets in whom the old one did. Some file systems have no modes.
+  constexpr auto kModes = std::filesystem::perms::all;
+  if (is_there) static_cast<void>(::fchmod(::fileno(file_), static_cast<::mode_t>(status.permissions() & kModes)));
 }
 
 AtomicFile::~AtomicFile() { discard(); }

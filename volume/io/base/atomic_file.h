@@ -10,11 +10,15 @@
 
 namespace deliso {
 
+// What a path names behind its links, which need not exist; any other path as it is.
+std::filesystem::path behind_links(std::filesystem::path path);
+
 // Writes go to a temporary file beside `path`; commit() renames it to `path`. Without a commit nothing stays behind and
-// an older file of that name is left as it was. A link stays one: the file that it points to is replaced.
+// an older file of that name is left as it was. A link stays one: the file that it points to is replaced, or made. A
+// file that is replaced keeps its permissions.
 class AtomicFile {
  public:
-  // Throws InputError when no file can be made there, or `path` exists and is not a regular file.
+  // Throws InputError when no file can be made there, or `path` exists and is not a regular file or write-protected.
   explicit AtomicFile(std::filesystem::path path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

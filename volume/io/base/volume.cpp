@@ -57,6 +57,14 @@ void turn_forwards(VolumeDescription& description) {
   for (std::size_t axis = 0; axis < 3; ++axis) description.layout.flipped[axis] = map.columns[axis][axis] < 0;
 }
 
+void check_geometry(const ByteStream& header, const VolumeDescription& description) {
+  try {
+    static_cast<void>(frame_of(map_of_kept(description)));
+  } catch (const InputError& error) {
+    header.fail(error.what());
+  }
+}
+
 Volume make_volume(const ByteStream& file, const VolumeDescription& description, Samples samples) {
   try {
     const SampleFrame frame = frame_of(map_of_kept(description));
@@ -87,11 +95,7 @@ Volume read_described(ByteStream& stream, VolumeDescription description, const C
                       const InputFile* mappable) {
   choose_channel(stream, choice, description.layout);
   turn_forwards(description);
-  try {
-    static_cast<void>(frame_of(map_of_kept(description)));
-  } catch (const InputError& error) {
-    stream.fail(error.what());
-  }
+  check_geometry(stream, description);
   Samples samples = read_samples(stream, description.layout, mappable);
   return make_volume(stream, description, std::move(samples));
 }

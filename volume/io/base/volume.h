@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "volume/affine.h"
 #include "volume/io/base/byte_stream.h"
@@ -40,6 +42,8 @@ struct Volume {
   // Where the grid is a part of what was read: the origin of the whole, from which local coordinates count.
   std::optional<Vec3> whole_origin{};
   std::array<std::int32_t, 3> first{};  // the file's number of the part's first sample
+  // Where the file is a header, or a folder: those that hold the samples.
+  std::vector<std::filesystem::path> data_files{};
 };
 
 // Which of several values to read where a file has more than one.
@@ -54,6 +58,10 @@ void choose_channel(const ByteStream& file, const ChannelChoice& choice, SampleL
 // Where directions run along x, y, z in this order, but some backwards, the layout reverses these axes, so that the
 // volume is axis-parallel (the map stays that of the file). To be called before the samples are read.
 void turn_forwards(VolumeDescription& description);
+
+// Throws InputError naming the file of the header when the geometry is none that can be computed with; where the
+// samples lie in another file, to be called before that is opened.
+void check_geometry(const ByteStream& header, const VolumeDescription& description);
 
 // The volume, with finite samples. Throws InputError naming the file when the geometry is none that can be computed
 // with, or no sample is finite.

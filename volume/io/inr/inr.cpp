@@ -27,9 +27,7 @@ class InrFields {
       if (line->find("##}") != std::string::npos) return;
       const std::size_t equals = line->find('=');
       if (line->empty() || line->front() == '#' || equals == std::string::npos) continue;
-      std::string value = line->substr(equals + 1);
-      while (!value.empty() && (value.back() == ' ' || value.back() == '\r')) value.pop_back();
-      fields_[line->substr(0, equals)] = value;
+      fields_[without_blanks(line->substr(0, equals))] = without_blanks(line->substr(equals + 1));
     }
     file.fail("the header does not end: expected a line with ##}");
   }
@@ -54,6 +52,13 @@ class InrFields {
   }
 
  private:
+  // At both ends.
+  static std::string without_blanks(const std::string& text) {
+    constexpr const char* kBlanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  }
+
   ByteStream& file_;
   std::map<std::string, std::string> fields_;
 };

@@ -215,7 +215,9 @@ Volume read_series(const std::filesystem::path& path, const ChannelChoice& choic
   }
   const std::size_t bytes = image.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(double);
   MemoryStream samples(file, std::string(reinterpret_cast<const char*>(image.GetBufferPointer()), bytes));
-  return read_described(samples, volume, choice);
+  Volume read = read_described(samples, volume, choice);
+  read.data_files.assign(files.begin(), files.end());
+  return read;
 }
 
 }  // namespace

@@ -35,8 +35,12 @@ class MetaFields {
       if (equals == std::string::npos)
         file.fail("line " + std::to_string(n) + ": " + in_quotes(*line) +
                   " is no header line, expected \"Key = value\"");
-      std::string key = trimmed_text(line->substr(0, equals));
-      fields_[key] = trimmed_text(line->substr(equals + 1));
+      const std::string key = trimmed_text(line->substr(0, equals));
+      const std::string value = trimmed_text(line->substr(equals + 1));
+      const auto [known, is_new] = fields_.emplace(key, value);
+      if (!is_new && known->second != value)
+        file.fail("line " + std::to_string(n) + ": \"" + key + "\" is " + in_quotes(value) + ", but " +
+                  in_quotes(known->second) + " in a line before, expected one value: delete one of the lines");
       if (key == "ElementDataFile") return;
     }
     file.fail("the header has no key \"ElementDataFile\", its last line");
@@ -216,30 +220,12 @@ void skip_header(InputFile& file, const MetaFields& fields, std::uint64_t bytes)
   if (skipped == -1 && bytes <= file.remaining()) file.seek(file.size() - bytes);
 }
 
-}  // namespace
-
-Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
+// The samples and what else a description needs, from the header's own file or from those that it names.
+Volume read_meta_samples(UnpackedFile& file, const MetaFields& fields, const std::vector<std::filesystem::path>& files,
+                         VolumeDescription volume, const ChannelChoice& choice) {
   ByteStream& bytes = file.bytes();
-  const MetaFields fields(bytes);
-  VolumeDescription volume;
-  volume.format = "MetaImage";
   SampleLayout& layout = volume.layout;
-  const std::size_t axes = take_meta_dims(bytes, fields, layout);
-  layout.type = read_meta_type(fields);
-  layout.endian = fields.is_true("BinaryDataByteOrderMSB") || fields.is_true("ElementByteOrderMSB") ? Endian::kBig
-                                                                                                    : Endian::kLittle;
-  take_meta_geometry(fields, axes, volume);
-  choose_channel(bytes, choice, layout);
-  const std::uint64_t count = std::uint64_t{sample_count_of(bytes, layout.dims)};
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
-  if (layout.components * layout.volumes > kMost / (count * stored_size(layout.type)))
-    bytes.fail("the dimensions and the type need more bytes than memory can address");
-  const std::uint64_t values = count * layout.components * layout.volumes;
-  if (fields.is_true("CompressedData")) layout.compression = Compression::kGzip;
-
-  constexpr std::uint64_t kMostFiles = 1 << 20;
-  const std::vector<std::filesystem::path> files =
-      data_files(bytes, fields, file.file().path().parent_path(), std::min(count, kMostFiles));
+  const std::uint64_t values = sample_count_of(bytes, layout.dims) * layout.components * layout.volumes;
   if (files.size() > 1) {
     const std::int64_t skipped = fields.integer("HeaderSize", 0);
     if (skipped < 0) fields.fail("HeaderSize", "0 or more for data in several files");
@@ -263,6 +249,35 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
     return read_described(text, volume, choice);
   }
   return read_described(data.bytes(), volume, choice, data.mappable());
+}
+
+}  // namespace
+
+Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
+  ByteStream& bytes = file.bytes();
+  const MetaFields fields(bytes);
+  VolumeDescription volume;
+  volume.format = "MetaImage";
+  SampleLayout& layout = volume.layout;
+  const std::size_t axes = take_meta_dims(bytes, fields, layout);
+  layout.type = read_meta_type(fields);
+  layout.endian = fields.is_true("BinaryDataByteOrderMSB") || fields.is_true("ElementByteOrderMSB") ? Endian::kBig
+                                                                                                    : Endian::kLittle;
+  take_meta_geometry(fields, axes, volume);
+  check_geometry(bytes, volume);
+  choose_channel(bytes, choice, layout);
+  const std::uint64_t count = std::uint64_t{sample_count_of(bytes, layout.dims)};
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
+  if (layout.components * layout.volumes > kMost / (count * stored_size(layout.type)))
+    bytes.fail("the dimensions and the type need more bytes than memory can address");
+  if (fields.is_true("CompressedData")) layout.compression = Compression::kGzip;
+
+  constexpr std::uint64_t kMostFiles = 1 << 20;
+  std::vector<std::filesystem::path> files =
+      data_files(bytes, fields, file.file().path().parent_path(), std::min(count, kMostFiles));
+  Volume read = read_meta_samples(file, fields, files, volume, choice);
+  read.data_files = std::move(files);
+  return read;
 }
 
 }  // namespace deliso

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "delaunay/base/shortest_text.h"
 #include "volume/io/base/header_bytes.h"
 
 namespace deliso {
@@ -90,6 +91,9 @@ Affine read_mrc_geometry(const ByteStream& file, const HeaderBytes& bytes, const
   } else {
     for (std::size_t n = 0; n < 3; ++n) {
       if (intervals.at(n) < 1) file.fail("MX, MY, MZ must be 1 or more, found " + std::to_string(intervals.at(n)));
+      if (!(lengths[n] > 0))
+        file.fail("CELLA: the cell is " + shortest_text(lengths[n]) + " long along " + "xyz"[n] +
+                  ", expected a length above 0 (or 0 along all three axes, for a spacing of 1)");
       lengths[n] /= intervals.at(n);
     }
   }

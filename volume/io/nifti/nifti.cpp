@@ -237,13 +237,17 @@ Volume read_nifti(UnpackedFile& file, const ChannelChoice& choice) {
     bytes.fail("\"vox_offset\" is " + std::to_string(offset) + ", expected the byte at which the samples begin");
   layout.skipped_bytes = static_cast<std::uint64_t>(offset - header_size);
   if (!is_pair) return read_described(bytes, volume, choice, file.mappable());
+  check_geometry(bytes, volume);
+  choose_channel(bytes, choice, layout);
   std::optional<UnpackedFile> image;
   try {
     image.emplace(image_beside(file.file().path()));
   } catch (const InputError& error) {
     bytes.fail(std::string("the data file ") + error.what());
   }
-  return read_described(image->bytes(), volume, choice, image->mappable());
+  Volume read = read_described(image->bytes(), volume, choice, image->mappable());
+  read.data_files = {image->file().path()};
+  return read;
 }
 
 }  // namespace deliso

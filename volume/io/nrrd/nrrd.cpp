@@ -67,7 +67,9 @@ Volume read_nrrd(UnpackedFile& file, const ChannelChoice& choice) {
                                    header, nrrd_data_bytes(bytes, volume.layout));
     return decoded ? read_samples(*decoded, volume.layout) : read_samples(bytes, volume.layout, mappable);
   }();
-  return make_volume(file.bytes(), volume, std::move(samples));
+  Volume read = make_volume(file.bytes(), volume, std::move(samples));
+  read.data_files = std::move(header.data_files);
+  return read;
 }
 
 ScalarGrid read_nrrd(const std::filesystem::path& path) {

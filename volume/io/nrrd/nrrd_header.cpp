@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "volume/io/nrrd/nrrd_axes.h"
 #include "volume/io/nrrd/nrrd_data_files.h"
@@ -54,20 +55,22 @@ void check_unused_fields(const NrrdFields& fields, const NrrdAxes& axes) {
   }
 }
 
-// One unit for all axes, or none.
+// One unit for all axes; several stay named, so that nobody takes the volume for one without units.
 std::string read_units(const NrrdFields& fields) {
   const NrrdField* field = fields.find("space units");
   if (field == nullptr) return {};
-  std::string units;
+  std::vector<std::string> names;
   std::size_t start = field->value.find('"');
   while (start != std::string::npos) {
     const std::size_t end = field->value.find('"', start + 1);
     if (end == std::string::npos) break;
     const std::string found = field->value.substr(start + 1, end - start - 1);
-    if (!units.empty() && found != units) return {};
-    units = found;
+    const bool is_new = !found.empty() && std::find(names.begin(), names.end(), found) == names.end();
+    if (is_new) names.push_back(found);
     start = field->value.find('"', end + 1);
   }
+  std::string units;
+  for (const std::string& name : names) units += (units.empty() ? "" : ", ") + name;
   return units;
 }
 

@@ -47,6 +47,17 @@ void read_attributes(const ByteStream& file, std::string_view text, XmlTag& tag)
   }
 }
 
+// Where a tag ends: at the first > that stands in no quotes.
+std::size_t end_of_tag(std::string_view text) {
+  std::size_t place = 0;
+  while ((place = text.find_first_of("\"'>", place)) != std::string_view::npos && text[place] != '>') {
+    place = text.find(text[place], place + 1);
+    if (place == std::string_view::npos) break;
+    ++place;
+  }
+  return place;
+}
+
 }  // namespace
 
 std::optional<XmlTag> next_xml_tag(const ByteStream& file, std::string_view text, std::size_t position) {
@@ -55,7 +66,8 @@ std::optional<XmlTag> next_xml_tag(const ByteStream& file, std::string_view text
     if (position == std::string_view::npos) return std::nullopt;
     const std::string_view rest = text.substr(position);
     const std::string_view ending = rest.starts_with("<!--") ? "-->" : rest.starts_with("<?") ? "?>" : ">";
-    const std::size_t end = rest.find(ending);
+    const bool has_attributes = ending == ">" && !rest.starts_with("<!");
+    const std::size_t end = has_attributes ? end_of_tag(rest) : rest.find(ending);
     if (end == std::string_view::npos)
       file.fail("the tag " + in_quotes(rest.substr(0, rest.find('\n'))) + " does not end");
     position += end + ending.size();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
@@ -208,6 +209,42 @@ TEST_F(MeshIo, ALinkStaysAndItsTargetIsReplaced) {
   EXPECT_TRUE(fs::is_symlink(file("link.ply")));
   EXPECT_FALSE(fs::is_symlink(file("folder") / "target.ply"));
   expect_same_bits(read_mesh(file("folder") / "target.ply"), mesh);
+}
+
+// The target need not exist, and a link may lead to another one.
+TEST_F(MeshIo, ALinkLeadsToAFileThatIsMade) {
+  const TriangleMesh mesh = testing::tetrahedron_mesh();
+  fs::create_directory(file("folder"));
+  fs::create_symlink(fs::path("folder") / "new.ply", file("link.ply"));
+  fs::create_symlink("link.ply", file("first.ply"));
+  write_mesh(mesh, file("first.ply"));
+  EXPECT_TRUE(fs::is_symlink(file("link.ply")));
+  EXPECT_TRUE(fs::is_symlink(file("first.ply")));
+  expect_same_bits(read_mesh(file("folder") / "new.ply"), mesh);
+  fs::create_symlink("round.ply", file("round.ply"));
+  EXPECT_THROW(write_mesh(mesh, file("round.ply")), InputError);
+  fs::create_symlink(fs::path("none") / "new.ply", file("astray.ply"));
+  EXPECT_THROW(write_mesh(mesh, file("astray.ply")), InputError);
+  EXPECT_TRUE(fs::is_symlink(file("astray.ply")));
+}
+
+TEST_F(MeshIo, AFileThatIsReplacedKeepsItsPermissions) {
+  const TriangleMesh mesh = testing::tetrahedron_mesh();
+  constexpr auto kPrivate = fs::perms::owner_read | fs::perms::owner_write;
+  write_bytes("private.ply", "old");
+  fs::permissions(file("private.ply"), kPrivate);
+  write_mesh(mesh, file("private.ply"));
+  EXPECT_EQ(fs::status(file("private.ply")).permissions(), kPrivate);
+  expect_same_bits(read_mesh(file("private.ply")), mesh);
+}
+
+TEST_F(MeshIo, AWriteProtectedFileStays) {
+  write_bytes("kept.ply", "old");
+  fs::permissions(file("kept.ply"), fs::perms::owner_read);
+  if (::access(file("kept.ply").c_str(), W_OK) == 0) GTEST_SKIP() << "this user may write everything";
+  EXPECT_THROW(write_mesh(testing::tetrahedron_mesh(), file("kept.ply")), InputError);
+  EXPECT_EQ(fs::file_size(file("kept.ply")), 3u);
+  EXPECT_EQ(fs::status(file("kept.ply")).permissions(), fs::perms::owner_read);
 }
 
 TEST_F(MeshIo, TheEmptyMeshIsAMesh) {
