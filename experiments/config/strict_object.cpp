@@ -87,7 +87,7 @@ std::string expected(const KeyInfo& key) {
 
 std::string short_json(const Json& value) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = json_line(value);
   if (text.size() > kLongest) text = text.substr(0, kLongest) + " ...";
   return text;
 }
