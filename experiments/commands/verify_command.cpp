@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "delaunay/base/counted.h"
 #include "experiments/commands/command.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -115,6 +116,12 @@ void print_judged(const Json& report, const Volume& volume, const VerifyCommandO
     std::cerr << "deliso: " << remark << '\n';
   }
   remark_isovalue(&judged.field.grid, judged.chosen.isovalue, v.isovalue_used);
+  if (const std::int64_t count = v.manifold.unreferenced_vertices; count > 0) {
+    std::cerr << "deliso: "
+              << counted(count, "vertex belongs to no triangle: it is", "vertices belong to no triangle: they are")
+              << " no part of the surface, wherever " << (count == 1 ? "it lies" : "they lie")
+              << ", and not held against the mesh\n";
+  }
   const std::string field = field_text(judged.chosen.parameters);
   out << '\n' << (v.proven ? "proven" : "not proven") << (field.empty() ? "" : ": " + field) << '\n';
   for (const std::string& failure : v.failures) out << "  " << failure << '\n';

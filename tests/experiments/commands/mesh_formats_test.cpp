@@ -55,6 +55,20 @@ TEST_F(MeshFormats, VerifyTakesItsBoundFromEveryFormatThatIsRead) {
   }
 }
 
+// A vertex of no triangle, far outside the box, is no part of the surface: told, and not held against it.
+TEST_F(MeshFormats, VerifyTellsOfVerticesWithoutTriangles) {
+  const std::string path = folder_ / "m.obj";
+  ASSERT_EQ(mesh(path).exit_code, 0);
+  const auto verify = [&] { return run_deliso({"verify", path, volume_, "--isovalue", "100.5", "--closed"}); };
+  EXPECT_FALSE(has_text(verify().err, "no triangle"));
+  write_file(path, read_file(path) + "v 1000000 0 0\n");
+  const ProgramResult one = verify();
+  EXPECT_EQ(one.exit_code, 0) << one.out << one.err;
+  EXPECT_TRUE(has_text(one.err, "1 vertex belongs to no triangle: it is no part of the surface")) << one.err;
+  write_file(path, read_file(path) + "v 0 0 0\n");
+  EXPECT_TRUE(has_text(verify().err, "2 vertices belong to no triangle: they are no part of the surface"));
+}
+
 TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtp", {"--report", folder_ / "r.json"}).exit_code, 0);
   const ProgramResult text = run_deliso({"info", folder_ / "m.vtp"});
