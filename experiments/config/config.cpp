@@ -103,6 +103,15 @@ Parameters read_parameters(const std::filesystem::path& path) {
   return parameters;
 }
 
+bool is_parameter_document(const Json& document) {
+  if (!document.is_object()) return false;
+  if (holds_parameters(document)) return true;
+  for (const auto& [key, value] : document.items()) {
+    if (is_parameter_group(key) || find_parameter(key) != nullptr) return true;
+  }
+  return false;
+}
+
 Json value_to_json(const ParameterValue& value) {
   return std::visit(
       [](const auto& held) -> Json {
