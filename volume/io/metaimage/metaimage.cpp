@@ -240,6 +240,7 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
   constexpr std::uint64_t kMostFiles = 1 << 20;
   const std::vector<std::filesystem::path> files =
       data_files(bytes, fields, file.file().path().parent_path(), std::min(count, kMostFiles));
+  if (!files.empty()) file.require_folder();
   if (files.size() > 1) {
     const std::int64_t skipped = fields.integer("HeaderSize", 0);
     if (skipped < 0) fields.fail("HeaderSize", "0 or more for data in several files");

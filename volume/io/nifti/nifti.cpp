@@ -237,6 +237,7 @@ Volume read_nifti(UnpackedFile& file, const ChannelChoice& choice) {
     bytes.fail("\"vox_offset\" is " + std::to_string(offset) + ", expected the byte at which the samples begin");
   layout.skipped_bytes = static_cast<std::uint64_t>(offset - header_size);
   if (!is_pair) return read_described(bytes, volume, choice, file.mappable());
+  file.require_folder();
   std::optional<UnpackedFile> image;
   try {
     image.emplace(image_beside(file.file().path()));
