@@ -126,6 +126,10 @@ TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtk").exit_code, 0);
   EXPECT_TRUE(has_text(run_deliso({"info", folder_ / "m.vtk"}).out, "triangles"));
   EXPECT_EQ(run_deliso({"info", folder_ / "m.msh"}).exit_code, 2);
+  const std::string packed = folder_ / "m.ply.gz";
+  write_file(packed, "packed");
+  EXPECT_EQ(run_deliso({"info", packed}).err,
+            "deliso: " + packed + ": meshes are not read packed, expected the unpacked file (as by gunzip)\n");
 }
 
 TEST_F(MeshFormats, StandardInputAndOutputAreVolumesMeshesAndReports) {
