@@ -118,7 +118,7 @@ TEST(ExplainCommand, WritesThePage) {
 TEST(ExplainCommand, TakesNamesThatAreNotUtf8) {
   const TemporaryFolder folder;
   const std::string volume = folder / "b\377.nrrd";
-  ASSERT_EQ(run_deliso({"generate", "shells", "--size", "8", "-o", volume}).exit_code, 0);
+  ASSERT_EQ(run_deliso({"generate", "shells", "--size", "16", "-o", volume}).exit_code, 0);
   const ProgramResult result = run_deliso({"explain", volume, "--isovalue", "100.5", "--without-experiments", "-o",
                                            folder / "l.html", "--trace", folder / "t.jsonl"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
