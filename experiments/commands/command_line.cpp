@@ -1,5 +1,6 @@
 #include "experiments/commands/command_line.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
@@ -68,9 +69,22 @@ RawOptions raw_options(const VolumeOptions& options) {
   return raw;
 }
 
+// The format as typed, in letters of any case and perhaps with the .gz of a packed file.
+std::string parse_volume_format(const std::string& text) {
+  std::string format = text;
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (format.ends_with(".gz")) format.resize(format.size() - 3);
+  if (format.empty() || is_volume_format(format)) return format;
+  std::string expected(kVolumeExtensions);
+  std::erase(expected, '.');
+  throw InputError("--volume-format: expected " + expected + ", found '" + text + "'");
+}
+
 // Messages call it by its own name, not by that of the file it is kept in.
 Volume volume_of_standard_input(ReadOptions read, const std::string& format) {
   read.format = format;
+  read.stands_alone = true;
   const std::string path = standard_input_file().string();
   try {
     return read_placed_volume(path, read);
@@ -165,7 +179,8 @@ Volume load_volume(const VolumeOptions& options) {
   const bool is_stream = is_standard_stream(options.path);
   if (!options.format.empty() && !is_stream)
     throw InputError("--volume-format is that of standard input, but the volume is " + options.path);
-  const std::string extension = is_stream ? "." + options.format : lower_case_extension(options.path);
+  const std::string format = parse_volume_format(options.format);
+  const std::string extension = is_stream ? "." + format : lower_case_extension(options.path);
   if (described && extension != ".raw") {
     throw InputError("--dims, --type, --endian, --spacing and --skip describe a .raw file, but the volume is " +
                      options.path);
@@ -181,7 +196,7 @@ Volume load_volume(const VolumeOptions& options) {
   read.array = options.array;
   read.accepts_not_finite = true;
   if (!is_stream) end_where_input_shrinks(options.path);
-  Volume volume = is_stream ? volume_of_standard_input(read, options.format) : read_placed_volume(options.path, read);
+  Volume volume = is_stream ? volume_of_standard_input(read, format) : read_placed_volume(options.path, read);
   if (!region.is_all()) crop(volume, region);
   return volume;
 }

@@ -83,14 +83,13 @@ std::vector<LessonRun> observed_runs(const ExplainCommandOptions& options, const
 }
 
 std::string trace_text(const LessonRun& run) {
-  std::string text = Json{{"e", "begin"},
-                          {"schema", "deliso-trace-1"},
-                          {"program", program_json()},
-                          {"volume", run.name},
-                          {"isovalue", run.result.isovalue_used}}
-                         .dump() +
+  std::string text = json_line({{"e", "begin"},
+                                {"schema", "deliso-trace-1"},
+                                {"program", program_json()},
+                                {"volume", run.name},
+                                {"isovalue", run.result.isovalue_used}}) +
                      "\n";
-  for (const Json& event : run.events) text += event.dump() + "\n";
+  for (const Json& event : run.events) text += json_line(event) + "\n";
   return text;
 }
 

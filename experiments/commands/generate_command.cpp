@@ -48,6 +48,9 @@ std::string suggested_isovalue(const AnalyticField& field, std::int32_t size, st
 
 ExitCode run_generate(const GenerateCommandOptions& options) {
   if (options.list) {
+    if (!options.name.empty() || !options.output.empty()) {
+      throw InputError("generate: --list writes no volume, expected it without NAME and -o, or these without --list");
+    }
     print_list();
     return ExitCode::kDone;
   }

@@ -128,6 +128,7 @@ void print_mesh_info(const Json& report) {
 bool is_mesh_input(const std::string& path, const MeshFormatOptions& format) {
   if (!format.format.empty()) return true;
   if (is_standard_stream(path)) return is_mesh_content(standard_input_file());
+  if (is_packed_mesh_path(path)) return true;  // reading it says what is wrong
   const std::optional<MeshFormat> known = mesh_format_of(path);
   if (known && *known != MeshFormat::kLegacyVtk) return true;
   const bool may_be = known || lower_case_extension(path).empty();

@@ -58,6 +58,7 @@ struct Panel {
   std::string name;
   std::unique_ptr<Shape> shape;
   const TriangleMesh* mesh = nullptr;  // the shape's, if it has one
+  bool is_seen = false;                // once it is drawn
 };
 
 constexpr std::int32_t kLargestSide = 16384;
@@ -171,12 +172,15 @@ std::vector<Panel> make_panels(const RenderCommandOptions& options, std::unique_
 }
 
 // The middle of the picture and its scale are those of the isosurface: a mesh far from it would not be seen.
-void remark_meshes_outside(const std::vector<Panel>& panels, const std::vector<Vec3>& framed) {
+void remark_what_is_not_seen(const std::vector<Panel>& panels, const std::vector<Vec3>& framed) {
   Box3 surface;
   for (const Vec3& p : framed) surface.extend(p);
   for (const Panel& panel : panels) {
-    if (panel.mesh == nullptr || panel.shape->box().meets(surface)) continue;
-    std::cerr << "deliso: " << panel.name << " lies outside the box of the isosurface (is its --space another one?)\n";
+    const bool is_near = panel.mesh == nullptr || panel.shape->box().meets(surface);
+    if (is_near && panel.is_seen) continue;
+    std::cerr << "deliso: " << panel.name
+              << (is_near ? ": nothing of it is in the picture, expected another --look-at, --view, --zoom or --clip\n"
+                          : " lies outside the box of the isosurface (is its --space another one?)\n");
   }
 }
 
@@ -226,7 +230,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   auto surface = std::make_unique<IsosurfaceShape>(grid, used);
   std::vector<Vec3> framed = surface->outermost_points();
   for (Vec3& p : framed) p = volume.placement.to_world(p);
-  const std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used, volume);
+  std::vector<Panel> panels = make_panels(options, std::move(surface), grid, used, volume);
 
   // All panels have the same camera and the same clip planes.
   const std::int32_t width = image.width / panel_count;
@@ -240,9 +244,9 @@ ExitCode run_render(const RenderCommandOptions& options) {
   {
     ProgressBar bar(std::cerr, stderr_is_terminal());
     for (std::int32_t i = 0; i < panel_count; ++i) {
-      const Panel& panel = panels[static_cast<std::size_t>(i)];
+      Panel& panel = panels[static_cast<std::size_t>(i)];
       picture.progress = [&](double share) { bar.show((i + share) / panel_count, panel.name); };
-      draw(*panel.shape, kept, camera, picture, i * width, image);
+      panel.is_seen = draw(*panel.shape, kept, camera, picture, i * width, image);
     }
   }
   write_png(image, options.output);
@@ -252,7 +256,7 @@ ExitCode run_render(const RenderCommandOptions& options) {
   }
   print_units_remark(options.volume.path, volume, {options.field.smooth});
   remark_isovalue(&grid, field.chosen.isovalue, used);
-  remark_meshes_outside(panels, framed);
+  remark_what_is_not_seen(panels, framed);
   return ExitCode::kDone;
 }
 

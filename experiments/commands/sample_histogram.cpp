@@ -89,6 +89,9 @@ std::vector<IsovalueSuggestion> suggested_isovalues(const Samples& samples, cons
   if (filled == 2) return suggestions;
   for (const std::size_t edge : best_two_edges(histogram)) {
     const double isovalue = middle_of_gap(samples, histogram.low + static_cast<double>(edge) * histogram.bin_width());
+    // Where one value has most of the samples, several edges may have the same gap.
+    const auto is_same = [isovalue](const IsovalueSuggestion& known) { return known.isovalue == isovalue; };
+    if (std::any_of(suggestions.begin(), suggestions.end(), is_same)) continue;
     suggestions.push_back({isovalue, "separates three classes (Otsu)", ""});
   }
   return suggestions;

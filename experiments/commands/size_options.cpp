@@ -58,7 +58,9 @@ void set_least_component(const std::string& text, const Volume* volume, Paramete
     unit = std::pow(parse_length("1" + name, option, volume), power);
     break;
   }
-  const double measure = unit * parse_number(number, option, text);
+  const std::string expected =
+      "a finite number: of voxels, or like 5mm" + suffix + ", or 5w" + suffix + " in the volume's own units";
+  const double measure = unit * parse_number(number, option, text, expected);
   if (!(measure > 0)) throw InputError(option + ": expected a number > 0, found '" + text + "'");
   (power == 2 ? parameters.components.min_area : parameters.components.min_volume) = measure;
 }

@@ -132,6 +132,12 @@ void print_judged(const Json& report, const Volume& volume, const VerifyCommandO
     std::cerr << "deliso: " << remark << '\n';
   }
   remark_isovalue(&judged.field.grid, judged.chosen.isovalue, v.isovalue_used);
+  if (const std::int64_t count = v.manifold.unreferenced_vertices; count > 0) {
+    std::cerr << "deliso: "
+              << counted(count, "vertex belongs to no triangle: it is", "vertices belong to no triangle: they are")
+              << " no part of the surface, wherever " << (count == 1 ? "it lies" : "they lie")
+              << ", and not held against the mesh\n";
+  }
   const std::string field = field_text(judged.chosen.parameters);
   out << '\n'
       << (v.proven ? "proven" : "not proven") << (field.empty() ? "" : ": " + field) << " ("

@@ -126,9 +126,10 @@ World world_of(const Volume& volume, const WorldOptions& options) {
 
 double parse_length(const std::string& text, const std::string& option, const Volume* volume) {
   const bool in_millimetres = text.ends_with("mm"), in_world = text.ends_with("w");
-  if (!in_millimetres && !in_world) return parse_number(text, option);
+  const std::string expected = "a finite number: of voxels, or like 0.5mm, or 0.5w in the volume's own units";
+  if (!in_millimetres && !in_world) return parse_number(text, option, text, expected);
   const std::string number = text.substr(0, text.size() - (in_millimetres ? 2 : 1));
-  const double length = parse_number(number, option, text);
+  const double length = parse_number(number, option, text, expected);
   if (volume == nullptr) return length;
   const Vec3& s = volume->grid.spacing();
   const double unit = in_millimetres ? millimetre_of(*volume, option) : 1;

@@ -37,14 +37,12 @@ std::optional<ParameterValue> plain_value(const Json& value) {
 }
 
 void apply_value(const ParameterField& field, const Json& value, const std::string& source, Parameters& parameters) {
-  assign_parameter(field, plain_value(value), value.dump(-1, ' ', false, Json::error_handler_t::replace), source,
-                   parameters);
+  assign_parameter(field, plain_value(value), json_line(value), source, parameters);
 }
 
 void require_object(const Json& value, const std::string& what) {
   if (!value.is_object()) {
-    throw InputError(what + " must be a JSON object, found " +
-                     value.dump(-1, ' ', false, Json::error_handler_t::replace));
+    throw InputError(what + " must be a JSON object, found " + json_line(value));
   }
 }
 
@@ -103,6 +101,15 @@ Parameters read_parameters(const std::filesystem::path& path) {
   apply_parameters(is_whole ? document["parameters"] : document,
                    is_whole ? path.string() + ": parameters" : path.string(), parameters);
   return parameters;
+}
+
+bool is_parameter_document(const Json& document) {
+  if (!document.is_object()) return false;
+  if (holds_parameters(document)) return true;
+  for (const auto& [key, value] : document.items()) {
+    if (is_parameter_group(key) || find_parameter(key) != nullptr) return true;
+  }
+  return false;
 }
 
 Json value_to_json(const ParameterValue& value) {

@@ -22,6 +22,9 @@ void apply_parameters(const Json& document, const std::string& source, Parameter
 // report.
 Parameters read_parameters(const std::filesystem::path& path);
 
+// Whether a document is what read_parameters takes: it holds parameters, or a key of the top level is one of them.
+bool is_parameter_document(const Json& document);
+
 Json value_to_json(const ParameterValue& value);
 
 // Every parameter, also those that have their default.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "delaunay/base/check.h"
+#include "experiments/config/mistakes.h"
 #include "experiments/system/files.h"
 
 namespace deliso {
@@ -31,8 +33,8 @@ std::string too_large(const nlohmann::json::out_of_range& error, const std::stri
 // holds some ten thousand.
 constexpr int kDeepest = 500;
 
-// Refuses what is nested too deeply, and a key that the object at the same depth already has. (The parser itself would
-// keep the last one.)
+// Refuses what is nested too deeply, and notes a key that the object at the same depth already has. (The parser itself
+// would keep the last one.)
 class StructureCheck {
  public:
   explicit StructureCheck(std::string source) : source_(std::move(source)) {}
@@ -44,25 +46,40 @@ class StructureCheck {
     }
     if (event == Json::parse_event_t::object_start) keys_.emplace_back();
     if (event == Json::parse_event_t::object_end) keys_.pop_back();
-    if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second) {
-      throw InputError(source_ + ": the key '" + parsed.get<std::string>() + "' stands twice in one object");
+    if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second && !repeated_) {
+      repeated_ = parsed.get<std::string>();
     }
     return true;
+  }
+  // Throws when a key was repeated. The parser does not tell its line, which is looked for in the whole document.
+  void refuse_repeated(const std::string& text) const {
+    if (!repeated_) return;
+    const std::optional<JsonPlace> place = place_of_repeated(*repeated_, text);
+    const std::string where = place ? "#" + place->pointer + " (line " + std::to_string(place->line) + ")" : "";
+    throw InputError(source_ + where + ": the key '" + *repeated_ + "' stands twice in one object");
   }
 
  private:
   std::string source_;
   std::vector<std::set<std::string>> keys_;  // of the objects that are still open
+  std::optional<std::string> repeated_;      // the first one
 };
 
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& source) {
+  // The parser would take it for the end of the document.
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
+    const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+    throw InputError(source + ": not valid JSON, line " + std::to_string(1 + lines) + " holds a byte of value 0");
+  }
   StructureCheck check(source);
   try {
-    return Json::parse(text, [&check](int depth, Json::parse_event_t event, const Json& parsed) {
+    Json document = Json::parse(text, [&check](int depth, Json::parse_event_t event, const Json& parsed) {
       return check(depth, event, parsed);
     });
+    check.refuse_repeated(text);
+    return document;
   } catch (const nlohmann::json::out_of_range& error) {
     throw InputError(source + ": " + too_large(error, text));
   } catch (const nlohmann::json::exception& error) {
@@ -75,5 +92,7 @@ Json read_json(const std::filesystem::path& path) { return parse_json(read_text(
 std::string json_text(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
+
+std::string json_line(const Json& document) { return document.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace deliso

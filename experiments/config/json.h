@@ -22,4 +22,7 @@ Json read_json(const std::filesystem::path& path);
 // path, say) become the replacement character.
 std::string json_text(const Json& document);
 
+// The same on one line, without a newline: for lines of JSON, and JSON within other text.
+std::string json_line(const Json& document);
+
 }  // namespace deliso

@@ -10,8 +10,12 @@ namespace {
 // Walks through a document that is known to be JSON and notes the line on which each value begins, by its pointer.
 class LineFinder {
  public:
-  explicit LineFinder(const std::string& text) : text_(text) { value(""); }
+  // `watched`: a key of which the first repetition within an object is noted.
+  explicit LineFinder(const std::string& text, std::string watched = "") : text_(text), watched_(std::move(watched)) {
+    value("");
+  }
   [[nodiscard]] const std::map<std::string, std::size_t>& lines() const { return lines_; }
+  [[nodiscard]] const std::optional<JsonPlace>& repeated() const { return repeated_; }
 
  private:
   void skip_space() {
@@ -24,7 +28,7 @@ class LineFinder {
   // A string without its quotes; escapes stay as they are written.
   std::string string() {
     const std::size_t begin = ++at_;
-    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2u : 1u;
     const std::size_t end = std::min(at_, text_.size());
     at_ = end + 1;
     return text_.substr(begin, end - begin);
@@ -45,6 +49,7 @@ class LineFinder {
         ++at_;  // the colon
       }
       const std::string inner = std::string(pointer).append("/").append(key);
+      if (close == '}' && key == watched_ && !repeated_ && lines_.contains(inner)) repeated_ = JsonPlace{inner, line};
       value(inner);
       if (close == '}') lines_[inner] = line;  // where the key stands
       skip_space();
@@ -67,6 +72,8 @@ class LineFinder {
   }
 
   const std::string& text_;
+  const std::string watched_;
+  std::optional<JsonPlace> repeated_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   std::map<std::string, std::size_t> lines_;
@@ -114,6 +121,10 @@ void throw_each(std::vector<std::string> sentences) {
 }
 
 }  // namespace
+
+std::optional<JsonPlace> place_of_repeated(const std::string& key, const std::string& text) {
+  return LineFinder(text, key).repeated();
+}
 
 SeveralMistakes::SeveralMistakes(std::vector<std::string> sentences)
     : InputError(joined(sentences)), sentences_(std::move(sentences)) {}

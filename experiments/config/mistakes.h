@@ -1,6 +1,8 @@
 // All that is wrong with a document, gathered so that its author is told at once.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,14 @@ class SeveralMistakes : public InputError {
  private:
   std::vector<std::string> sentences_;
 };
+
+// A place in a document that is known to be JSON.
+struct JsonPlace {
+  std::string pointer;
+  std::size_t line = 0;
+};
+// Where the key, as it is written, first stands in an object that has it already.
+std::optional<JsonPlace> place_of_repeated(const std::string& key, const std::string& text);
 
 class Mistakes {
  public:

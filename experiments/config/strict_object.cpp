@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/nearest_name.h"
@@ -37,6 +38,14 @@ bool in_range(const KeyInfo& key, const Json& value) {
   return std::isfinite(number) && key.low <= number && number <= key.high;
 }
 
+// Compared as an integer: as a double 2^53 + 1 is 2^53.
+bool is_distinct_integer(const Json& value) {
+  if (!value.is_number_integer()) return false;
+  constexpr auto kMost = static_cast<std::int64_t>(kLargestInteger);
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>() <= std::uint64_t{kMost};
+  return value.get<std::int64_t>() >= -kMost && value.get<std::int64_t>() <= kMost;
+}
+
 bool fits(const KeyInfo& key, const Json& value) {
   switch (key.type) {
     case KeyType::kText: {
@@ -48,7 +57,7 @@ bool fits(const KeyInfo& key, const Json& value) {
     case KeyType::kNumber:
       return value.is_number() && in_range(key, value);
     case KeyType::kInteger:
-      return value.is_number_integer() && std::abs(value.get<double>()) <= kLargestInteger && in_range(key, value);
+      return is_distinct_integer(value) && in_range(key, value);
     case KeyType::kBoolean:
       return value.is_boolean();
     case KeyType::kObject:
@@ -87,7 +96,7 @@ std::string expected(const KeyInfo& key) {
 
 std::string short_json(const Json& value) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = json_line(value);
   if (text.size() > kLongest) text = text.substr(0, kLongest) + " ...";
   return text;
 }

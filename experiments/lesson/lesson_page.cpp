@@ -63,7 +63,7 @@ PackedData packed_data(Json data, const std::vector<LessonRun>& runs, std::size_
   for (std::size_t i = 0; i < runs.size(); ++i) {
     data["runs"].push_back(lesson_data(runs[i], i == 0 ? LessonPart::kWhole : LessonPart::kStage2, most_events));
   }
-  const std::string text = data.dump();
+  const std::string text = json_line(data);
   return {text.size(), packed_text(text)};
 }
 

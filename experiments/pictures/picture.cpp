@@ -73,6 +73,9 @@ class SamplePlane {
   [[nodiscard]] bool holds(std::int32_t column, std::int32_t row) const {
     return column >= 0 && row >= 0 && column < width_ && row < height_;
   }
+  [[nodiscard]] bool shows_anything() const {
+    return std::any_of(samples_.begin(), samples_.end(), [](const Sample& sample) { return sample.seen; });
+  }
   [[nodiscard]] Line ray(std::int32_t column, std::int32_t row) const {
     return camera_.ray((column + 0.5) / options_.samples, (row + 0.5) / options_.samples);
   }
@@ -172,7 +175,7 @@ class Surroundings {
 
 }  // namespace
 
-void draw(const Shape& shape, const Box3& kept, const Camera& camera, const PictureOptions& options, std::int32_t left,
+bool draw(const Shape& shape, const Box3& kept, const Camera& camera, const PictureOptions& options, std::int32_t left,
           Image& image) {
   // What is seen.
   const SamplePlane plane(shape, kept, camera, options);
@@ -203,6 +206,7 @@ void draw(const Shape& shape, const Box3& kept, const Camera& camera, const Pict
     }
     progress.done();
   });
+  return plane.shows_anything();
 }
 
 }  // namespace deliso

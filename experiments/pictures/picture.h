@@ -19,8 +19,9 @@ struct PictureOptions {
 };
 
 // Draws what of `shape` is in `kept` into the camera's width x height pixels of `image` from column `left` on. Pixels
-// where nothing is seen keep their colour. Precondition: they are all in the image, and kept is a finite box.
-void draw(const Shape& shape, const Box3& kept, const Camera& camera, const PictureOptions& options, std::int32_t left,
+// where nothing is seen keep their colour. Returns whether anything is seen. Precondition: they are all in the image,
+// and kept is a finite box.
+bool draw(const Shape& shape, const Box3& kept, const Camera& camera, const PictureOptions& options, std::int32_t left,
           Image& image);
 
 }  // namespace deliso

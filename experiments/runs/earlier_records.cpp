@@ -47,10 +47,10 @@ Json identity(const Json& record) {
 std::string identity_key(Json identity) {
   if (identity["program"].is_object()) identity["program"].erase("cpu");
   if (identity["isovalue"].is_number()) identity["isovalue"] = identity["isovalue"].get<double>();
-  return identity.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_line(identity);
 }
 
-std::string own_name(const Json& record) { return record.at("experiment").dump() + run_key(record); }
+std::string own_name(const Json& record) { return json_line(record.at("experiment")) + run_key(record); }
 
 class Matcher {
  public:
@@ -135,9 +135,7 @@ void read_finished(const fs::path& file, std::vector<Json>& records, std::set<st
   }
 }
 
-void append_lines(std::string& text, const Json& record) {
-  text += record.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
-}
+void append_lines(std::string& text, const Json& record) { text += json_line(record) + '\n'; }
 
 }  // namespace
 

@@ -65,9 +65,21 @@ std::vector<std::string> parse_notes(const StrictObject& object) {
   return notes;
 }
 
+// The other kind of file that programs take: all of its keys would be unknown here.
+void refuse_parameters(const Json& document, const fs::path& path) {
+  if (!is_parameter_document(document)) return;
+  for (const char* const key : {"base", "datasets", "metrics", "variants"}) {
+    if (document.contains(key)) return;
+  }
+  throw InputError(path.string() +
+                   ": this is a parameter file (for deliso mesh --config), expected an experiment, which has datasets, "
+                   "metrics, and a base whose parameters may name such a file");
+}
+
 // Goes on after a mistake with what is right, so that all mistakes are found. What hangs on names that cannot be known
 // is not looked at.
 Experiment parse_gathering(const Json& document, const fs::path& path, Mistakes& mistakes) {
+  refuse_parameters(document, path);
   const StrictObject object(document, path.string() + "#", kExperimentKeys, &mistakes);
   const fs::path folder = path.parent_path();
   Experiment experiment;

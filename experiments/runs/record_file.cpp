@@ -89,7 +89,7 @@ RecordFile::RecordFile(fs::path path) : path_(std::move(path)) {
 RecordFile::~RecordFile() { std::fclose(file_); }
 
 void RecordFile::append(const Json& record) {
-  const std::string line = record.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string line = json_line(record) + '\n';
   const bool written = std::fwrite(line.data(), 1, line.size(), file_) == line.size();
   if (!written || std::fflush(file_) != 0) {
     throw InputError(path_.string() + ": writing failed: " + std::strerror(errno));

@@ -155,7 +155,7 @@ Json run_header(const Experiment& experiment, const PlannedRun& run, const std::
 }
 
 std::string run_key(const Json& record) {
-  return Json::array({record.at("dataset"), record.at("variant"), record.at("repeat")}).dump();
+  return json_line(Json::array({record.at("dataset"), record.at("variant"), record.at("repeat")}));
 }
 
 std::string run_key(const Experiment& experiment, const PlannedRun& run) {
@@ -165,7 +165,7 @@ std::string run_key(const Experiment& experiment, const PlannedRun& run) {
 std::string foreign_part(const Experiment& experiment, const Json& record) {
   const std::string owner = " of the experiment " + experiment.name;
   const Json& name = record.at("experiment");
-  if (name != experiment.name) return "it is of the experiment " + name.dump() + ", not" + owner;
+  if (name != experiment.name) return "it is of the experiment " + json_line(name) + ", not" + owner;
   const auto part = [&](const std::string& key, const std::string& what, const auto& list) {
     const auto value = record.at(key).template get<std::string>();
     std::vector<std::string> known;

@@ -151,8 +151,9 @@ std::vector<Variant> swept(const std::vector<Variant>& variants, const std::stri
   for (const Variant& variant : variants) {
     std::set<std::string> seen;
     for (const Json& value : values) {
-      const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-      if (!seen.insert(text).second) {
+      const std::string text = value.is_string() ? value.get<std::string>() : json_line(value);
+      // 2 and 2.0 are one value, 0 and -0.0 too.
+      if (!seen.insert(value.is_number() ? json_line(value.get<double>() + 0.0) : text).second) {
         mistakes.add(InputError(std::string(place).append(" has the value ").append(text).append(" twice")));
         continue;
       }
@@ -162,6 +163,19 @@ std::vector<Variant> swept(const std::vector<Variant>& variants, const std::stri
     }
   }
   return all;
+}
+
+// Each key multiplies the variants: what would take all of the memory is refused before any is made.
+void check_sweep_size(std::size_t variants, const StrictObject& experiment) {
+  constexpr std::size_t kMostVariants = 100'000;
+  for (const auto& item : experiment.at("sweep").items()) {
+    const std::size_t values = item.value().is_array() ? item.value().size() : 1;
+    if (values > 0 && variants > kMostVariants / values) {
+      experiment.fail("sweep", "makes more than " + std::to_string(kMostVariants) +
+                                   " variants, expected fewer values, or an experiment for each part of them");
+    }
+    variants *= std::max<std::size_t>(values, 1);
+  }
 }
 
 // Parameters that contradict each other would end every run of their variant. Other meshers, and runs that find the
@@ -190,9 +204,11 @@ const Variant& find_variant(const std::string& name, const std::vector<Variant>&
   std::vector<std::string> names;
   for (const Variant& variant : variants) {
     if (variant.name == name) return variant;
-    names.push_back(variant.name);
+    if (!variant.name.empty()) names.push_back(variant.name);  // that of a base that is missing is empty
   }
-  object.fail(key, "names no variant: '" + name + "', the nearest is '" + nearest_name(name, names) + "'");
+  object.fail(key,
+              "names no variant: '" + name + "', " +
+                  (names.empty() ? "and none is known here" : "the nearest is '" + nearest_name(name, names) + "'"));
 }
 
 Variant parse_base(const StrictObject& experiment, const fs::path& folder, Mistakes& mistakes) {
@@ -217,6 +233,7 @@ std::vector<Variant> parse_all_variants(const StrictObject& experiment, const Va
                                         Mistakes& mistakes) {
   std::vector<Variant> variants = parse_variants(experiment, base, folder, mistakes);
   if (experiment.has("sweep")) {
+    check_sweep_size(variants.size(), experiment);
     for (const auto& item : experiment.at("sweep").items()) {
       const std::string place = experiment.place_of("sweep").append("/").append(item.key());
       mistakes.gather([&] { variants = swept(variants, item.key(), item.value(), place, mistakes); });

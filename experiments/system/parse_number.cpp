@@ -12,14 +12,15 @@ namespace deliso {
 
 double parse_number(const std::string& text, const std::string& option) { return parse_number(text, option, text); }
 
-double parse_number(const std::string& text, const std::string& option, const std::string& typed) {
+double parse_number(const std::string& text, const std::string& option, const std::string& typed,
+                    const std::string& expected) {
   double value = 0;
   const bool plus = text.starts_with('+') && !text.starts_with("+-");
   const char* const begin = text.data() + (plus ? 1 : 0);
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || stop != end || begin == end || !std::isfinite(value)) {
-    throw InputError(option + ": expected a finite number, found '" + typed + "'");
+    throw InputError(option + ": expected " + expected + ", found '" + typed + "'");
   }
   return value;
 }

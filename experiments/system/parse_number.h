@@ -8,8 +8,9 @@ namespace deliso {
 
 // A finite decimal number. Throws InputError naming the option.
 double parse_number(const std::string& text, const std::string& option);
-// The same of a part of what was typed, all of which the message quotes.
-double parse_number(const std::string& text, const std::string& option, const std::string& typed);
+// The same of a part of what was typed, all of which the message quotes, as what was expected.
+double parse_number(const std::string& text, const std::string& option, const std::string& typed,
+                    const std::string& expected = "a finite number");
 
 // A whole number from `low` to `high`. Throws InputError naming the option and the range.
 std::uint64_t parse_count(const std::string& text, const std::string& option, std::uint64_t low, std::uint64_t high);

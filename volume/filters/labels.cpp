@@ -51,9 +51,23 @@ Neighbours neighbours_of(const ScalarGrid& grid) {
   });
 }
 
+bool are_whole(const ScalarGrid& grid) {
+  return visit_samples(grid.samples(), [](const auto& samples) {
+    return std::all_of(samples.begin(), samples.end(), [](auto sample) {
+      const auto value = static_cast<double>(sample);
+      return value == std::floor(value);
+    });
+  });
+}
+
 std::string labels_text(const ScalarGrid& grid) {
   const std::optional<std::vector<double>> values = distinct_values(grid, kMostLabels);
-  if (!values) return "more than " + std::to_string(kMostLabels) + " values, so they are no labels";
+  if (!values) {
+    const auto [low, high] = grid.range();
+    const std::string range = " from " + shortest_text(low) + " to " + shortest_text(high);
+    return are_whole(grid) ? "whole numbers" + range
+                           : "numbers" + range + " that are not all whole, so they are no labels";
+  }
   std::string text = values->size() == 1 ? "all " : "the values ";
   for (std::size_t i = 0; i < values->size(); ++i) text += (i > 0 ? ", " : "") + shortest_text((*values)[i]);
   return text;

@@ -28,7 +28,8 @@ class Sha256 {
   std::uint64_t length_ = 0;  // bytes so far
 };
 
-// The hash of a volume's samples: their raw bytes, little endian, x fastest. Dimensions and spacing have no part in it.
+// The hash of a volume's samples: their raw bytes, little endian, x fastest, in the order in which they lie in memory
+// (reversed along axes that run backwards in the file). Dimensions and spacing have no part in it.
 std::string sample_sha256(const Samples& samples);
 std::string sample_sha256(const ScalarGrid& grid);
 

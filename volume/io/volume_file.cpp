@@ -56,6 +56,8 @@ std::optional<VolumeFormat> format_of_content(UnpackedFile& file) {
   std::string start(512, '\0');
   start.resize(file.bytes().read(std::as_writable_bytes(std::span(start))));
   file.rewind();
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before a text
+  if (start.starts_with(kByteOrderMark)) start.erase(0, kByteOrderMark.size());
   static constexpr std::array<std::pair<std::string_view, VolumeFormat>, 9> kStarts{
       {{"NRRD", VolumeFormat::kNrrd},
        {"# vtk DataFile", VolumeFormat::kLegacyVtk},
@@ -110,7 +112,7 @@ Volume read_any(const std::filesystem::path& path, const ReadOptions& options) {
   if (!format && reads_by_itk(path)) return read_by_itk(path, {options.channel});
   std::error_code unreadable;
   if (format || std::filesystem::is_regular_file(path) || !std::filesystem::exists(path, unreadable)) {
-    UnpackedFile file(path);
+    UnpackedFile file(path, options.stands_alone);
     if (!format) format = format_of_content(file);
     if (format) return read_as(*format, file, options);
   }
@@ -120,6 +122,8 @@ Volume read_any(const std::filesystem::path& path, const ReadOptions& options) {
 }
 
 }  // namespace
+
+bool is_volume_format(const std::string& format) { return format_of_extension("." + format).has_value(); }
 
 Volume read_placed_volume(const std::filesystem::path& path, const ReadOptions& options) {
   Volume volume = read_any(path, options);

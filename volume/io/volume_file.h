@@ -27,8 +27,12 @@ struct ReadOptions {
   std::optional<std::uint64_t> channel;  // of files with several values a voxel or several volumes
   std::string array;                     // of files with named arrays (.vtk, .vti)
   std::string format;                    // an extension without its dot, to be taken for the file's own; or empty
+  bool stands_alone = false;             // no other file is beside it: a header of samples elsewhere is refused
   bool accepts_not_finite = false;       // NaN and infinities are counted and replaced (volume.h); else refused
 };
+
+// Whether ReadOptions::format may be this.
+bool is_volume_format(const std::string& format);
 
 // Reads a volume with its place in the world. Files that begin as gzip does are unpacked, whatever their names. Throws
 // InputError with one sentence that names the file, the place, the value found and what was expected; for formats that

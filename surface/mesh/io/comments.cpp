@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "surface/mesh/io/text.h"
+
 namespace deliso {
 
 namespace {
@@ -56,7 +58,7 @@ MeshComments of_hash_lines(std::string_view bytes) {
 // Ours are joined by "; " in the name of a solid.
 MeshComments of_stl(std::string_view bytes) {
   constexpr std::string_view kSolid = "solid ", kOurs = "deliso ";
-  const bool is_text = bytes.starts_with(kSolid) && bytes.find("facet") < bytes.size();
+  const bool is_text = may_be_ascii_stl(bytes) && bytes.substr(0, kSolid.size()).back() == kSolid.back();
   std::string_view line = is_text ? take_row(bytes).substr(kSolid.size()) : bytes.substr(0, kStlHeaderLetters);
   if (is_text && line.starts_with(kOurs)) line.remove_prefix(kOurs.size());
   MeshComments comments;

@@ -10,6 +10,7 @@
 #include "delaunay/base/check.h"
 #include "surface/mesh/io/comments.h"
 #include "surface/mesh/io/formats.h"
+#include "surface/mesh/io/text.h"
 #include "volume/io/base/atomic_file.h"
 #include "volume/io/base/input_file.h"
 
@@ -103,7 +104,7 @@ std::optional<MeshFormat> mesh_format_of_content(std::string_view head, std::uin
   if (head.starts_with("# vtk DataFile") && (has("POLYDATA") || has("polydata"))) return MeshFormat::kLegacyVtk;
   if (has("<VTKFile") && has("PolyData")) return MeshFormat::kVtp;
   if (head.starts_with("MeshVersionFormatted")) return MeshFormat::kMedit;
-  if (head.starts_with("solid") && has("facet")) return MeshFormat::kStl;
+  if (may_be_ascii_stl(head)) return MeshFormat::kStl;
   if (is_binary_stl(head, size)) return MeshFormat::kStl;
   const std::string_view word = head.substr(0, head.find_first_of(" \r\n"));
   if (word.ends_with("OFF")) return MeshFormat::kOff;
@@ -112,6 +113,12 @@ std::optional<MeshFormat> mesh_format_of_content(std::string_view head, std::uin
 
 bool is_read(MeshFormat format) {
   return format != MeshFormat::kGmsh && format != MeshFormat::kSmesh && format != MeshFormat::kGlb;
+}
+
+bool is_packed_mesh_path(const std::filesystem::path& path) {
+  if (!same_letters(path.extension().string(), ".GZ")) return false;
+  const std::optional<MeshFormat> packed = mesh_format_of(path.stem());
+  return packed && *packed != MeshFormat::kLegacyVtk;
 }
 
 bool is_mesh_path(const std::filesystem::path& path) { return mesh_format_of(path).has_value(); }
@@ -183,6 +190,8 @@ MeshFile parse_mesh(std::string_view bytes, MeshFormat format, const std::string
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& path, std::optional<MeshFormat> format) {
+  if (!format && is_packed_mesh_path(path))
+    throw InputError(path.string() + ": meshes are not read packed, expected the unpacked file (as by gunzip)");
   if (!format) format = mesh_format_of(path);
   if (format && !is_read(*format)) return parse_mesh("", *format, path.string());  // throws
   if (!format && !std::filesystem::is_regular_file(path)) fail_extension(path, kReadMeshExtensions);

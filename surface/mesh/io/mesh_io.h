@@ -29,6 +29,8 @@ bool is_read(MeshFormat format);
 
 // Whether write_mesh knows the extension of a file, in small or capital letters.
 bool is_mesh_path(const std::filesystem::path& path);
+// Whether the name is that of a mesh packed by gzip, which is not read; .vtk.gz may be a volume.
+bool is_packed_mesh_path(const std::filesystem::path& path);
 
 // Whether a file begins as a mesh of VTK's does: .vtk is an extension of volumes, too.
 bool is_mesh_content(const std::filesystem::path& path);

@@ -145,30 +145,31 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& file) {
 
 TriangleMesh parse_ascii(std::string_view bytes, const std::string& file) {
   TextScanner in(bytes, file);
-  const auto expect = [&](const char* keyword) {
+  // Some programs write the keywords in capitals.
+  const auto expect = [&](const char* capitals, const char* keyword) {
     const std::string_view found = in.word();
-    if (found != keyword) in.fail(keyword, found);
+    if (!same_letters(found, capitals)) in.fail(keyword, found);
   };
   CornerMerger merger;
   // Facets; several solids may follow each other. The first line is "solid" and a name.
   bool inside = false;
   for (std::string_view keyword = in.word(); !keyword.empty(); keyword = in.word()) {
-    if (keyword == (inside ? "endsolid" : "solid")) {
+    if (same_letters(keyword, inside ? "ENDSOLID" : "SOLID")) {
       inside = !inside;
       in.next_line();
       continue;
     }
-    if (!inside || keyword != "facet") in.fail(inside ? "facet or endsolid" : "solid", keyword);
+    if (!inside || !same_letters(keyword, "FACET")) in.fail(inside ? "facet or endsolid" : "solid", keyword);
     in.next_line();  // the normal
-    expect("outer");
-    expect("loop");
+    expect("OUTER", "outer");
+    expect("LOOP", "loop");
     std::array<Vec3, 3> corners;
     for (Vec3& corner : corners) {
-      expect("vertex");
+      expect("VERTEX", "vertex");
       corner = in.point();
     }
-    expect("endloop");
-    expect("endfacet");
+    expect("ENDLOOP", "endloop");
+    expect("ENDFACET", "endfacet");
     merger.add(corners);
   }
   if (inside) in.fail("endsolid", "");
@@ -238,9 +239,9 @@ bool is_binary_stl(std::string_view head, std::uint64_t size) {
 }
 
 TriangleMesh parse_stl(std::string_view bytes, const std::string& file) {
-  // A binary file may begin with "solid" too; only its size tells for sure.
+  // A binary file may begin with "solid" (or "SOLID") too; only its size tells for sure.
   if (is_binary_stl(bytes, bytes.size())) return parse_binary(bytes, file);
-  return bytes.substr(0, 5) == "solid" ? parse_ascii(bytes, file) : parse_binary(bytes, file);
+  return same_letters(bytes.substr(0, 5), "SOLID") ? parse_ascii(bytes, file) : parse_binary(bytes, file);
 }
 
 }  // namespace deliso

@@ -99,6 +99,15 @@ bool same_letters(std::string_view word, std::string_view capitals) {
                     [&](char a, char b) { return upper(a) == b; });
 }
 
+bool may_be_ascii_stl(std::string_view text) {
+  constexpr std::string_view kFirst = "SOLID", kFacet = "FACET";
+  if (!same_letters(text.substr(0, kFirst.size()), kFirst)) return false;
+  for (std::size_t at = text.find_first_of("Ff"); at != std::string_view::npos; at = text.find_first_of("Ff", at + 1)) {
+    if (same_letters(text.substr(at, kFacet.size()), kFacet)) return true;
+  }
+  return false;
+}
+
 std::string percent_decoded(std::string_view text) {
   const auto digit = [](char c) {
     if (c >= '0' && c <= '9') return c - '0';

@@ -66,6 +66,8 @@ void append_point(std::string& text, const Vec3& p);
 
 // Whether a word is that in capitals, whatever its case.
 bool same_letters(std::string_view word, std::string_view capitals);
+// Whether an STL file may be text: "solid" comes first and "facet" later, in letters of any case.
+bool may_be_ascii_stl(std::string_view text);
 // A text in which %XX stands for the byte with this hexadecimal number.
 std::string percent_decoded(std::string_view text);
 

@@ -55,6 +55,51 @@ TEST_F(MeshFormats, VerifyTakesItsBoundFromEveryFormatThatIsRead) {
   }
 }
 
+// A vertex of no triangle, far outside the box, is no part of the surface: told, and not held against it.
+TEST_F(MeshFormats, VerifyTellsOfVerticesWithoutTriangles) {
+  const std::string path = folder_ / "m.obj";
+  ASSERT_EQ(mesh(path).exit_code, 0);
+  const auto verify = [&] { return run_deliso({"verify", path, volume_, "--isovalue", "100.5", "--closed"}); };
+  EXPECT_FALSE(has_text(verify().err, "no triangle"));
+  write_file(path, read_file(path) + "v 1000000 0 0\n");
+  const ProgramResult one = verify();
+  EXPECT_EQ(one.exit_code, 0) << one.out << one.err;
+  EXPECT_TRUE(has_text(one.err, "1 vertex belongs to no triangle: it is no part of the surface")) << one.err;
+  write_file(path, read_file(path) + "v 0 0 0\n");
+  EXPECT_TRUE(has_text(verify().err, "2 vertices belong to no triangle: they are no part of the surface"));
+}
+
+TEST_F(MeshFormats, StandardInputIsOfAKnownFormatAndStandsAlone) {
+  EXPECT_EQ(shell("$D info - --volume-format NRRD < $F/v.nrrd").exit_code, 0);
+  EXPECT_EQ(shell("$D info - --volume-format nrrd.gz < $F/v.nrrd").exit_code, 0);
+  // Whatever the content tells.
+  const ProgramResult unknown = shell("$D info - --volume-format foo < $F/v.nrrd");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_TRUE(has_text(unknown.err, "--volume-format: expected nrrd, nhdr, nii, ")) << unknown.err;
+  EXPECT_TRUE(has_text(unknown.err, " or raw, found 'foo'")) << unknown.err;
+  const std::string header = "NRRD0001\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n";
+  write_file(folder_ / "marked.nrrd", "\xEF\xBB\xBF" + header + "\n12345678");
+  EXPECT_EQ(shell("$D info - < $F/marked.nrrd").exit_code, 0);
+  // A pair of NIfTI files begins with a header whose magic, at byte 344, is "ni1".
+  std::string nifti(348, '\0');
+  nifti[0] = 92, nifti[1] = 1, nifti[40] = 3, nifti[42] = nifti[44] = nifti[46] = 2, nifti[70] = 2, nifti[72] = 8;
+  for (const std::size_t spacing : {80u, 84u, 88u}) nifti.replace(spacing, 4, std::string("\0\0\x80\x3F", 4));  // 1
+  nifti.replace(344, 3, "ni1");
+  write_file(folder_ / "d.hdr", nifti);
+  write_file(folder_ / "d.nhdr", header + "data file: d.raw\n");
+  write_file(folder_ / "d.mhd", "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = d.raw\n");
+  write_file(folder_ / "d.raw", "12345678");
+  write_file(folder_ / "d.img", "12345678");
+  for (const std::string name : {"d.nhdr", "d.mhd", "d.hdr"}) {
+    EXPECT_EQ(run_deliso({"info", folder_ / name}).exit_code, 0) << run_deliso({"info", folder_ / name}).err;
+    const ProgramResult refused = shell("cat $F/" + name + " | $D info -");
+    EXPECT_EQ(refused.exit_code, 2) << name;
+    EXPECT_EQ(refused.err,
+              "deliso: standard input: the header has its samples in another file, which is looked for beside the "
+              "header's: give the name of the header's file\n");
+  }
+}
+
 TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtp", {"--report", folder_ / "r.json"}).exit_code, 0);
   const ProgramResult text = run_deliso({"info", folder_ / "m.vtp"});
@@ -81,6 +126,10 @@ TEST_F(MeshFormats, InfoDescribesAMeshAndTheReportItsComponents) {
   ASSERT_EQ(mesh(folder_ / "m.vtk").exit_code, 0);
   EXPECT_TRUE(has_text(run_deliso({"info", folder_ / "m.vtk"}).out, "triangles"));
   EXPECT_EQ(run_deliso({"info", folder_ / "m.msh"}).exit_code, 2);
+  const std::string packed = folder_ / "m.ply.gz";
+  write_file(packed, "packed");
+  EXPECT_EQ(run_deliso({"info", packed}).err,
+            "deliso: " + packed + ": meshes are not read packed, expected the unpacked file (as by gunzip)\n");
 }
 
 TEST_F(MeshFormats, StandardInputAndOutputAreVolumesMeshesAndReports) {
@@ -96,6 +145,8 @@ TEST_F(MeshFormats, StandardInputAndOutputAreVolumesMeshesAndReports) {
   EXPECT_TRUE(has_text(shell("cat $F/v.nrrd | $D info -").out, "NRRD"));
   const ProgramResult raw = shell("tail -c 13824 $F/raw | $D info - --volume-format raw --dims 24,24,24 --type u8");
   EXPECT_EQ(raw.exit_code, 2);  // there is no such file: nothing comes
+  EXPECT_EQ(shell("$D info - < /dev/null").err, "deliso: standard input is empty\n");
+  EXPECT_EQ(shell("cat /dev/null | $D verify - $F/v.nrrd --isovalue 1").err, "deliso: standard input is empty\n");
   const ProgramResult report = mesh(folder_ / "x.ply", {"--report", "-"});
   EXPECT_EQ(parse_json(report.out, "report")["components"], 4);
   EXPECT_TRUE(has_text(report.err, "proven"));

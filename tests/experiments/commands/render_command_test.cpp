@@ -119,7 +119,12 @@ TEST_F(Render, CutsViewAndZoomChangeWhatIsSeen) {
   EXPECT_NE(picture({"--size", "40x40", "--perspective", "40"}).rgb, plain.rgb);
   EXPECT_EQ(picture({"--size", "40x40", "--clip", "x=1000"}).rgb, plain.rgb);
   EXPECT_LT(4 * drawn(picture({"--size", "40x40", "--zoom", "0.25"}), 0, 40), drawn(plain, 0, 40));
-  EXPECT_EQ(drawn(picture({"--size", "40x40", "--look-at", "500,500,500", "--zoom", "4"}), 0, 40), 0);
+  // An empty picture is told.
+  const ProgramResult far_off = run({"--size", "40x40", "--look-at", "500,500,500", "-o", folder_ / "p.png"});
+  EXPECT_EQ(far_off.exit_code, 0);
+  EXPECT_EQ(far_off.err, "deliso: isosurface: nothing of it is in the picture, expected another --look-at, --view, " +
+                             std::string("--zoom or --clip\n"));
+  EXPECT_EQ(drawn(decoded(read_file(folder_ / "p.png")), 0, 40), 0);
 }
 
 TEST_F(Render, RefusesWhatCannotBeDone) {

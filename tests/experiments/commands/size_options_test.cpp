@@ -298,13 +298,16 @@ TEST_F(SizeOptionsTest, BadSizesAreRefusedInOneSentence) {
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
     EXPECT_NE(refused.err.find(option.substr(2)), std::string::npos) << refused.err;
   }
-  // What was typed is quoted, units included.
+  // What was typed is quoted, units included, and the units that there are named.
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"--max-error", "0.1mmm"},
+                                      {"--max-error", "0.1um"},
                                       {"--max-edge", "mm"},
                                       {"--smooth", "w"},
                                       {"--min-component", "area:xmm2"}}) {
     const std::string refused = mesh({option, value}, "none.ply").err;
-    EXPECT_EQ(refused, "deliso: " + option + ": expected a finite number, found '" + value + "'\n");
+    const std::string power = option == "--min-component" ? "2" : "", number = power.empty() ? "0.5" : "5";
+    EXPECT_EQ(refused, "deliso: " + option + ": expected a finite number: of voxels, or like " + number + "mm" + power +
+                           ", or " + number + "w" + power + " in the volume's own units, found '" + value + "'\n");
   }
   EXPECT_EQ(mesh({"--threads", "auto"}).exit_code, 0);
 }

@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "delaunay/base/shortest_text.h"
-#include "experiments/commands/sample_histogram.h"
 #include "experiments/config/json.h"
 #include "tests/support/program_runner.h"
 #include "volume/fields/analytic_fields.h"
@@ -90,6 +90,10 @@ TEST(Usage, GenerateListsAndWritesEveryField) {
   const TemporaryFolder folder;
   const ProgramResult list = run_deliso({"generate", "--list"});
   EXPECT_EQ(list.exit_code, 0);
+  const ProgramResult both = run_deliso({"generate", "torus", "--list", "-o", folder / "y.nrrd"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_TRUE(contains(both.err, "generate: --list writes no volume")) << both.err;
+  EXPECT_TRUE(folder.names().empty());
   for (const AnalyticField& field : analytic_fields()) {
     EXPECT_TRUE(contains(list.out, field.name));
     const ProgramResult result =
@@ -242,50 +246,6 @@ TEST(Usage, TopologyOfKnownFieldsIsTheKnownOne) {
     EXPECT_TRUE(std::is_permutation(found.begin(), found.end(), known->begin(), known->end())) << report["isosurface"];
     EXPECT_TRUE(contains(result.out, "euler characteristic"));
   }
-}
-
-// Otsu's threshold by its definition: the largest variance between the classes, by trying all.
-TEST(Histogram, SuggestedIsovalueHasTheLargestVarianceBetweenClasses) {
-  const ScalarGrid grid = generate_field("shells", 24);
-  const SampleHistogram histogram = sample_histogram(grid.samples());
-  const auto variance_between = [&](double threshold) {
-    double count[2] = {0, 0};
-    double sum[2] = {0, 0};
-    visit_samples(grid.samples(), [&](const auto& samples) {
-      for (const auto sample : samples) {
-        const int side = static_cast<double>(sample) < threshold ? 0 : 1;
-        count[side] += 1;
-        sum[side] += static_cast<double>(sample);
-      }
-    });
-    if (count[0] == 0 || count[1] == 0) return 0.0;
-    const double difference = sum[0] / count[0] - sum[1] / count[1];
-    return count[0] * count[1] * difference * difference;
-  };
-  double best = 0;
-  for (double threshold = 0.5; threshold < 255; ++threshold) best = std::max(best, variance_between(threshold));
-  const auto suggestions = suggested_isovalues(grid.samples(), histogram);
-  ASSERT_EQ(suggestions.size(), 3u);
-  EXPECT_NEAR(variance_between(suggestions[0].isovalue) / best, 1, 1e-9);
-  EXPECT_LT(suggestions[1].isovalue, suggestions[2].isovalue);
-}
-
-TEST(Histogram, CountsEverySampleAtTheEndsOfTheDoubles) {
-  const double huge = std::numeric_limits<double>::max();
-  const double tiny = std::numeric_limits<double>::denorm_min();
-  for (const std::vector<double>& ends : {std::vector<double>{-huge, huge}, {0.0, tiny}, {3.0, 3.0}}) {
-    const ScalarGrid grid({2, 2, 2},
-                          std::vector<double>{ends[0], ends[1], ends[0], ends[0], ends[1], ends[1], ends[1], ends[1]});
-    std::uint64_t count = 0;
-    for (const std::uint64_t bin : sample_histogram(grid.samples()).counts) count += bin;
-    EXPECT_EQ(count, 8u);
-  }
-  const ScalarGrid wide({2, 2, 2}, std::vector<std::int32_t>{std::numeric_limits<std::int32_t>::min(), 0, 0, 0, 0, 0, 0,
-                                                             std::numeric_limits<std::int32_t>::max()});
-  const SampleHistogram histogram = sample_histogram(wide.samples());
-  EXPECT_LE(histogram.counts.size(), 256u);
-  EXPECT_EQ(histogram.counts.front(), 1u);
-  EXPECT_EQ(histogram.counts.back(), 1u);
 }
 
 }  // namespace

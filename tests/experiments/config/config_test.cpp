@@ -181,8 +181,11 @@ TEST(Config, OnlyStrictJsonIsTaken) {
   EXPECT_TRUE(contains(refusal(R"({"certify": true,})"), "not valid JSON"));
   EXPECT_TRUE(contains(refusal(R"({"certify": true, "certify": false})"), "'certify' stands twice"));
   EXPECT_TRUE(contains(refusal(R"({"stage1": {"rho": 2}, "stage2": {"rho": 2, "rho": 3}})"), "'rho' stands twice"));
+  EXPECT_EQ(refusal("{\"stage1\": {\"rho\": 2},\n\"stage2\": {\"rho\": 2,\n\"rho\": 3}}"),
+            "p.json#/stage2/rho (line 3): the key 'rho' stands twice in one object");
   EXPECT_EQ(refusal(R"({"stage1": {"rho": 2}, "stage2": {"rho": 2}})"), "");
   EXPECT_TRUE(contains(refusal(""), "not valid JSON"));
+  EXPECT_EQ(refusal(std::string("{}\n\0garbage", 11)), "p.json: not valid JSON, line 2 holds a byte of value 0");
 }
 
 TEST(Config, SetTakesPathsAndValues) {

@@ -114,6 +114,18 @@ TEST(ExplainCommand, WritesThePage) {
   EXPECT_EQ(piped.out, read_file(folder / "lesson.html"));
 }
 
+// A name is bytes to the file system; where JSON holds it, what is not UTF-8 becomes the replacement character.
+TEST(ExplainCommand, TakesNamesThatAreNotUtf8) {
+  const TemporaryFolder folder;
+  const std::string volume = folder / "b\377.nrrd";
+  ASSERT_EQ(run_deliso({"generate", "shells", "--size", "16", "-o", volume}).exit_code, 0);
+  const ProgramResult result = run_deliso({"explain", volume, "--isovalue", "100.5", "--without-experiments", "-o",
+                                           folder / "l.html", "--trace", folder / "t.jsonl"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(folder / "l.html"));
+  EXPECT_EQ(Json::parse(lines_of(read_file(folder / "t.jsonl")).at(0))["volume"], "b\uFFFD.nrrd");
+}
+
 TEST(ExplainCommand, WritesTraceAndTranscriptOfAVolume) {
   const TemporaryFolder folder;
   const std::string volume = folder / "shells.nrrd", trace = folder / "t.jsonl";

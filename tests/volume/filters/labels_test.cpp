@@ -26,6 +26,30 @@ std::vector<std::int16_t> blocks(int size, int labels) {
   return samples;
 }
 
+// An atlas has more values than can be listed; what is wrong is that this one is not among them.
+TEST(Labels, OneThatNoSampleHasIsRefusedWithTheRange) {
+  const auto refusal = [](const ScalarGrid& grid) -> std::string {
+    try {
+      check_labels(grid, {1, 5000});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::vector<std::int16_t> many;
+  for (int i = 0; i < 512; ++i) many.push_back(static_cast<std::int16_t>(i % 117));
+  EXPECT_EQ(refusal(ScalarGrid({8, 8, 8}, many)),
+            "no sample has the label 5000: the samples are whole numbers from 0 to 116");
+  std::vector<float> field(many.begin(), many.end());
+  field[3] = 2.5f;
+  EXPECT_EQ(
+      refusal(ScalarGrid({8, 8, 8}, field)),
+      "no sample has the label 5000: the samples are numbers from 0 to 116 that are not all whole, so they are no "
+      "labels");
+  EXPECT_EQ(refusal(ScalarGrid({32, 32, 32}, blocks(32, 4))),
+            "no sample has the label 5000: the samples are the values -1, 0, 1, 2");
+}
+
 TEST(Labels, AreRecognised) {
   Rng rng(1);
   std::vector<std::uint8_t> noise(512), mask(512);

@@ -119,7 +119,7 @@ TEST_F(Formats, NrrdEncodingsInAnyCaseAndTextWithItsMarks) {
   EXPECT_EQ(read("a.nrrd", packed(nrrd("uchar", "encoding: gzip\n", packed(kTwelve)))).grid.samples(), kTwelveSamples);
   refuse("a.nrrd", nrrd("uchar", "encoding: text\n", "1 2 3 4 5 6 7 8 9 10 11 256"), {"number 11", "\"256\"", "u8"});
   refuse("a.nrrd", nrrd("uchar", "encoding: text\n", "1 2 3" + std::string(40, ' ')), {"ends after 3 numbers", "12"});
-  refuse("a.nrrd", nrrd("uchar", "encoding: hex\n", "61626"), {"hexadecimal"});
+  refuse("a.nrrd", nrrd("uchar", "encoding: hex\n", "61626"), {"5 hexadecimal digits, an odd number", "expected 24"});
   refuse("a.nrrd", nrrd("uchar", "encoding: hex\n", "6x"), {"\"x\""});
 }
 
@@ -275,10 +275,12 @@ TEST_F(Formats, NumpyHeadersThatAreNone) {
   EXPECT_EQ(read("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3, 2), }")).grid.samples(),
             kTwelveSamples);
   refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': , }"), {"'shape'", "tuple"});
-  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 6), }"), {"'shape'", "three axes"});
+  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 6), }"),
+         {"'shape' is \"(2, 6)\"", "three axes"});
   refuse("a.npy", npy("{'descr': '|O', 'fortran_order': False, 'shape': (2, 3, 2), }"), {"'descr'", "\"'|O'\""});
   refuse("a.npy", npy("{'descr': '|u1', 'shape': (2, 3, 2), }"), {"'fortran_order'"});
   refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3, 99), }"), {"12 bytes", "594"});
+  refuse("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 0, 2), }"), {"'shape' along y is 0"});
 }
 
 TEST_F(Formats, OthersAreNamedWithAProgramThatConvertsThem) {

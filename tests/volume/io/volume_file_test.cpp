@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/volume_files.h"
 #include "volume/io/sha256.h"
@@ -116,6 +119,25 @@ TEST(VolumeFile, ExtensionsInCapitalsCount) {
   const ScalarGrid grid({2, 3, 4}, random_samples<std::int16_t>(24, 1), {1, 2, 3});
   write_volume(grid, directory / "V.NRRD");
   EXPECT_EQ(read_volume(directory / "V.NRRD").samples(), grid.samples());
+}
+
+// What the header calls a dimension that is none is named, or the row and the axis.
+TEST(VolumeFile, ADimensionThatIsNoneIsNamed) {
+  const TemporaryFolder directory;
+  std::string nifti(352, '\0');
+  nifti[0] = 92, nifti[1] = 1;  // 348, the size of the header
+  nifti[40] = 3, nifti[42] = 2, nifti[46] = 2, nifti[70] = 2, nifti[72] = 8;
+  nifti.replace(344, 3, "n+1");
+  const std::vector<std::array<std::string, 3>> files = {
+      {"v.nii", nifti, "\"dim[2]\" is 0"},
+      {"v.inr", "#INRIMAGE-4#{\nXDIM=2\nYDIM=0\nZDIM=2\nTYPE=unsigned fixed\n##}\n", "YDIM is 0"},
+      {"v.pvm", "PVM\n2 4000000000 2\n1\n", "the dimension along y is 4000000000"},
+      {"v.vtk", "# vtk DataFile Version 3.0\nv\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 0 2\n",
+       "DIMENSIONS along y is 0"}};
+  for (const auto& [name, content, part] : files) {
+    write_text(directory / name, content);
+    expect_input_error([&, file = directory / name] { read_volume(file); }, {part, "expected 2 to"});
+  }
 }
 
 // Name and hash of the public volumes, from the list beside them.

@@ -44,12 +44,18 @@ class HeaderBytes {
   Endian endian_ = kHostEndian;
 };
 
-// A dimension as a header has it, as one of Dims; throws InputError unless it is from 1 to 2^31 - 3.
+// "DimSize along x": of a header that has a row of numbers under one name.
+inline std::string along_axis(const std::string& name, std::size_t axis) {
+  return name + " along " + (axis < 3 ? std::string(1, "xyz"[axis]) : "the axis " + std::to_string(axis + 1));
+}
+
+// A dimension as a header has it, as one of Dims; throws InputError unless it is from 1 to 2^31 - 3. `name`: what the
+// header calls it.
 template <class Integer>
-std::int32_t dimension_of(const ByteStream& file, Integer size) {
+std::int32_t dimension_of(const ByteStream& file, const std::string& name, Integer size) {
   constexpr auto kMost = std::numeric_limits<std::int32_t>::max() - 2;
   if (std::cmp_less(size, 1) || std::cmp_greater(size, kMost))
-    file.fail("a dimension is " + std::to_string(size) + ", expected 2 to " + std::to_string(kMost));
+    file.fail(name + " is " + std::to_string(size) + ", expected 2 to " + std::to_string(kMost));
   return static_cast<std::int32_t>(size);
 }
 

@@ -65,7 +65,17 @@ void InputFile::seek(std::uint64_t position) {
   stream_.seekg(static_cast<std::streamoff>(position));
 }
 
-UnpackedFile::UnpackedFile(std::filesystem::path path) : file_(std::move(path)) { rewind(); }
+UnpackedFile::UnpackedFile(std::filesystem::path path, bool stands_alone)
+    : file_(std::move(path)), stands_alone_(stands_alone) {
+  rewind();
+}
+
+void UnpackedFile::require_folder() {
+  if (!stands_alone_) return;
+  file_.fail(
+      "the header has its samples in another file, which is looked for beside the header's: give the name of the "
+      "header's file");
+}
 
 void UnpackedFile::rewind() {
   // Two bytes of magic and the only method that gzip knows.

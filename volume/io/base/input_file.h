@@ -44,8 +44,11 @@ class InputFile : public ByteStream {
 // The bytes of a file, uncompressed when they begin as gzip does (whatever the file's name says).
 class UnpackedFile {
  public:
-  explicit UnpackedFile(std::filesystem::path path);
+  // `stands_alone`: no other file is found by its name, as of a stream that is kept in a file without a name.
+  explicit UnpackedFile(std::filesystem::path path, bool stands_alone = false);
 
+  // Precondition to looking for a file beside it: throws InputError where this one stands alone.
+  void require_folder();
   [[nodiscard]] InputFile& file() { return file_; }
   [[nodiscard]] ByteStream& bytes() { return gzip_ ? static_cast<ByteStream&>(*gzip_) : file_; }
   [[nodiscard]] bool is_packed() const { return gzip_.has_value(); }
@@ -56,6 +59,7 @@ class UnpackedFile {
 
  private:
   InputFile file_;
+  bool stands_alone_;
   std::optional<GzipReader> gzip_;
 };
 

@@ -99,9 +99,10 @@ Volume read_inr(UnpackedFile& file, const ChannelChoice& choice) {
   volume.format = "INR";
   SampleLayout& layout = volume.layout;
   layout.type = read_inr_type(fields);
-  layout.dims = {dimension_of(stream, fields.integer("XDIM", 0)), dimension_of(stream, fields.integer("YDIM", 0)),
-                 dimension_of(stream, fields.integer("ZDIM", 1))};
-  layout.components = static_cast<std::uint64_t>(dimension_of(stream, fields.integer("VDIM", 1)));
+  layout.dims = {dimension_of(stream, "XDIM", fields.integer("XDIM", 0)),
+                 dimension_of(stream, "YDIM", fields.integer("YDIM", 0)),
+                 dimension_of(stream, "ZDIM", fields.integer("ZDIM", 1))};
+  layout.components = static_cast<std::uint64_t>(dimension_of(stream, "VDIM", fields.integer("VDIM", 1)));
   const std::string cpu = fields.text("CPU", "decm");
   layout.endian = cpu == "sun" || cpu == "sgi" ? Endian::kBig : Endian::kLittle;
   if (cpu != "sun" && cpu != "sgi" && cpu != "decm" && cpu != "alpha" && cpu != "pc")

@@ -137,7 +137,7 @@ std::size_t take_meta_dims(const ByteStream& file, const MetaFields& fields, Sam
     constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
     const double size = (*sizes)[n];
     if (!(size >= 1 && size <= kLargest) || size != std::floor(size)) fields.fail("DimSize", "whole numbers from 2 on");
-    const std::int32_t whole = dimension_of(file, static_cast<std::int64_t>(size));
+    const std::int32_t whole = dimension_of(file, along_axis("DimSize", n), static_cast<std::int64_t>(size));
     if (n < 3) layout.dims[n] = whole;
     if (n == 3) layout.volumes = static_cast<std::uint64_t>(whole);
   }
@@ -275,6 +275,7 @@ Volume read_metaimage(UnpackedFile& file, const ChannelChoice& choice) {
   constexpr std::uint64_t kMostFiles = 1 << 20;
   std::vector<std::filesystem::path> files =
       data_files(bytes, fields, file.file().path().parent_path(), std::min(count, kMostFiles));
+  if (!files.empty()) file.require_folder();
   Volume read = read_meta_samples(file, fields, files, volume, choice);
   read.data_files = std::move(files);
   return read;

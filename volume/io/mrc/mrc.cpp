@@ -130,7 +130,8 @@ Volume read_mrc(UnpackedFile& file, const ChannelChoice& choice) {
     layout.volumes = static_cast<std::uint64_t>(sizes[2] / sections);
     sizes[2] = sections;
   }
-  for (std::size_t n = 0; n < 3; ++n) layout.dims.at(n) = dimension_of(stream, sizes.at(n));
+  constexpr std::array<const char*, 3> kSizeNames{"NX", "NY", "NZ"};
+  for (std::size_t n = 0; n < 3; ++n) layout.dims.at(n) = dimension_of(stream, kSizeNames.at(n), sizes.at(n));
   volume.index_to_world = read_mrc_geometry(stream, bytes, cell_axes(stream, bytes));
   const auto extended = bytes.at<std::int32_t>(92);
   if (extended < 0) stream.fail("NSYMBT is " + std::to_string(extended) + ", expected the bytes of an extended header");

@@ -135,9 +135,12 @@ void take_dims(const ByteStream& file, const NiftiHeader& header, SampleLayout& 
   const std::int64_t count = header.dim[0];
   if (count < 3 || count > 7)
     file.fail("\"dim\" says that the file has " + std::to_string(count) + " axes, expected 3 to 7");
-  for (std::size_t n = 0; n < 3; ++n) layout.dims[n] = dimension_of(file, header.dim.at(n + 1));
+  const auto size_at = [&](std::size_t n) {
+    return dimension_of(file, "\"dim[" + std::to_string(n) + "]\"", header.dim.at(n));
+  };
+  for (std::size_t n = 0; n < 3; ++n) layout.dims[n] = size_at(n + 1);
   for (std::size_t n = 4; n <= static_cast<std::size_t>(count); ++n) {
-    const auto size = static_cast<std::uint64_t>(dimension_of(file, header.dim.at(n)));
+    const auto size = static_cast<std::uint64_t>(size_at(n));
     constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
     if (size > kMost / layout.volumes) file.fail("\"dim\" has more than 2^40 volumes");
     layout.volumes *= size;
@@ -237,6 +240,7 @@ Volume read_nifti(UnpackedFile& file, const ChannelChoice& choice) {
     bytes.fail("\"vox_offset\" is " + std::to_string(offset) + ", expected the byte at which the samples begin");
   layout.skipped_bytes = static_cast<std::uint64_t>(offset - header_size);
   if (!is_pair) return read_described(bytes, volume, choice, file.mappable());
+  file.require_folder();
   check_geometry(bytes, volume);
   choose_channel(bytes, choice, layout);
   std::optional<UnpackedFile> image;

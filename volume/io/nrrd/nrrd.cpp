@@ -44,6 +44,7 @@ std::string header_text(const VolumeHeader& header, NrrdEncoding encoding) {
 Volume read_nrrd(UnpackedFile& file, const ChannelChoice& choice) {
   const std::filesystem::path& path = file.file().path();
   NrrdHeader header = read_nrrd_header(file.bytes(), path);
+  if (!header.data_files.empty()) file.require_folder();
   VolumeDescription& volume = header.volume;
   choose_channel(file.bytes(), choice, volume.layout);
   turn_forwards(volume);

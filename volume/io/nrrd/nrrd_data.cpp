@@ -58,7 +58,11 @@ std::string bytes_of_hex(ByteStream& stream, std::uint64_t count) {
     out += static_cast<char>(16 * high + digit);
     high = -1;
   }
-  if (high >= 0 || out.size() != count)
+  if (high >= 0)
+    stream.fail("the data have " + std::to_string(2 * out.size() + 1) +
+                " hexadecimal digits, an odd number, but a byte " + "has two: expected " + std::to_string(2 * count) +
+                " digits");
+  if (out.size() != count)
     stream.fail("the data have " + std::to_string(out.size()) + " bytes in hexadecimal, but the dimensions and the " +
                 "type need " + std::to_string(count));
   return out;

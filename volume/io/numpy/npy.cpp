@@ -35,7 +35,7 @@ class NpyHeader {
     text_ = dictionary.text(0, length);
   }
 
-  // What stands behind a key, up to the comma or brace that ends it.
+  // What stands behind a key: a tuple with its parentheses, or all up to the comma or brace that ends it.
   [[nodiscard]] std::string value(const std::string& key) const {
     std::size_t at = text_.find("'" + key + "'");
     if (at == std::string::npos) file_.fail("the header has no entry '" + key + "'");
@@ -45,7 +45,7 @@ class NpyHeader {
     if (at == std::string::npos) file_.fail("the header's entry '" + key + "' has no value");
     const std::size_t end = text_[at] == '(' ? text_.find(')', at) : text_.find_first_of(",}", at);
     if (end == std::string::npos) file_.fail("the header's entry '" + key + "' does not end");
-    return text_.substr(at, end - at);
+    return text_.substr(at, end - at + (text_[end] == ')' ? 1 : 0));
   }
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
     file_.fail("'" + key + "' is " + in_quotes(value(key)) + ", expected " + expected);
@@ -55,7 +55,7 @@ class NpyHeader {
     std::string word;
     const std::string tuple = value("shape");
     if (!tuple.starts_with('(')) fail("shape", "a tuple like (4, 5, 6)");
-    for (const char c : tuple.substr(1) + ',') {
+    for (const char c : tuple.substr(1, tuple.size() - 2) + ',') {
       if (c == ' ') continue;
       if (c != ',') {
         word += c;
@@ -101,9 +101,11 @@ void take_npy_shape(const ByteStream& file, const NpyHeader& header, SampleLayou
   layout.is_z_fastest = order == "True";
   const bool is_vector = shape.size() == 4 && shape.back() < shape.front();
   const std::size_t first = shape.size() == 4 && !is_vector ? 1 : 0;  // the axis z
-  for (std::size_t n = 0; n < 3; ++n) layout.dims[2 - n] = dimension_of(file, shape[first + n]);
+  for (std::size_t n = 0; n < 3; ++n)
+    layout.dims[2 - n] = dimension_of(file, along_axis("'shape'", 2 - n), shape[first + n]);
   if (shape.size() == 3) return;
-  const auto channels = static_cast<std::uint64_t>(dimension_of(file, is_vector ? shape.back() : shape.front()));
+  const auto channels = static_cast<std::uint64_t>(
+      dimension_of(file, "the number of channels in 'shape'", is_vector ? shape.back() : shape.front()));
   // In C order the last axis is the fastest, in Fortran order the first.
   (is_vector != layout.is_z_fastest ? layout.components : layout.volumes) *= channels;
 }

@@ -50,7 +50,8 @@ Volume read_plain_pvm(ByteStream& file, const std::string& magic, const ChannelC
   volume.format = magic;
   SampleLayout& layout = volume.layout;
   const std::vector<double> dims = read_numbers(file, 3, "three dimensions");
-  for (std::size_t n = 0; n < 3; ++n) layout.dims.at(n) = dimension_of(file, whole(file, dims[n]));
+  for (std::size_t n = 0; n < 3; ++n)
+    layout.dims.at(n) = dimension_of(file, along_axis("the dimension", n), whole(file, dims[n]));
   if (magic != "PVM") {
     const std::vector<double> spacing = read_numbers(file, 3, "the spacing along x, y and z");
     for (const double s : spacing) {

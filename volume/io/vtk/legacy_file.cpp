@@ -83,7 +83,8 @@ void LegacyFile::read_header() {
     const std::string keyword = in_capitals(words[0]);
     if (keyword == "DIMENSIONS") {
       if (words.size() != 4) fail("three dimensions");
-      for (std::size_t n = 0; n < 3; ++n) volume_.layout.dims.at(n) = dimension_of(bytes_, count(words[n + 1]));
+      for (std::size_t n = 0; n < 3; ++n)
+        volume_.layout.dims.at(n) = dimension_of(bytes_, along_axis("DIMENSIONS", n), count(words[n + 1]));
       has_dims = true;
     } else if (keyword == "ORIGIN") {
       origin = three(words);

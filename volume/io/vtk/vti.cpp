@@ -114,7 +114,8 @@ void take_extent(const ByteStream& file, const VtiFile& vti, VolumeDescription& 
     const double size = extent.at(2 * n + 1) - extent.at(2 * n) + 1;
     constexpr double kLargest = 0x1p40;
     if (!(std::abs(size) < kLargest)) file.fail("WholeExtent has a side of more than 2^40 samples");
-    volume.layout.dims.at(n) = dimension_of(file, static_cast<std::int64_t>(size));
+    volume.layout.dims.at(n) =
+        dimension_of(file, along_axis("the size of WholeExtent", n), static_cast<std::int64_t>(size));
     map.columns.at(n) = spacing.at(n) * Vec3{rows.at(n), rows.at(3 + n), rows.at(6 + n)};
     map.offset += extent.at(2 * n) * map.columns.at(n);
   }

@@ -70,6 +70,22 @@ TEST_F(MeshIo, AnAsciiStlThatCallsItselfSolidAndABinaryOneThatDoesTooAreToldApar
   EXPECT_EQ(parse_stl(stl_bytes(mesh, true), "x").triangles.size(), 4u);
 }
 
+TEST_F(MeshIo, AnAsciiStlInCapitalsIsRead) {
+  const TriangleMesh mesh = testing::tetrahedron_mesh();
+  std::string text = stl_bytes(mesh, true);
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  ASSERT_TRUE(text.starts_with("SOLID"));
+  EXPECT_EQ(parse_stl(text, "x").points, parse_stl(stl_bytes(mesh, true), "x").points);
+  EXPECT_EQ(mesh_format_of_content(text, text.size()), MeshFormat::kStl);
+  text.replace(text.find("OUTER"), 5, "inner");
+  try {
+    parse_stl(text, "x");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "x, line 3: expected outer, found 'inner'");
+  }
+}
+
 TEST_F(MeshIo, ReadsForeignPly) {
   // Big endian, floats, extra elements and properties, lists of other types, quads, CRLF in the header.
   std::string bytes =
