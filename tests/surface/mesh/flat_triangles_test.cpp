@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -85,7 +86,7 @@ TEST(FlatTriangles, AreFlippedAndTheMeshStaysTheSameSetOfPoints) {
     const MeshTopology topology = mesh_topology({mesh.points, mesh.triangles});
     EXPECT_TRUE(topology.is_manifold());
     EXPECT_EQ(topology.components.size(), 1u);
-    EXPECT_EQ(topology.components[0].euler_characteristic, 2);
+    EXPECT_EQ(topology.components[0].euler_characteristic(), 2);
     SurfaceMesh fresh = mesh;
     set_side_adjacency(fresh);
     EXPECT_EQ(mesh.neighbours, fresh.neighbours) << "seed " << seed;
