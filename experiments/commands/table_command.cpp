@@ -1,6 +1,7 @@
 // deliso table: tables and plots from the records of an experiment.
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,6 +44,7 @@ ExitCode run_table(const TableCommandOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
   const std::filesystem::path target = options.output.empty() ? folders.front() : std::filesystem::path(options.output);
   std::vector<NamedFile> outputs;
+  outputs.reserve(outputs.size() + std::size(kResultFiles));
   for (const std::string_view name : kResultFiles) outputs.push_back({"-o", target / name});
   check_distinct({{"--experiment", options.experiment}}, outputs);
   if (!options.by.empty()) return run_comparison(options, folders, target);
