@@ -102,6 +102,7 @@ set(unsanitized
   "SpanningTriangles.DoNotStay"
   "StageOneRunsAgain"
   "StageOneRunsAgainWhere"
+  "StripsAlongTheWalls"
   "StepsReachAnError"
   "StlHeader.OptionsWithoutRoom"
   "StlHeader.VerifyNeedsNoOptionTwice"
