@@ -11,6 +11,7 @@
 
 #include "delaunay/base/check.h"
 #include "delaunay/base/shortest_text.h"
+#include "volume/sample_neighbors.h"
 #include "volume/sample_sides.h"
 
 namespace deliso {
@@ -32,60 +33,6 @@ void for_each_sample(const ScalarGrid& grid, const Visit& visit) {
     for (const auto sample : samples) {
       if (sample != layer) visit(static_cast<double>(sample));
     }
-  });
-}
-
-// How the samples lie around a value.
-struct Neighbors {
-  bool equal = false;         // some sample equals the value
-  double lower = -kInfinity;  // the largest sample below it
-  double higher = kInfinity;  // the smallest sample above it
-};
-
-// Of samples given one after the other, by turns to several searches: no sample waits for the comparison of the one
-// before it.
-class NeighborSearch {
- public:
-  explicit NeighborSearch(double value) : value_(value) {
-    lower_.fill(-kInfinity);
-    higher_.fill(kInfinity);
-  }
-  void add(std::size_t turn, double s) {
-    const double below = s < value_ ? s : -kInfinity, above = s > value_ ? s : kInfinity;
-    lower_[turn] = below > lower_[turn] ? below : lower_[turn];
-    higher_[turn] = above < higher_[turn] ? above : higher_[turn];
-    equal_[turn] += s == value_ ? 1 : 0;
-  }
-  [[nodiscard]] Neighbors found() const {
-    return {std::any_of(equal_.begin(), equal_.end(), [](double count) { return count > 0; }),
-            *std::max_element(lower_.begin(), lower_.end()), *std::min_element(higher_.begin(), higher_.end())};
-  }
-
-  static constexpr std::size_t kTurns = 8;
-
- private:
-  double value_;
-  std::array<double, kTurns> lower_{}, higher_{}, equal_{};
-};
-
-template <class Sample, class Value>
-Neighbors find_neighbors_in(const SampleArray<Sample>& samples, double value, const Value& value_of) {
-  NeighborSearch search(value);
-  const Sample* const at = samples.data();
-  std::size_t i = 0;
-  for (; i + NeighborSearch::kTurns <= samples.size(); i += NeighborSearch::kTurns) {
-    for (std::size_t turn = 0; turn < NeighborSearch::kTurns; ++turn) search.add(turn, value_of(at[i + turn]));
-  }
-  for (; i < samples.size(); ++i) search.add(0, value_of(at[i]));
-  return search.found();
-}
-
-Neighbors find_neighbors(const ScalarGrid& grid, double value) {
-  return visit_samples(grid.samples(), [&]<class Sample>(const SampleArray<Sample>& samples) {
-    if (!grid.walls()) return find_neighbors_in(samples, value, [](Sample s) { return static_cast<double>(s); });
-    return find_neighbors_in(samples, value, [layer = samples.front()](Sample s) {
-      return s == layer ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(s);
-    });
   });
 }
 
