@@ -58,9 +58,11 @@ Pipeline::Pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshin
       parameters_(options.parameters),
       controls_(parameters_.budget, options.stop, options.progress),
       result_(result),
-      promise_{.max_distance = promised_distance(parameters_), .within_cells = is_measured_within_cells(parameters_)} {
+      rounding_(std::min(options.rounding, kMostForRounding * promised_distance(parameters_))),
+      promise_{.max_distance = kept_distance(), .within_cells = is_measured_within_cells(parameters_)} {
+  promise_.max_residual -= std::min(options.rounding, kMostForRounding * promise_.max_residual);
   controls_.set_observer(options.observer);
-  result_.promised_distance = promise_.max_distance;
+  note_promised();
 }
 
 // DelIso(O, isovalue) of the paper, Figure 4.

@@ -32,7 +32,12 @@ struct MeshingOptions {
   std::string_view stop_cause = "a signal";       // who sets it, for the report
   bool keep_stage1_mesh = false;
   Observer* observer = nullptr;  // told of every step, see there
+  // How far points of the mesh may move when it is written, in smallest spacings: so much less than the promised
+  // distances is kept, but for at most half of them.
+  double rounding = 0;
 };
+
+inline constexpr double kMostForRounding = 0.5;  // of the promised distance
 
 struct BuildStats : StageStats {
   // False only without one sign per tetrahedron: the restricted facets bound no set of tetrahedra, so they are the mesh

@@ -9,6 +9,7 @@
 
 #include "surface/base/controls.h"
 #include "surface/base/exact_surface.h"
+#include "surface/base/sizes.h"
 #include "surface/certificate/component_assignment.h"
 #include "surface/certificate/promise.h"
 #include "surface/certificate/repeated_check.h"
@@ -37,6 +38,11 @@ class Pipeline {
   // How freely steps leave the isosurface to bring triangles near it: with more, crossings of one component would be
   // reached from another that is near.
   static constexpr double kFreeSteps = 2;
+
+  // Less than the promised distance, for the mesh moves by rounding when it is written.
+  [[nodiscard]] double kept_distance() const { return promised_distance(parameters_) - rounding_; }
+  void note_promised();
+  [[nodiscard]] Promise stated() const;  // the promise as others are told of it
 
   using DelS = std::unique_ptr<RestrictedDelaunay>;  // Del S restricted to the isosurface
 
@@ -100,9 +106,10 @@ class Pipeline {
   std::unique_ptr<ExactSurfaceCache> cache_;  // what repair compares with; none where nothing is repaired
   std::vector<Vec3> coverage_targets_;        // for RefineGeom
   std::int32_t cube_parts_ = 2;               // of cells of marching cubes, where these have to be nearer
-  Promise promise_;
-  MeshFaults last_;          // of the mesh that RefineGeom has made
-  KnownTriangles left_bad_;  // by the shape stage
+  double rounding_ = 0;                       // see MeshingOptions
+  Promise promise_;                           // what is kept before rounding
+  MeshFaults last_;                           // of the mesh that RefineGeom has made
+  KnownTriangles left_bad_;                   // by the shape stage
 };
 
 }  // namespace deliso

@@ -197,7 +197,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.topology = result_.certificate.verdict;
   if (controls_.stopped()) {
     // Checks end with the run: what they have found by then says nothing of the rest.
-    result_.certificate.broken = broken_promises(figures, promise_);
+    result_.certificate.broken = broken_promises(figures, stated());
     result_.certificate.broken.push_back(unchecked_when_stopped());
     return;
   }
@@ -208,8 +208,8 @@ void Pipeline::certify(SurfaceMesh mesh) {
   figures.vertices_off = last_.geometry.vertices_off;
   figures.mesh_off = last_.geometry.mesh_off;
   figures.isosurface_off = static_cast<std::int64_t>(last_.geometry.missed_points.size());
-  result_.certificate.broken = broken_promises(figures, promise_);
-  if (options_.observer != nullptr) options_.observer->certified(figures, promise_);
+  result_.certificate.broken = broken_promises(figures, stated());
+  if (options_.observer != nullptr) options_.observer->certified(figures, stated());
 }
 
 }  // namespace deliso

@@ -129,9 +129,11 @@ bool Pipeline::is_right_within(const SurfaceMesh& mesh, double error) {
 }
 
 // Down to the number asked for, or as far as the error allows. Where only a number is asked for, more error is allowed
-// as long as it takes and as the mesh stays right, and promised afterwards.
+// as long as it takes and as the mesh stays right, and promised afterwards; but none that hardly pays, as where handles
+// and components need more vertices than are asked for.
 void Pipeline::decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share) {
   constexpr double kMostTimes = 64, kRounding = 1.001;
+  constexpr double kLeastGain = 0.05;  // of the vertices, for twice the error
   controls_.enter("decimate");
   DecimationOptions options;
   options.enough = static_cast<std::size_t>(parameters_.size.target_vertices.value_or(0));
@@ -139,14 +141,16 @@ void Pipeline::decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses,
   options.max_edge = longest_edge_allowed(parameters_);
   options.witnesses.assign(witnesses.begin(), witnesses.end());
   const bool may_grow = !parameters_.size.max_error;
-  if (may_grow) promise_.max_distance = promised_distance(parameters_);
+  if (may_grow) promise_.max_distance = kept_distance();
   options.max_error = share * promise_.max_distance;
   const double most = may_grow ? kMostTimes * options.max_error : options.max_error;
   for (bool has_grown = false; !controls_.stopped(); has_grown = true) {
     const SurfaceMesh before = has_grown ? mesh : SurfaceMesh();
     const DecimationStats stats_before = result_.decimation;
     timed(result_.decimation, [&] { decimate(mesh, *surface_, options, controls_, result_.decimation); });
-    if (has_grown && !is_right_within(mesh, options.max_error)) {
+    const bool pays = mesh.points.size() <= options.enough ||
+                      double(mesh.points.size()) <= (1 - kLeastGain) * double(before.points.size());
+    if (has_grown && !(pays && is_right_within(mesh, options.max_error))) {
       mesh = before;
       const double seconds = result_.decimation.seconds;
       result_.decimation = stats_before;
@@ -159,7 +163,7 @@ void Pipeline::decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses,
   }
   const double reached = std::min(kRounding * result_.decimation.largest_error, options.max_error);
   promise_.max_distance = std::max(promise_.max_distance, reached);
-  result_.promised_distance = promise_.max_distance;
+  note_promised();
 }
 
 // What decimation has left too far off: steps bring it near, and may leave small angles, which others then mend as long
@@ -198,7 +202,7 @@ void Pipeline::fit_promise(const SurfaceMesh& mesh, const RepeatedCheck& check) 
     promise_.max_distance *= kFactor;
     last_.geometry = timed(result_.certify_stage, [&] { return check.again_within(promise_, mesh); });
   }
-  double least = promised_distance(parameters_);
+  double least = kept_distance();
   for (int i = 0; i < kBisections && last_.geometry.is_near(); ++i) {
     if (promise_.max_distance <= kFactor * least || controls_.poll()) break;
     Promise nearer = promise_;
@@ -211,7 +215,21 @@ void Pipeline::fit_promise(const SurfaceMesh& mesh, const RepeatedCheck& check) 
       least = nearer.max_distance;
     }
   }
-  result_.promised_distance = promise_.max_distance;
+  note_promised();
+  // Decimation adds errors up; what was measured here is nearer.
+  DecimationStats& stats = result_.decimation;
+  stats.largest_error = std::min(stats.largest_error, result_.promised_distance);
+}
+
+void Pipeline::note_promised() {
+  const bool is_as_asked = promise_.max_distance == kept_distance();
+  result_.promised_distance = is_as_asked ? promised_distance(parameters_) : promise_.max_distance + rounding_;
+}
+
+Promise Pipeline::stated() const {
+  Promise promise = promise_;
+  promise.max_distance = result_.promised_distance;
+  return promise;
 }
 
 // Better angles for what the other steps would take too far: where steps had brought triangles near, and in what comes

@@ -92,16 +92,18 @@ ScalarGrid::ScalarGrid(Dims dims, Samples samples, Vec3 spacing, Vec3 origin)
 // Volumes, and the exact determinants of a mesh's vertices, are products of lengths: these must stay in range.
 void ScalarGrid::check_places() const {
   constexpr double kSmallest = 1e-100, kLargest = 1e100;
-  // Up to this distance in spacings a coordinate's rounding is below 1e-4 of a spacing.
+  // Up to this distance in smallest spacings a coordinate's rounding is below 1e-4 of one.
   constexpr double kFarthest = 0x1p40;
+  const double smallest = std::min({spacing_.x, spacing_.y, spacing_.z});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(spacing_[axis] > 0)) throw InputError("the spacing is " + text(spacing_) + ": each must be positive");
     if (!(spacing_[axis] >= kSmallest && spacing_[axis] <= kLargest))
       throw InputError("the spacing is " + text(spacing_) + ": each must be from 1e-100 to 1e100");
     const double farthest = std::max(std::abs(box().low[axis]), std::abs(box().high[axis]));
-    if (!(farthest <= kFarthest * spacing_[axis]))
-      throw InputError("the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
-                       ": places must be within 1e12 spacings of 0, coordinates cannot tell them apart beyond");
+    if (!(farthest <= kFarthest * smallest))
+      throw InputError(
+          "the origin is " + text(origin_) + " and the spacing " + text(spacing_) +
+          ": places must be within 1e12 of the smallest spacings of 0, coordinates cannot tell them apart beyond");
   }
 }
 

@@ -186,18 +186,16 @@ Meshed mesh_one(const MeshCommandOptions& options, const Volume& volume, const W
   if (label) meshing.parameters.field.label = label;
   ChosenField chosen = choose_field(options.volume.path, volume, options.field, meshing.parameters.field,
                                     region_of(meshing.parameters.region));
+  const MeshOutput output{world.from_grid, volume.grid.spacing(), output_format(options.output, "-o", options.format),
+                          metres_in_unit(world.units), options.output};
   MeshingResult result = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal() && !options.quiet);
     MeshingOptions watched = meshing;
     watched.progress = [&bar](const Progress& progress) { bar.show(progress); };
+    watched.rounding = rounding_of(output, volume.grid.box());
     return mesh_isosurface(chosen.grid, chosen.isovalue, watched);
   }();
-  if (meshing.parameters.certify) {
-    const Vec3& s = volume.grid.spacing();
-    judge_rounding(result.mesh, world.from_grid, std::min({s.x, s.y, s.z}), options.output,
-                   output_format(options.output, "-o", options.format), metres_in_unit(world.units),
-                   result.certificate);
-  }
+  if (meshing.parameters.certify) judge_rounding(result.mesh, output, result.promised_distance, result.certificate);
   const MeshQuality quality = measure_quality(result.mesh, meshing.threads);
   move_positions(world.from_grid, result);
   return {meshing.parameters.field.label, std::move(chosen), std::move(meshing), std::move(result), quality};

@@ -91,6 +91,7 @@ void forget_spacing(TriangleMesh& mesh, ScalarGrid& grid) {
 Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volume& volume, const World& world,
              const FieldParameters& parameters, const Promise& promise) {
   ChosenField chosen = choose_field(options.volume.path, volume, options.field, parameters);
+  const std::vector<Vec3> written = mesh.points;
   if (!(world.from_grid == Affine())) mesh = transformed(std::move(mesh), world.from_grid.inverse());
   ScalarGrid grid = chosen.grid;
   if (options.ignore_spacing) forget_spacing(mesh, grid);
@@ -101,8 +102,9 @@ Judged judge(const VerifyCommandOptions& options, TriangleMesh mesh, const Volum
   MeshedField field = meshed_field(grid, chosen.isovalue, parameters, options.closed, grid.spacing(), threads);
   Verification verification = [&] {
     ProgressBar bar(std::cerr, stderr_is_terminal());
-    return verify_mesh(mesh, field.grid, field.isovalue, promise,
-                       [&bar](double share, std::string_view step) { bar.show(share, step); });
+    return verify_mesh(
+        mesh, field.grid, field.isovalue, promise,
+        [&bar](double share, std::string_view step) { bar.show(share, step); }, written);
   }();
   if (!options.ignore_spacing) move_places(verification, world.from_grid);
   return {std::move(chosen), std::move(field), std::move(verification)};

@@ -57,10 +57,12 @@ class PlacedPieces {
  private:
   // As far from the isosurface as a vertex may be there may be another component.
   [[nodiscard]] bool is_doubtful(std::uint32_t v) const {
+    const Vec3& spacing = grid_.spacing();
+    const double most = Promise().max_residual * std::min({spacing.x, spacing.y, spacing.z});
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const double off : {-Promise().max_residual, Promise().max_residual}) {
+      for (const double off : {-most, most}) {
         Vec3 p = points_[v];
-        p[axis] += off;
+        p[axis] += off / spacing[axis];
         const auto other = component_of(grid_, isovalue_, topology_, p);
         if (other && *other != component_of_[v]) return true;
       }

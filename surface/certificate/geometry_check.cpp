@@ -53,18 +53,19 @@ struct Corners {
 // Of the triangles, those that need a closer look are found first. Returns those with a long edge (far_crossings.h).
 std::vector<std::uint32_t> check_triangles(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise,
                                            const KnownBefore* known, GeometryCheck& check) {
+  const TriangleReaches reaches(mesh, surface, promise);
   std::vector<std::uint32_t> large = collect_in_blocks<std::uint32_t>(
       mesh.triangles.size(), surface.threads, [&](std::size_t t, std::vector<std::uint32_t>& found) {
-        if (!Corners(mesh, t).all_within(promise.max_distance)) found.push_back(static_cast<std::uint32_t>(t));
+        if (!Corners(mesh, t).all_within(reaches[t])) found.push_back(static_cast<std::uint32_t>(t));
       });
-  using Far = std::pair<std::uint32_t, std::int64_t>;  // a triangle and how many of its samples are far
+  using Far = std::pair<std::uint32_t, std::int64_t>;  // a triangle and how many of its parts are far
   const auto append_if_far = [&](std::size_t i, std::vector<Far>& far) {
     const std::uint32_t t = large[i];
     if (surface.is_over()) return;
     const bool is_known = known != nullptr && known->far_parts[t] >= 0;
-    const std::int64_t count =
-        is_known ? known->far_parts[t]
-                 : count_far_parts(surface.isosurface, Corners(mesh, t).p, promise.max_distance, kMostParts);
+    const std::int64_t count = is_known
+                                   ? known->far_parts[t]
+                                   : count_far_parts(surface.isosurface, Corners(mesh, t).p, reaches[t], kMostParts);
     if (count > 0) far.emplace_back(t, count);
   };
   for (const auto& [t, count] :
@@ -83,12 +84,12 @@ void check_vertices(const MeshPoints& points, const ExactSurface& surface, const
                     GeometryCheck& check) {
   const Isosurface& isosurface = surface.isosurface;
   const SurfaceMesh& mesh = points.mesh();
+  const double most = std::min(promise.max_residual, promise.max_distance);
   const auto append_if_off = [&](std::size_t place, std::vector<std::uint32_t>& off) {
     const std::uint32_t v = points.order()[place];
     if (v >= mesh.points.size()) return;
     const Vec3& p = mesh.points[v];
-    if (isosurface.passes_within(p, promise.max_residual) || isosurface.value(p) == 0) return;
-    if (!point_across(isosurface, p, -isosurface.gradient(p), promise.max_residual)) off.push_back(v);
+    if (!is_shown_within(isosurface, p, most)) off.push_back(v);
   };
   check.off_vertices = collect_in_blocks<std::uint32_t>(points.order().size(), surface.threads, append_if_off);
   std::sort(check.off_vertices.begin(), check.off_vertices.end());

@@ -44,7 +44,11 @@ class SurfaceHull {
         terms[i | axis] = (high - low) / 2;
       }
     }
-    const double most = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]);
+    double most = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]);
+    constexpr double kRounding = 0x1p-48;  // of sums of eight values
+    double all = 0;
+    for (const double value : part.values) all += std::abs(value);
+    most += kRounding * all;
     CellCorners linear{};
     for (unsigned i = 0; i < 8; ++i) {
       linear[i] = terms[0] + ((i & 1u) != 0 ? terms[1] : -terms[1]) + ((i & 2u) != 0 ? terms[2] : -terms[2]) +
@@ -77,9 +81,9 @@ class SurfaceHull {
 // The search of cells, one after the other.
 class CellSearch {
  public:
-  CellSearch(const SurfaceMesh& mesh, std::span<const Box3> boxes, const BoxTree& tree, const Isosurface& isosurface,
+  CellSearch(const SurfaceMesh& mesh, std::span<const Box3> boxes, const BoxTree& tree, const ExactSurface& surface,
              double most)
-      : mesh_(mesh), boxes_(boxes), tree_(tree), isosurface_(isosurface), most_(most) {}
+      : mesh_(mesh), boxes_(boxes), tree_(tree), surface_(surface), isosurface_(surface.isosurface), most_(most) {}
 
   [[nodiscard]] std::optional<Vec3> missed_in(const CellIndex& cell) {
     field_ = relative_to(isosurface_.grid().cell(cell[0], cell[1], cell[2]), isosurface_.isovalue());
@@ -121,7 +125,9 @@ class CellSearch {
     }
     bool is_partly_near = false;
     if (is_near_one(part, near, is_partly_near)) return;
-    const bool is_last = kLeast * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth;
+    // A component that is left out has no mesh near.
+    const double times = near.empty() && !surface_.is_dropped.empty() ? 1 : kLeast;
+    const bool is_last = times * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth;
     if (is_last || !is_partly_near) take_from(part, near);
     if (is_last || missed_) return;
     // Along its longer sides.
@@ -183,16 +189,23 @@ class CellSearch {
         const Vec3 p = place(a + along * (b - a));
         double off = std::numeric_limits<double>::infinity();
         for (const std::uint32_t t : near) off = std::min(off, squared_distance_of(p, t));
-        if (!(off > farthest_)) continue;
+        if (!(off > farthest_) || !counts(p)) continue;
         farthest_ = off;
         missed_ = p;
       }
     }
   }
 
+  [[nodiscard]] bool counts(const Vec3& p) const {
+    if (surface_.is_dropped.empty()) return true;
+    const auto component = surface_.component_at(p);
+    return !component || surface_.is_dropped[*component] == 0;
+  }
+
   const SurfaceMesh& mesh_;
   std::span<const Box3> boxes_;  // of the triangles
   const BoxTree& tree_;
+  const ExactSurface& surface_;
   const Isosurface& isosurface_;
   double most_;
   CellCorners field_{};  // of the cell at hand, less the isovalue
@@ -206,8 +219,9 @@ class CellSearch {
 
 std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface) {
   const Dims& dims = surface.grid().dims();
-  std::vector<std::uint64_t> cells, unwanted;
-  const auto append_around = [&](const EdgeCrossing& crossing, std::vector<std::uint64_t>& some) {
+  std::vector<std::uint64_t> cells;
+  for (const EdgeCrossing& crossing : surface.topology.crossings) {
+    if (!surface.wants(crossing)) continue;
     const CellIndex at = sample_of(crossing, dims);
     const std::size_t u = (crossing.axis + 1U) % 3, v = (crossing.axis + 2U) % 3;
     for (unsigned side = 0; side < 4; ++side) {
@@ -215,18 +229,11 @@ std::vector<std::uint64_t> crossed_cells(const ExactSurface& surface) {
       cell.at(u) -= static_cast<std::int32_t>(side & 1U);
       cell.at(v) -= static_cast<std::int32_t>(side / 2);
       if (cell.at(u) < 0 || cell.at(v) < 0 || cell.at(u) > dims.at(u) - 2 || cell.at(v) > dims.at(v) - 2) continue;
-      some.push_back(surface.grid().index(cell[0], cell[1], cell[2]));
+      cells.push_back(surface.grid().index(cell[0], cell[1], cell[2]));
     }
-  };
-  for (const EdgeCrossing& crossing : surface.topology.crossings) {
-    append_around(crossing, cells);
-    if (!surface.wants(crossing)) append_around(crossing, unwanted);
   }
-  for (std::vector<std::uint64_t>* some : {&cells, &unwanted}) {
-    std::sort(some->begin(), some->end());
-    some->erase(std::unique(some->begin(), some->end()), some->end());
-  }
-  std::erase_if(cells, [&](std::uint64_t c) { return std::binary_search(unwanted.begin(), unwanted.end(), c); });
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
@@ -243,7 +250,7 @@ std::vector<MissedPlace> missed_places(const SurfaceMesh& mesh, const ExactSurfa
   for_each_block(
       cells.size(), surface.threads,
       [&](std::size_t first, std::size_t last) {
-        CellSearch search(mesh, boxes, tree, surface.isosurface, most);
+        CellSearch search(mesh, boxes, tree, surface, most);
         for (std::size_t i = first; i < last && !surface.is_over(); ++i) {
           const EdgeCrossing lowest{cells[i], 0, 0, 0};
           const auto missed = search.missed_in(sample_of(lowest, dims));

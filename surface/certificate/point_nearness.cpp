@@ -48,4 +48,9 @@ std::optional<Vec3> point_across(const Isosurface& isosurface, const Vec3& p, co
   return found ? found : other_side_within(isosurface, p, reach, halvings);
 }
 
+bool is_shown_within(const Isosurface& isosurface, const Vec3& p, double distance) {
+  return isosurface.passes_within(p, distance) || isosurface.value(p) == 0 ||
+         point_across(isosurface, p, -isosurface.gradient(p), distance).has_value();
+}
+
 }  // namespace deliso

@@ -20,4 +20,7 @@ bool changes_side(const Isosurface& isosurface, const Vec3& p, bool is_above, co
 std::optional<Vec3> point_across(const Isosurface& isosurface, const Vec3& p, const Vec3& falling, double reach,
                                  int halvings = 10);
 
+// Whether a point is shown to be so near the isosurface.
+bool is_shown_within(const Isosurface& isosurface, const Vec3& p, double distance);
+
 }  // namespace deliso

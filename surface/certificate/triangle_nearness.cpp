@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "surface/base/parallel_blocks.h"
 #include "surface/certificate/point_nearness.h"
 #include "surface/certificate/triangle_side.h"
 
@@ -153,6 +154,28 @@ std::int64_t count_far_parts(const Isosurface& isosurface, const std::array<Vec3
   PartsOfTriangle parts(isosurface, corners, most, enough, places);
   parts.look_at(corners);
   return parts.far();
+}
+
+TriangleReaches::TriangleReaches(const SurfaceMesh& mesh, const ExactSurface& surface, const Promise& promise)
+    : mesh_(mesh), most_(promise.max_distance) {
+  constexpr double kLeastShare = 1.0 / 40;
+  const double least = kLeastShare * most_, largest = std::min(promise.max_residual, most_);
+  if (least >= largest) return;
+  offsets_.resize(mesh.points.size());
+  for_each_block(offsets_.size(), surface.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      double offset = least;
+      while (offset < largest && !is_shown_within(surface.isosurface, mesh.points[v], offset)) offset *= 2;
+      offsets_[v] = offset == least ? 0 : std::min(offset, largest);
+    }
+  });
+}
+
+double TriangleReaches::operator[](std::size_t triangle) const {
+  constexpr double kSmallest = 1.0 / 64;  // of the promise: what is off by all of it is told of as a vertex
+  if (offsets_.empty()) return most_;
+  const auto& [a, b, c] = mesh_.triangles[triangle];
+  return std::max(kSmallest * most_, most_ - std::max({offsets_[a], offsets_[b], offsets_[c]}));
 }
 
 }  // namespace deliso

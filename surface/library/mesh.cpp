@@ -97,12 +97,11 @@ MeshResult mesh_watched(const VolumeView& volume, double isovalue, const MeshOpt
   MeshingOptions of_region = meshing;
   of_region.parameters.region = {};  // it is all of the grid
   const double value = isovalue_of_field(meshing.parameters, isovalue);
+  const MeshOutput output{placed.to_world, placed.grid.spacing(), MeshFormat::kPly, std::nullopt, "the mesh"};
+  of_region.rounding = rounding_of(output, placed.grid.box());
   MeshingResult result = mesh_isosurface(placed.grid, value, of_region);
-  if (meshing.parameters.certify && !placed.is_exact()) {
-    const Vec3& s = placed.grid.spacing();
-    judge_rounding(result.mesh, placed.to_world, std::min({s.x, s.y, s.z}), "the mesh", MeshFormat::kPly, std::nullopt,
-                   result.certificate);
-  }
+  if (meshing.parameters.certify && !placed.is_exact())
+    judge_rounding(result.mesh, output, result.promised_distance, result.certificate);
   const MeshQuality quality = measure_quality(result.mesh, meshing.threads);  // before a shear
   move_to_world(result, placed.to_world);
   MeshResult given;

@@ -115,7 +115,7 @@ VerifyReport verify(const Mesh& mesh, const VolumeView& volume, double isovalue,
     const Promise promise{
         .max_distance = options.max_distance > 0 ? options.max_distance : promised_distance(parameters),
         .dropped_components = options.dropped_components};
-    Verification v = verify_mesh(own, field.grid, field.isovalue, promise, step);
+    Verification v = verify_mesh(own, field.grid, field.isovalue, promise, step, engine_mesh(mesh).points);
     if (parameters.spacing == SpacingUse::kUse) move_places(v, placed.to_world);
     return report_of_verification(v, isovalue_of_field(parameters, isovalue), promise);
   });

@@ -62,6 +62,12 @@ std::vector<Vec3> points_of(const ExactSurface& surface, double reach) {
   for (const std::uint64_t cell : crossed_cells(surface)) {
     append_crossings_within(sample_of({cell, 0, 0, 0}, surface.grid().dims()), surface.isosurface, times, points);
   }
+  if (!surface.is_dropped.empty()) {
+    std::erase_if(points, [&](const Vec3& p) {
+      const auto component = surface.component_at(p);
+      return component && surface.is_dropped[*component] != 0;
+    });
+  }
   return points;
 }
 

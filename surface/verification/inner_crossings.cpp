@@ -1,5 +1,6 @@
 #include "surface/verification/inner_crossings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -10,10 +11,15 @@ namespace deliso {
 
 namespace {
 
-// The cells around the edges crossed, and whether any of these crossings is to be left out.
-std::map<CellIndex, bool> cells_crossed(const ScalarGrid& grid, std::span<const EdgeCrossing> crossings,
-                                        std::span<const std::uint8_t> is_dropped) {
-  std::map<CellIndex, bool> cells;
+// Which components pass through a cell: such as are left out, and others.
+struct Passing {
+  bool left_out = false, kept = false;
+};
+
+// The cells around the edges crossed.
+std::map<CellIndex, Passing> cells_crossed(const ScalarGrid& grid, std::span<const EdgeCrossing> crossings,
+                                           std::span<const std::uint8_t> is_dropped) {
+  std::map<CellIndex, Passing> cells;
   for (const EdgeCrossing& crossing : crossings) {
     const bool is_left_out = !is_dropped.empty() && is_dropped[crossing.component] != 0;
     const CellIndex above = sample_of(crossing, grid.dims());
@@ -26,7 +32,7 @@ std::map<CellIndex, bool> cells_crossed(const ScalarGrid& grid, std::span<const 
         for (std::size_t axis = 0; axis < 3; ++axis) {
           is_cell = is_cell && cell.at(axis) >= 0 && cell.at(axis) + 2 <= grid.dims().at(axis);
         }
-        if (is_cell) cells[cell] = cells[cell] || is_left_out;
+        if (is_cell) (is_left_out ? cells[cell].left_out : cells[cell].kept) = true;
       }
     }
   }
@@ -53,11 +59,16 @@ void append_changes(const CellCorners& corners, double isovalue, std::size_t axi
 
 }  // namespace
 
-std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, std::span<const EdgeCrossing> crossings,
+std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                                   std::span<const std::uint8_t> is_dropped, int times) {
   std::vector<Vec3> points;
-  for (const auto& [cell, is_left_out] : cells_crossed(grid, crossings, is_dropped)) {
-    if (is_left_out) continue;
+  const auto is_of_dropped = [&](const Vec3& p) {
+    const auto component = component_of(grid, isovalue, topology, p);
+    return component && is_dropped[*component] != 0;
+  };
+  for (const auto& [cell, passing] : cells_crossed(grid, topology.crossings, is_dropped)) {
+    if (!passing.kept) continue;
+    const auto first = static_cast<std::ptrdiff_t>(points.size());
     const CellCorners corners = grid.cell(cell[0], cell[1], cell[2]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Lines on a face are those of both its cells; each counts once but at the last faces of the grid.
@@ -69,6 +80,8 @@ std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, std::
         append_changes(corners, isovalue, axis, start, times, cell, points);
       }
     }
+    if (passing.left_out)
+      points.erase(std::remove_if(points.begin() + first, points.end(), is_of_dropped), points.end());
   }
   return points;
 }

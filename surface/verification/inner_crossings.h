@@ -12,8 +12,8 @@
 namespace deliso {
 
 // Where the isosurface crosses the edges of a grid so many times as fine, but for those of the grid itself; in samples.
-// Cells that a component passes through which is to be left out (empty: none is) have none.
-std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, std::span<const EdgeCrossing> crossings,
+// Components that are to be left out (empty: none is) have none.
+std::vector<Vec3> inner_crossings(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
                                   std::span<const std::uint8_t> is_dropped, int times);
 
 }  // namespace deliso

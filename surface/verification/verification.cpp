@@ -153,7 +153,7 @@ std::vector<Vec3> judged_points(const ScalarGrid& grid, double isovalue, const I
   std::vector<Vec3> points = kept_crossings(probe, truth, is_dropped);
   if (!(most < kLarge)) return points;
   const int times = static_cast<int>(std::clamp(std::ceil(1 / (kSpacing * most)), 2.0, double(kMostTimes)));
-  for (const Vec3& p : inner_crossings(grid, isovalue, truth.crossings, is_dropped, times)) {
+  for (const Vec3& p : inner_crossings(grid, isovalue, truth, is_dropped, times)) {
     points.push_back(scaled(probe.step(), p));
   }
   return points;
@@ -221,7 +221,7 @@ void check_input(const TriangleMesh& mesh, const ScalarGrid& grid, double isoval
 }  // namespace
 
 Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise,
-                         const VerificationProgress& progress) {
+                         const VerificationProgress& progress, std::span<const Vec3> written) {
   const Stopwatch stopwatch;
   const auto begin = [&](double share, std::string_view step) {
     if (progress) progress(share, step);
@@ -250,7 +250,8 @@ Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, doubl
 
   // Combinatorics.
   begin(0.3, "triangles that cross");
-  v.self_intersection.found = self_intersections(mesh, kMostPlaces);
+  v.self_intersection.found =
+      self_intersections(written.empty() ? std::span<const Vec3>(mesh.points) : written, mesh.triangles, kMostPlaces);
   v.self_intersection.pass = v.self_intersection.found.crossing_pairs == 0;
   AssignmentFaults faults;
   begin(0.4, "components");

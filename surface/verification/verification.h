@@ -105,9 +105,12 @@ struct Verification {
 // Called when a step begins, with the fraction of the steps that are done.
 using VerificationProgress = std::function<void(double share, std::string_view step)>;
 
+// `written`: the points as the mesh's file has them, where `mesh` is in the grid's own coordinates; triangles that
+// cross are looked for there. Empty: the same.
+//
 // Precondition: finite coordinates. Throws InputError when a triangle names a vertex out of range or the isovalue is
 // outside the range of the volume.
 Verification verify_mesh(const TriangleMesh& mesh, const ScalarGrid& grid, double isovalue, const Promise& promise = {},
-                         const VerificationProgress& progress = {});
+                         const VerificationProgress& progress = {}, std::span<const Vec3> written = {});
 
 }  // namespace deliso

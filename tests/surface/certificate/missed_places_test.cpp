@@ -97,5 +97,38 @@ TEST(MissedPlaces, AreNotLookedForOnComponentsThatAreDropped) {
   }
 }
 
+// Where others pass through a cell of theirs, too, and no triangle is near.
+TEST(MissedPlaces, AreThoseOfComponentsKeptInCellsOfBoth) {
+  const auto scene = testing::noise_scene({7, 6, 6}, 5, {1, 1, 1});
+  ExactSurface surface = scene->surface();
+  SurfaceMesh mesh = exact_polygonization(surface).mesh;
+  mesh.triangles.resize(1);
+  const std::vector<std::uint64_t> all = crossed_cells(surface);
+  surface.is_dropped.resize(scene->topology.components.size());
+  ASSERT_GT(surface.is_dropped.size(), 5u);
+  for (std::size_t c = 0; c < surface.is_dropped.size(); c += 2) surface.is_dropped[c] = 1;
+  const std::vector<std::uint64_t> kept = crossed_cells(surface);
+  for (std::uint8_t& is_dropped : surface.is_dropped) is_dropped = is_dropped == 0 ? 1 : 0;
+  const std::vector<std::uint64_t> others = crossed_cells(surface);
+  for (std::uint8_t& is_dropped : surface.is_dropped) is_dropped = is_dropped == 0 ? 1 : 0;
+  EXPECT_GT(kept.size() + others.size(), all.size() + 5);  // cells of both
+  const Box3 around_mesh = [&] {
+    Box3 box;
+    for (const std::uint32_t v : mesh.triangles[0]) box.extend(mesh.points[v]);
+    return box;
+  }();
+  const std::vector<MissedPlace> places = missed_places(mesh, surface, 0.3, kept);
+  for (const std::uint64_t cell : kept) {
+    const auto place = std::find_if(places.begin(), places.end(), [&](const auto& one) { return one.cell == cell; });
+    const CellIndex at = sample_of({cell, 0, 0, 0}, scene->grid.dims());
+    const Vec3 middle = scaled(scene->isosurface->step(), {at[0] + 0.5, at[1] + 0.5, at[2] + 0.5});
+    if (distance(middle, around_mesh.clamp(middle)) < 1.5) continue;
+    ASSERT_NE(place, places.end()) << cell;
+    const auto component = surface.component_at(place->position);
+    ASSERT_TRUE(component.has_value());
+    EXPECT_EQ(surface.is_dropped[*component], 0) << cell;
+  }
+}
+
 }  // namespace
 }  // namespace deliso

@@ -10,6 +10,7 @@
 
 #include "tests/support/volume_files.h"
 #include "volume/io/base/gzip_stream.h"
+#include "volume/io/volume_file.h"
 #include "volume/sample_type.h"
 
 namespace deliso {
@@ -130,6 +131,26 @@ TEST(Nrrd, CommentsKeysAndDescriptiveFieldsAreTolerated) {
   EXPECT_EQ(grid.samples(), Samples(kBytes));
   EXPECT_EQ(grid.spacing(), (Vec3{1, 1, 1}));
   EXPECT_EQ(grid.origin(), (Vec3{0, 0, 0}));
+}
+
+TEST(Nrrd, UnitsAreThoseOfTheSpaceOrElseOfTheVolumesAxes) {
+  const TemporaryFolder directory;
+  const auto units_with = [&](const std::string& lines) {
+    static_cast<void>(read_with(directory, lines));
+    return read_placed_volume(directory / "volume.nrrd").placement.units;
+  };
+  EXPECT_EQ(units_with(""), "");
+  EXPECT_EQ(units_with("units: \"mm\" \"mm\" \"mm\"\n"), "mm");
+  EXPECT_EQ(units_with("units: \"um\" \"um\" \"\"\n"), "um");
+  EXPECT_EQ(units_with("units: \"mm\" \"mm\" \"s\"\n"), "mm, s");
+  EXPECT_EQ(units_with("units: mm mm mm\n"), "");  // the format wants quotes
+  const std::string space = "space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n";
+  EXPECT_EQ(units_with(space + "space units: \"mm\" \"mm\" \"mm\"\nunits: \"s\" \"s\" \"s\"\n"), "mm");
+  const std::string of_colors =
+      "NRRD0005\ntype: uchar\ndimension: 4\nsizes: 1 2 3 2\nencoding: raw\nkinds: RGB-color domain domain domain\n"
+      "units: \"\" \"cm\" \"cm\" \"cm\"\n\n";
+  write_text(directory / "colors.nrrd", of_colors + kRawBytes);
+  EXPECT_EQ(read_placed_volume(directory / "colors.nrrd").placement.units, "cm");
 }
 
 TEST(Nrrd, LineEndsOfWindowsAndFieldsInCapitalsAreTolerated) {

@@ -55,22 +55,35 @@ void check_unused_fields(const NrrdFields& fields, const NrrdAxes& axes) {
   }
 }
 
-// One unit for all axes; several stay named, so that nobody takes the volume for one without units.
-std::string read_units(const NrrdFields& fields) {
-  const NrrdField* field = fields.find("space units");
-  if (field == nullptr) return {};
+// What stands between quotes, in order.
+std::vector<std::string> quoted_names(const std::string& text) {
   std::vector<std::string> names;
-  std::size_t start = field->value.find('"');
+  std::size_t start = text.find('"');
   while (start != std::string::npos) {
-    const std::size_t end = field->value.find('"', start + 1);
+    const std::size_t end = text.find('"', start + 1);
     if (end == std::string::npos) break;
-    const std::string found = field->value.substr(start + 1, end - start - 1);
-    const bool is_new = !found.empty() && std::find(names.begin(), names.end(), found) == names.end();
-    if (is_new) names.push_back(found);
-    start = field->value.find('"', end + 1);
+    names.push_back(text.substr(start + 1, end - start - 1));
+    start = text.find('"', end + 1);
+  }
+  return names;
+}
+
+// Those of the space or, where there are none, of the volume's axes. One unit for all axes; several stay named, so that
+// nobody takes the volume for one without units.
+std::string read_units(const NrrdFields& fields, const NrrdAxes& axes) {
+  std::vector<std::string> names;
+  if (const NrrdField* of_space = fields.find("space units")) {
+    names = quoted_names(of_space->value);
+  } else if (const NrrdField* of_axes = fields.find("units")) {
+    names = quoted_names(of_axes->value);
+    if (names.size() != axes.count) return {};
+    names = {names.begin() + std::ptrdiff_t(axes.first), names.begin() + std::ptrdiff_t(axes.first + 3)};
   }
   std::string units;
-  for (const std::string& name : names) units += (units.empty() ? "" : ", ") + name;
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (name->empty() || std::find(names.begin(), name, *name) != name) continue;
+    units += (units.empty() ? "" : ", ") + *name;
+  }
   return units;
 }
 
@@ -115,7 +128,7 @@ NrrdHeader read_nrrd_header(ByteStream& bytes, const std::filesystem::path& path
   check_unused_fields(fields, axes);
   header.volume.index_to_world = read_nrrd_geometry(fields, axes);
   if (const NrrdField* space = fields.find("space")) header.volume.space = space_name(space->value);
-  header.volume.units = read_units(fields);
+  header.volume.units = read_units(fields, axes);
   header.volume.format = "NRRD";
   read_place_of_data(fields, path, header);
   return header;
