@@ -221,8 +221,9 @@ Lesson.Page = class {
   goToExercise() {
     const box = this.root().querySelector(".exercise input, .exercise button, textarea");
     if (box) return box.focus();
-    if (!this.player) return undefined;
-    if (this.player.step === this.player.last()) this.player.command("first");
+    const step = this.player?.openQuestion() ?? -1;
+    if (step < 0) return undefined;
+    this.player.goTo(step);
     if (!this.player.predict.isOn) this.player.command("predict");
     return this.cards.next.querySelector(".answers button")?.focus();
   }

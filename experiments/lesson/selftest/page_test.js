@@ -138,6 +138,14 @@
         const {kind} = chapter.steps()[step + 1];
         const {sentence} = chapter.next(step);
         const shown = () => page.live.textContent + page.cards.next.textContent;
+        // No answer would be right.
+        if (!chapter.kinds[kind].key) {
+          check(
+              shown().includes(sentence) && !page.cards.why.hidden, `step ${step}: ${kind} has no key, and is hidden`);
+          check(!page.cards.next.querySelector(".answers"), `step ${step}: ${kind} has no key, and is asked for`);
+          press("ArrowRight");
+          continue;
+        }
         check(!shown().includes(sentence) && page.cards.why.hidden, `step ${step}: what comes is shown`);
         const others = Object.keys(chapter.kinds).filter((other) => chapter.kinds[other].key && other !== kind);
         const guess = step % 3 ? kind : others[step % others.length];
