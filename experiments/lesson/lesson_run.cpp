@@ -19,7 +19,7 @@ namespace deliso {
 namespace {
 
 constexpr int kDigits = 6;
-constexpr double kPerUnit = 1e5;                       // coordinates have five digits behind the point
+constexpr double kPerUnit = 1e5;                       // coordinates of meshes have five digits behind the point
 constexpr std::size_t kMostSamples = 40'000;           // of the grid; a larger one is shown without its samples
 constexpr std::size_t kMostSurfaceTriangles = 12'000;  // of the approximation; a larger one is left out
 
@@ -42,13 +42,23 @@ void round_numbers(Json& json, bool are_coordinates = false) {
   }
 }
 
+// Circumcenters of flat tetrahedra, and poles with them, move far with the last digits of the corners, so that points
+// of stage 1 keep all of theirs.
+void round_event(Json& event) {
+  const Json kind = event.at("e");
+  const char* const key = kind == "initial" ? "points" : kind == "insert" ? "p" : nullptr;
+  const Json exact = key == nullptr ? Json() : event.at(key);
+  round_numbers(event);
+  if (key != nullptr) event[key] = exact;
+}
+
 Json rounded_array_of(const Vec3& p) {
   return Json::array({rounded_coordinate(p.x), rounded_coordinate(p.y), rounded_coordinate(p.z)});
 }
 
 // What the page draws of the field: samples less the isovalue, for slices; and marching cubes' surface, for the eye.
 Json volume_of(const ScalarGrid& grid, double isovalue, const Vec3& step) {
-  Json volume = {{"dims", grid.dims()}, {"step", {rounded(step.x), rounded(step.y), rounded(step.z)}}};
+  Json volume = {{"dims", grid.dims()}, {"step", {step.x, step.y, step.z}}};
   Json samples = Json::array(), points = Json::array();
   const auto [nx, ny, nz] = grid.dims();
   if (std::size_t(nx) * std::size_t(ny) * std::size_t(nz) > kMostSamples) return volume;
@@ -136,7 +146,7 @@ Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events)
       ++left_out;
       continue;
     }
-    round_numbers(event);
+    round_event(event);
     Json shown = event.at("e") == "shape" ? mesh.changes(event) : event;
     if (event.at("e") != "compare") mesh.follow(event);
     number_by_rim(shown);
