@@ -143,12 +143,24 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
     const when = this.round(step) ? `After ${Lesson.countText(this.round(step), "round")}` : "Before the first round";
     return `${when} ${at.countRight()} of ${at.event.components.length} components are right. Component ${component}: ${
                Lesson.RepairChapter.says[kind]}` +
-        (this.run.events[event].components[component].done && kind !== "exact" ? " A mesh before had it right." : "");
+        this.whyDone(event, component);
+  }
+
+  // Why repair does no more for a component that is wrong.
+  whyDone(event, component) {
+    const {is, done} = this.run.events[event].components[component];
+    if (!done || Lesson.Comparison.isRight(is)) return "";
+    const before = [...this.comparisons].filter(([at]) => at < event);
+    const wasRight = before.some(([, at]) => Lesson.Comparison.isRight(at.component(component).is));
+    return wasRight ? " A mesh before had it right, and gives it." : " It is given up.";
   }
 
   verdict() {
     const {end} = this.run;
-    return `Stage 2 keeps the topology. The certificate of the mesh that leaves the program: ${end.verdict}` +
+    const last = [...this.comparisons.values()].pop();
+    const isMixed = last.countRight() < last.event.components.length;
+    return (isMixed ? "Each component comes from the last mesh that has it right, if one has. " : "") +
+        `Stage 2 keeps the topology. The certificate of the mesh that leaves the program: ${end.verdict}` +
         `${end.proven ? ", proven" : ""}, after ${Lesson.countText(end.repair_rounds, "round")} of repair.`;
   }
 
@@ -227,7 +239,7 @@ Lesson.RepairChapter.says = {
   partial: "χ and curves are equal, but the piece is far from a part of it. Wrong.",
   displaced: "χ and curves are equal, but one handle too many makes up for one that is missing elsewhere. Wrong.",
   mixed: "χ and curves are equal, but vertices of it belong to another piece: they are joined. Wrong.",
-  with_strays: "its piece is right, but others lie there, too.",
+  with_strays: "its piece is right; others lie there, too, and will be left out.",
 };
 
 Lesson.RepairChapter.kinds = {
