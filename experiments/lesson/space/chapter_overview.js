@@ -6,16 +6,19 @@ Lesson.OverviewChapter = class {
   // The events whose states are shown; the second is searched for.
   frames() {
     const {run} = this;
+    const last = () => run.events.length - 1;
     return [
-      [() => 0, "InitTriangulation"], [() => Math.max(run.homeomorphicAt(), 0), "Recover: χ is right"],
-      [() => run.meshAt, "Recover has ended"], [() => run.events.length - 1, "Refine has ended"]
-    ].filter((_, i) => i !== 2 || run.meshAt >= 0);
+      [() => 0, "InitTriangulation"],
+      [() => Math.max(run.homeomorphicAt(), 0), "Recover: χ is right"],
+      [() => Math.min(run.endOfStage1, last()), "Recover has ended"],
+      ...(run.hasStage2 ? [[last, "Refine has ended"]] : []),
+    ];
   }
 
   redraw() { this.drawn?.forEach(([event, canvas]) => this.draw(event, canvas)); }
 
   // Another one than the chapters go through, so that the reader does not wait for it there.
-  replayAt(event) { return event < this.run.meshAt ? this.run.searching.goTo(event) : this.run.at(event); }
+  replayAt(event) { return event < this.run.endOfStage1 ? this.run.searching.goTo(event) : this.run.at(event); }
 
   whatItIs(event) {
     const {run} = this;
@@ -47,7 +50,8 @@ Lesson.OverviewChapter = class {
     this.isTold = false;
     this.captions = [];
     const box = element(
-        "div", {class: "overview"}, element("h1", {}, `${this.run.name}: a run in four frames`),
+        "div", {class: "overview"},
+        element("h1", {}, `${this.run.name}: a run in ${this.run.hasStage2 ? "four" : "three"} frames`),
         element("p", {}, `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.`),
         Lesson.exercise({
           question: `Before you scroll: Del S0 has ${first.points} points. What is χ of its restricted facets?`,
@@ -98,7 +102,7 @@ Lesson.OverviewChapter = class {
     };
     tell();
     this.captions.push(tell);
-    const isStage1 = event < this.run.meshAt;
+    const isStage1 = event < this.run.endOfStage1;
     const address = isStage1 ? `#recover/${event}` : `#refine/${event - this.run.meshAt}`;
     place.replaceChildren(
         element("h2", {}, title), canvas,

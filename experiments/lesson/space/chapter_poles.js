@@ -9,7 +9,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
       below: {title: "the pole below", key: "b", mark: "disc", role: "poles"},
       mesh: {title: "BuildTriMesh", mark: "pentagon", role: "plain"},
     };
-    this.last = Math.max(0, run.meshAt - 1);
+    this.last = run.meshAt - 1;
     this.found = new Map();  // q -> its poles
   }
 
@@ -27,7 +27,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
       const counts = inMesh.has(q) ? this.counting(replay, q) : null;
       if (counts) list.push({kind: counts, event: this.last, q});
     }
-    if (run.meshAt >= 0) list.push({kind: "mesh", event: run.meshAt});
+    list.push({kind: "mesh", event: run.meshAt});
     return list;
   }
 

@@ -19,8 +19,9 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
       }
       if (event.e === "sample") this.askCells(i - 1, event, random);
     });
-    // With the mesh that stage 2 begins with.
-    if (run.events[last - 1].e === "certify") this.list.push({kind: "verdict", event: run.meshAt, certify: last - 1});
+    // With the mesh that stage 2 begins with, or the last that was compared.
+    const event = run.hasStage2 ? run.meshAt : [...this.comparisons.keys()].pop();
+    if (run.events[last - 1].e === "certify") this.list.push({kind: "verdict", event, certify: last - 1});
   }
 
   // All components that are wrong, or were; and, to begin with, a few that are right.
@@ -160,7 +161,9 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
     const last = [...this.comparisons.values()].pop();
     const isMixed = last.countRight() < last.event.components.length;
     return (isMixed ? "Each component comes from the last mesh that has it right, if one has. " : "") +
-        `Stage 2 keeps the topology. The certificate of the mesh that leaves the program: ${end.verdict}` +
+        `${
+               this.run.hasStage2 ? "Stage 2 keeps the topology. " :
+                                    ""}The certificate of the mesh that leaves the program: ${end.verdict}` +
         `${end.proven ? ", proven" : ""}, after ${Lesson.countText(end.repair_rounds, "round")} of repair.`;
   }
 
@@ -168,7 +171,7 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
     const coming = this.list[step + 1];
     if (!coming) return null;
     const sentence = coming.shown ? "Which cells are sampled anew?" :
-        coming.kind === "verdict" ? "Stage 2, and the certificate of its mesh." :
+        coming.kind === "verdict" ? `${this.run.hasStage2 ? "Stage 2, and the" : "The"} certificate of its mesh.` :
                                     `Component ${coming.component} of the surface: is its piece the same?`;
     return {kind: coming.kind, sentence};
   }

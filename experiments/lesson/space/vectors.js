@@ -17,9 +17,19 @@ Lesson.vectors = (() => {
     return {center: add(a, to), radius: norm(to), normal: scale(1 / norm(n), n)};
   };
 
-  const circumcenter = ([a, b, c, d]) => {
+  // Six times the signed volume of a tetrahedron, without an error: in whole numbers, as coordinates of a run have no
+  // bits below 2^-200.
+  const exactVolume = (corners) => {
+    const [a, b, c, d] = corners.map((p) => p.map((x) => BigInt(Math.round(x * 2 ** 200))));
+    return Number(dot(sub(b, a), cross(sub(c, a), sub(d, a)))) / 2 ** 600;
+  };
+
+  // Of a flat tetrahedron rounding leaves nothing of the volume; the program computes it exactly, too.
+  const circumcenter = (corners) => {
+    const [a, b, c, d] = corners;
     const [u, v, w] = [sub(b, a), sub(c, a), sub(d, a)];
-    const volume = 2 * dot(u, cross(v, w));
+    const quick = dot(u, cross(v, w));
+    const volume = 2 * (Math.abs(quick) > 1e-6 * norm(u) * norm(v) * norm(w) ? quick : exactVolume(corners));
     const sum = add(add(scale(dot(u, u), cross(v, w)), scale(dot(v, v), cross(w, u))), scale(dot(w, w), cross(u, v)));
     return add(a, scale(1 / volume, sum));
   };
