@@ -28,7 +28,7 @@ struct LessonRun {
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options);
 
 // The run as data of the page: of stage 2 the first `most_events` events, the others are counted. Numbers have six
-// digits, coordinates five behind the point.
+// digits, coordinates five behind the point; points of stage 1 have all of theirs.
 enum class LessonPart { kWhole, kStage2 };
 Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events);
 
