@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "experiments/config/config.h"
 #include "experiments/lesson/columns.h"
 #include "experiments/lesson/followed_mesh.h"
 #include "experiments/lesson/lesson_cells.h"
@@ -13,7 +14,9 @@
 #include "experiments/lesson/trace/trace_writer.h"
 #include "experiments/runs/record.h"
 #include "surface/certificate/certificate.h"
+#include "volume/filters/meshed_field.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/region.h"
 
 namespace deliso {
 namespace {
@@ -116,6 +119,16 @@ void number_by_rim(Json& event) {
   }
 }
 
+// What mesh_isosurface() makes of the grid before it meshes it: the page draws the run in it.
+ScalarGrid grid_to_mesh(const ScalarGrid& grid, double isovalue, const MeshingOptions& options) {
+  const Parameters& parameters = options.parameters;
+  const SampleRegion region = region_of(parameters.region);
+  const ScalarGrid part = region.is_all() ? grid : cropped(grid, region);
+  return meshed_field(part, isovalue, parameters.field, parameters.boundary == Boundary::kClosed,
+                      spacing_to_use(parameters, part.spacing()), options.threads)
+      .grid;
+}
+
 }  // namespace
 
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options) {
@@ -125,11 +138,14 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
   options.observer = &writer;
   run.result = mesh_isosurface(grid, isovalue, options);
   run.events.push_back(end_of(run.result));
-  run.limits = {{"epsilon", options.parameters.stage1.epsilon}, {"rho", options.parameters.stage1.rho}};
-  const Vec3 spacing = spacing_to_use(options.parameters, grid.spacing());
-  run.rays = lesson_rays(grid, run.result.isovalue_used, spacing, options.seed);
-  run.cells = lesson_cells(grid, run.result.isovalue_used);
-  run.volume = volume_of(grid, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
+  run.limits = {{"epsilon", options.parameters.stage1.epsilon},
+                {"rho", options.parameters.stage1.rho},
+                {"pole_height", parameters_to_json(options.parameters).at("stage2").at("pole_height")}};
+  const ScalarGrid meshed = grid_to_mesh(grid, isovalue, options);
+  const Vec3 spacing = spacing_to_use(options.parameters, meshed.spacing());
+  run.rays = lesson_rays(meshed, run.result.isovalue_used, spacing, options.seed);
+  run.cells = lesson_cells(meshed, run.result.isovalue_used);
+  run.volume = volume_of(meshed, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
   return run;
 }
 

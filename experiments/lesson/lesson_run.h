@@ -16,7 +16,7 @@ struct LessonRun {
   std::string name;          // as the page calls it
   std::vector<Json> events;  // the whole trace (experiments/lesson/trace/trace_writer.h)
   MeshingResult result;
-  Json limits;  // of stage 1: epsilon, rho
+  Json limits;  // of stage 1: epsilon, rho; and which pole gives the height
   Json rays;    // see lesson_rays.h
   Json cells;   // see lesson_cells.h
   Json
