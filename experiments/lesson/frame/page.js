@@ -221,10 +221,14 @@ Lesson.Page = class {
   goToExercise() {
     const box = this.root().querySelector(".exercise input, .exercise button, textarea");
     if (box) return box.focus();
-    const step = this.player?.openQuestion() ?? -1;
-    if (step < 0) return undefined;
-    this.player.goTo(step);
-    if (!this.player.predict.isOn) this.player.command("predict");
+    if (!this.player) return undefined;
+    // In predict mode the reader stays: E may be the letter of an answer, pressed twice.
+    if (!this.player.predict.isOn) {
+      const step = this.player.openQuestion();
+      if (step < 0) return undefined;
+      this.player.goTo(step);
+      this.player.command("predict");
+    }
     return this.cards.next.querySelector(".answers button")?.focus();
   }
 
