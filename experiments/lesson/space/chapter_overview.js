@@ -52,7 +52,11 @@ Lesson.OverviewChapter = class {
     const box = element(
         "div", {class: "overview"},
         element("h1", {}, `${this.run.name}: a run in ${this.run.hasStage2 ? "four" : "three"} frames`),
-        element("p", {}, `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.`),
+        element(
+            "p", {},
+            this.run.isChecked ?
+                `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.` :
+                "The exact topology of the surface was not looked for, or the run was stopped before."),
         Lesson.exercise({
           question: `Before you scroll: Del S0 has ${first.points} points. What is χ of its restricted facets?`,
           answer: () => first.chi,
@@ -69,8 +73,11 @@ Lesson.OverviewChapter = class {
       if (!this.run.searchHomeomorphic(performance.now() + 8)) return setTimeout(search, 0);
       if (this.run.firstRight < 0)
         return places[1][2].replaceChildren(
-            element("h2", {}, "Recover does not make χ right"),
-            element("p", {}, "Not in this run: repair has to act (chapter 10)."));
+            element("h2", {}, this.run.isChecked ? "Recover does not make χ right" : places[1][1]),
+            element(
+                "p", {},
+                this.run.isChecked ? "Not in this run: repair has to act (chapter 10)." :
+                                     "What is right is not known in this run."));
       return fill(places[1]);
     };
     const others = places.filter((_, i) => i !== 1);

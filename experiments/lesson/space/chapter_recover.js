@@ -76,12 +76,13 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     if (this.event(step).e === "mesh") return "";
     const {chi, components} = this.run.complex(this.list[step].event);
     const exact = this.run.exact();
-    return ` The restricted facets: χ = ${chi} in ${Lesson.countText(components, "component")}; the surface: χ = ` +
-        `${exact.chi} in ${exact.components}.`;
+    return ` The restricted facets: χ = ${chi} in ${Lesson.countText(components, "component")}` +
+        (this.run.isChecked ? `; the surface: χ = ${exact.chi} in ${exact.components}.` : ".");
   }
 
   exercises() {
     const {run} = this;
+    if (!run.isChecked) return [];
     const insertions = () =>
         run.events.slice(0, run.homeomorphicAt() + 1).filter((event) => event.e === "insert").length;
     return [{

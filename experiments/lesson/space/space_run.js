@@ -22,6 +22,8 @@ Lesson.SpaceRun = class {
     this.shown = new Lesson.RunItems();
     this.limits = {...limits, ...(this.hasStage2 ? events[this.meshAt].limits : {})};
     this.end = events[events.length - 1];
+    // Without the certificate, and where the run was stopped, nobody has looked for the exact topology.
+    this.isChecked = (this.end.isosurface ?? []).length > 0;
   }
 
   // The replay after an event; the last event that is no state of its own shows the one before.
@@ -61,7 +63,7 @@ Lesson.SpaceRun = class {
     while (this.firstRight === undefined) {
       if (performance.now() >= until) return false;
       const i = this.searched++;
-      if (i >= this.endOfStage1) {
+      if (i >= this.endOfStage1 || !this.isChecked) {
         this.firstRight = -1;
       } else if (this.events[i].e === "initial" || this.events[i].e === "insert") {
         const found = this.complex(i, this.searching);
