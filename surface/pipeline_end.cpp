@@ -176,6 +176,7 @@ void Pipeline::certify(SurfaceMesh mesh) {
   if (result_.shape.seconds > 0) {
     count_bad_triangles(mesh, shape_options(parameters_), options_.threads, result_.shape);
   }
+  if (controls_.observer() != nullptr) controls_.observer()->finished(mesh);
   result_.mesh = to_world(std::move(mesh), *isosurface_);
   SurfaceMesh places;
   for (const DroppedPiece& dropped : result_.dropped) places.points.push_back(dropped.piece.at);

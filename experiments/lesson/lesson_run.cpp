@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "experiments/config/config.h"
 #include "experiments/lesson/columns.h"
 #include "experiments/lesson/followed_mesh.h"
 #include "experiments/lesson/lesson_cells.h"
@@ -13,13 +14,15 @@
 #include "experiments/lesson/trace/trace_writer.h"
 #include "experiments/runs/record.h"
 #include "surface/certificate/certificate.h"
+#include "volume/filters/meshed_field.h"
 #include "volume/marching_cubes/marching_cubes.h"
+#include "volume/region.h"
 
 namespace deliso {
 namespace {
 
 constexpr int kDigits = 6;
-constexpr double kPerUnit = 1e5;                       // coordinates have five digits behind the point
+constexpr double kPerUnit = 1e5;                       // coordinates of meshes have five digits behind the point
 constexpr std::size_t kMostSamples = 40'000;           // of the grid; a larger one is shown without its samples
 constexpr std::size_t kMostSurfaceTriangles = 12'000;  // of the approximation; a larger one is left out
 
@@ -42,13 +45,23 @@ void round_numbers(Json& json, bool are_coordinates = false) {
   }
 }
 
+// Circumcenters of flat tetrahedra, and poles with them, move far with the last digits of the corners, so that points
+// of stage 1 keep all of theirs.
+void round_event(Json& event) {
+  const Json kind = event.at("e");
+  const char* const key = kind == "initial" ? "points" : kind == "insert" ? "p" : nullptr;
+  const Json exact = key == nullptr ? Json() : event.at(key);
+  round_numbers(event);
+  if (key != nullptr) event[key] = exact;
+}
+
 Json rounded_array_of(const Vec3& p) {
   return Json::array({rounded_coordinate(p.x), rounded_coordinate(p.y), rounded_coordinate(p.z)});
 }
 
 // What the page draws of the field: samples less the isovalue, for slices; and marching cubes' surface, for the eye.
 Json volume_of(const ScalarGrid& grid, double isovalue, const Vec3& step) {
-  Json volume = {{"dims", grid.dims()}, {"step", {rounded(step.x), rounded(step.y), rounded(step.z)}}};
+  Json volume = {{"dims", grid.dims()}, {"step", {step.x, step.y, step.z}}};
   Json samples = Json::array(), points = Json::array();
   const auto [nx, ny, nz] = grid.dims();
   if (std::size_t(nx) * std::size_t(ny) * std::size_t(nz) > kMostSamples) return volume;
@@ -106,6 +119,16 @@ void number_by_rim(Json& event) {
   }
 }
 
+// What mesh_isosurface() makes of the grid before it meshes it: the page draws the run in it.
+ScalarGrid grid_to_mesh(const ScalarGrid& grid, double isovalue, const MeshingOptions& options) {
+  const Parameters& parameters = options.parameters;
+  const SampleRegion region = region_of(parameters.region);
+  const ScalarGrid part = region.is_all() ? grid : cropped(grid, region);
+  return meshed_field(part, isovalue, parameters.field, parameters.boundary == Boundary::kClosed,
+                      spacing_to_use(parameters, part.spacing()), options.threads)
+      .grid;
+}
+
 }  // namespace
 
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options) {
@@ -115,11 +138,14 @@ LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue
   options.observer = &writer;
   run.result = mesh_isosurface(grid, isovalue, options);
   run.events.push_back(end_of(run.result));
-  run.limits = {{"epsilon", options.parameters.stage1.epsilon}, {"rho", options.parameters.stage1.rho}};
-  const Vec3 spacing = spacing_to_use(options.parameters, grid.spacing());
-  run.rays = lesson_rays(grid, run.result.isovalue_used, spacing, options.seed);
-  run.cells = lesson_cells(grid, run.result.isovalue_used);
-  run.volume = volume_of(grid, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
+  run.limits = {{"epsilon", options.parameters.stage1.epsilon},
+                {"rho", options.parameters.stage1.rho},
+                {"pole_height", parameters_to_json(options.parameters).at("stage2").at("pole_height")}};
+  const ScalarGrid meshed = grid_to_mesh(grid, isovalue, options);
+  const Vec3 spacing = spacing_to_use(options.parameters, meshed.spacing());
+  run.rays = lesson_rays(meshed, run.result.isovalue_used, spacing, options.seed);
+  run.cells = lesson_cells(meshed, run.result.isovalue_used);
+  run.volume = volume_of(meshed, run.result.isovalue_used, spacing / std::min({spacing.x, spacing.y, spacing.z}));
   return run;
 }
 
@@ -136,7 +162,7 @@ Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events)
       ++left_out;
       continue;
     }
-    round_numbers(event);
+    round_event(event);
     Json shown = event.at("e") == "shape" ? mesh.changes(event) : event;
     if (event.at("e") != "compare") mesh.follow(event);
     number_by_rim(shown);

@@ -16,7 +16,7 @@ struct LessonRun {
   std::string name;          // as the page calls it
   std::vector<Json> events;  // the whole trace (experiments/lesson/trace/trace_writer.h)
   MeshingResult result;
-  Json limits;  // of stage 1: epsilon, rho
+  Json limits;  // of stage 1: epsilon, rho; and which pole gives the height
   Json rays;    // see lesson_rays.h
   Json cells;   // see lesson_cells.h
   Json
@@ -28,7 +28,7 @@ struct LessonRun {
 LessonRun run_observed(std::string name, const ScalarGrid& grid, double isovalue, MeshingOptions options);
 
 // The run as data of the page: of stage 2 the first `most_events` events, the others are counted. Numbers have six
-// digits, coordinates five behind the point.
+// digits, coordinates five behind the point; points of stage 1 have all of theirs.
 enum class LessonPart { kWhole, kStage2 };
 Json lesson_data(const LessonRun& run, LessonPart part, std::size_t most_events);
 

@@ -93,6 +93,9 @@ class Observer {
   virtual void refined(const RefinementMesh& /*mesh*/) {}
   // The mesh of stage 2 after steps of another kind: those of the stage `shape`.
   virtual void reshaped(const SurfaceMesh& /*mesh*/) {}
+  // The mesh that leaves the program, perhaps after steps that nothing tells of: those that bring it nearer, those of
+  // stated sizes, components left out.
+  virtual void finished(const SurfaceMesh& /*mesh*/) {}
   // What was found of the mesh that leaves the program, and what it has to keep.
   virtual void certified(const PromiseFigures& /*figures*/, const Promise& /*promise*/) {}
 };

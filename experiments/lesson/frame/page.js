@@ -222,8 +222,13 @@ Lesson.Page = class {
     const box = this.root().querySelector(".exercise input, .exercise button, textarea");
     if (box) return box.focus();
     if (!this.player) return undefined;
-    if (this.player.step === this.player.last()) this.player.command("first");
-    if (!this.player.predict.isOn) this.player.command("predict");
+    // In predict mode the reader stays: E may be the letter of an answer, pressed twice.
+    if (!this.player.predict.isOn) {
+      const step = this.player.openQuestion();
+      if (step < 0) return undefined;
+      this.player.goTo(step);
+      this.player.command("predict");
+    }
     return this.cards.next.querySelector(".answers button")?.focus();
   }
 

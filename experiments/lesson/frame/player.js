@@ -13,7 +13,18 @@ Lesson.Player = class {
 
   last() { return this.chapter.steps().length - 1; }
 
-  hidesNext() { return this.predict.hides(this.step) && this.step < this.last(); }
+  // Whether predict mode asks for what follows a step. A kind without a key is no answer, so before it nothing is
+  // asked.
+  asks(step) { return step < this.last() && Boolean(this.chapter.kinds[this.chapter.steps()[step + 1].kind].key); }
+
+  // The nearest step whose question is open, from here on and then from the start; -1: none is.
+  openQuestion() {
+    const count = this.last() + 1;
+    const steps = Array.from({length: count}, (_, i) => (this.step + i) % count);
+    return steps.find((step) => this.asks(step) && !this.predict.answered.has(step)) ?? -1;
+  }
+
+  hidesNext() { return this.predict.hides(this.step) && this.asks(this.step); }
 
   goTo(step) {
     const to = Math.max(0, Math.min(step, this.last()));

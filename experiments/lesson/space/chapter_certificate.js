@@ -89,6 +89,8 @@ Lesson.CertificateChapter = class {
     if (leftOut) {
       hidden.append(
           element("p", {}, `${leftOut} steps of the run are not in this page, so its last mesh is not counted here.`));
+    } else if (!this.run.hasStage2) {
+      hidden.append(element("p", {}, "The run had tetrahedra to its end, so no mesh of triangles is counted here."));
     } else {
       const rows = this.components().map((its, i) => [i + 1, its.vertices, its.edges, its.triangles, its.chi]);
       hidden.append(

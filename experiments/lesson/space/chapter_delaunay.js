@@ -73,8 +73,10 @@ Lesson.DelaunayChapter = class extends Lesson.SpaceChapter {
 
   line(step) { return this.list[step + 1] ? this.code.lineOf(this.list[step + 1].kind) : -1; }
 
+  // None where the first points are enough, and nothing is inserted.
   exercises() {
-    const insert = this.list[1].insert;
+    if (this.list.length < 2) return [];
+    const {insert} = this.list[1];
     const {vertices, star} = this.counts(insert);
     return [{
       question: `The rim of the first insertion has ${vertices} vertices. How many tetrahedra are new?`,

@@ -52,8 +52,10 @@ Lesson.GuardsChapter = class extends Lesson.SpaceChapter {
   sentence(step) {
     const event = this.event(step);
     if (event.e !== "keep") {
-      return `The mesh of random samples that stage 2 begins with. ${
-          this.list.length - 1} refusals follow; name the guard of each.`;
+      const count = this.list.length - 1;
+      return "The mesh of random samples that stage 2 begins with. " +
+          (count ? `${Lesson.countText(count, "refusal")} to follow; name the guard of each.` :
+                   "No insertion into it was refused.");
     }
     return `Triangle ${event.t.join("–")}: ${Lesson.GuardsChapter.causes[event.cause].says}`;
   }

@@ -6,16 +6,19 @@ Lesson.OverviewChapter = class {
   // The events whose states are shown; the second is searched for.
   frames() {
     const {run} = this;
+    const last = () => run.events.length - 1;
     return [
-      [() => 0, "InitTriangulation"], [() => Math.max(run.homeomorphicAt(), 0), "Recover: χ is right"],
-      [() => run.meshAt, "Recover has ended"], [() => run.events.length - 1, "Refine has ended"]
-    ].filter((_, i) => i !== 2 || run.meshAt >= 0);
+      [() => 0, "InitTriangulation"],
+      [() => Math.max(run.homeomorphicAt(), 0), "Recover: χ is right"],
+      [() => Math.min(run.endOfStage1, last()), "Recover has ended"],
+      ...(run.hasStage2 ? [[last, "Refine has ended"]] : []),
+    ];
   }
 
   redraw() { this.drawn?.forEach(([event, canvas]) => this.draw(event, canvas)); }
 
   // Another one than the chapters go through, so that the reader does not wait for it there.
-  replayAt(event) { return event < this.run.meshAt ? this.run.searching.goTo(event) : this.run.at(event); }
+  replayAt(event) { return event < this.run.endOfStage1 ? this.run.searching.goTo(event) : this.run.at(event); }
 
   whatItIs(event) {
     const {run} = this;
@@ -47,8 +50,13 @@ Lesson.OverviewChapter = class {
     this.isTold = false;
     this.captions = [];
     const box = element(
-        "div", {class: "overview"}, element("h1", {}, `${this.run.name}: a run in four frames`),
-        element("p", {}, `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.`),
+        "div", {class: "overview"},
+        element("h1", {}, `${this.run.name}: a run in ${this.run.hasStage2 ? "four" : "three"} frames`),
+        element(
+            "p", {},
+            this.run.isChecked ?
+                `The surface has χ = ${exact.chi} in ${Lesson.countText(exact.components, "component")}.` :
+                "The exact topology of the surface was not looked for, or the run was stopped before."),
         Lesson.exercise({
           question: `Before you scroll: Del S0 has ${first.points} points. What is χ of its restricted facets?`,
           answer: () => first.chi,
@@ -65,8 +73,11 @@ Lesson.OverviewChapter = class {
       if (!this.run.searchHomeomorphic(performance.now() + 8)) return setTimeout(search, 0);
       if (this.run.firstRight < 0)
         return places[1][2].replaceChildren(
-            element("h2", {}, "Recover does not make χ right"),
-            element("p", {}, "Not in this run: repair has to act (chapter 10)."));
+            element("h2", {}, this.run.isChecked ? "Recover does not make χ right" : places[1][1]),
+            element(
+                "p", {},
+                this.run.isChecked ? "Not in this run: repair has to act (chapter 10)." :
+                                     "What is right is not known in this run."));
       return fill(places[1]);
     };
     const others = places.filter((_, i) => i !== 1);
@@ -98,7 +109,7 @@ Lesson.OverviewChapter = class {
     };
     tell();
     this.captions.push(tell);
-    const isStage1 = event < this.run.meshAt;
+    const isStage1 = event < this.run.endOfStage1;
     const address = isStage1 ? `#recover/${event}` : `#refine/${event - this.run.meshAt}`;
     place.replaceChildren(
         element("h2", {}, title), canvas,

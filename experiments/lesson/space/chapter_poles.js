@@ -9,8 +9,10 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
       below: {title: "the pole below", key: "b", mark: "disc", role: "poles"},
       mesh: {title: "BuildTriMesh", mark: "pentagon", role: "plain"},
     };
-    this.last = Math.max(0, run.meshAt - 1);
+    this.last = run.meshAt - 1;
     this.found = new Map();  // q -> its poles
+    this.rule = run.limits.pole_height ?? "nearer";
+    this.asked = this.rule === "farther" ? "farther" : "nearer";
   }
 
   // Made when it is asked for: the whole of stage 1 comes before it.
@@ -27,7 +29,7 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
       const counts = inMesh.has(q) ? this.counting(replay, q) : null;
       if (counts) list.push({kind: counts, event: this.last, q});
     }
-    if (run.meshAt >= 0) list.push({kind: "mesh", event: run.meshAt});
+    list.push({kind: "mesh", event: run.meshAt});
     return list;
   }
 
@@ -57,19 +59,24 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
     return p.some((x, axis) => Math.min(Math.abs(x - low[axis]), Math.abs(x - high[axis])) < 1e-5);
   }
 
-  // The side whose pole counts, the nearer one; null where neither is bounded.
+  // The side whose pole counts, the nearer one, or the farther one in runs that take that; null where neither is
+  // bounded.
   counting(replay, q) {
     const {above, below} = this.poles(replay, q);
     const [a, b] = [above, below].map((pole) => pole?.distance ?? Infinity);
     if (Math.min(a, b) === Infinity) return null;
+    if (this.rule === "farther" && above && below) return a > b ? "above" : "below";
     return a <= b ? "above" : "below";
   }
 
   // h_q: the distance of the pole that counts, at most the diagonal of the box.
   height(replay, q) {
-    const side = this.counting(replay, q);
+    const {above, below} = this.poles(replay, q);
     const diagonal = Lesson.vectors.distance(...this.run.box);
-    return side ? Math.min(this.poles(replay, q)[side].distance, diagonal) : diagonal;
+    const both = [above, below].filter(Boolean).map(({distance}) => Math.min(distance, diagonal));
+    if (!both.length) return diagonal;
+    if (this.rule === "mean") return both.reduce((sum, height) => sum + height, 0) / both.length;
+    return this.rule === "farther" ? Math.max(...both) : Math.min(...both);
   }
 
   draw(picture, step) {
@@ -114,20 +121,22 @@ Lesson.PolesChapter = class extends Lesson.SpaceChapter {
         poles[side].point               ? `the pole is ${Lesson.numberText(poles[side].distance)} away` :
                                           "the cell is unbounded";
     const height = this.height(replay, q);
+    const both = `Vertex ${q}: above, ${text("above")}; below, ${text("below")}.`;
+    if (this.rule === "mean") return `${both} The nearer one: ${kind}. The mean counts, ${Lesson.numberText(height)}.`;
     const limit = poles[kind].distance > height ? `, as far as the box's diagonal, ${Lesson.numberText(height)}` : "";
-    return `Vertex ${q}: above, ${text("above")}; below, ${text("below")}. The nearer one counts: ${kind}${limit}.`;
+    return `${both} The ${this.rule} one counts: ${kind}${limit}.`;
   }
 
   question(step) {
     const {q} = this.list[step + 1];
     return q === undefined ? "What comes after the poles?" :
-                             `Vertex ${q}, marked with a diamond: which of its poles is nearer?`;
+                             `Vertex ${q}, marked with a diamond: which of its poles is ${this.asked}?`;
   }
 
   next(step) {
     if (step + 1 >= this.list.length) return null;
     const {kind, q} = this.list[step + 1];
-    return {kind, sentence: kind === "mesh" ? "BuildTriMesh." : `Vertex ${q}: which of its poles counts?`};
+    return {kind, sentence: kind === "mesh" ? "BuildTriMesh." : `Vertex ${q}: which of its poles is ${this.asked}?`};
   }
 
   why() { return {title: "The pole height bounds the size of triangles: r / h̄ at most ε₂.", rows: []}; }

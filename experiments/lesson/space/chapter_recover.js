@@ -2,9 +2,11 @@
 Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
   constructor(run) {
     super(run, {name: "recover", title: "5 Recover", code: Lesson.spaceCode.stage1, shownLayers: [1, 5, 6, 7, 8]});
-    this.keepKinds(
-        ["initial", "multi_intersect", "extract_manifold", "approximate_geometry", "coverage", "refuse", "mesh"]);
-    for (let i = 0; i <= Math.max(0, run.meshAt); ++i) {
+    this.keepKinds([
+      "initial", "multi_intersect", "extract_manifold", "approximate_geometry", "coverage", "refuse", "mesh", "certify",
+      "end"
+    ]);
+    for (let i = 0; i <= run.endOfStage1 && i < run.events.length; ++i) {
       if (run.events[i].e === "compare" || run.events[i].e === "sample") continue;  // chapter 10
       this.list.push({kind: Lesson.spaceStory.kindOf(run.events[i]), event: i});
     }
@@ -74,12 +76,13 @@ Lesson.RecoverChapter = class extends Lesson.SpaceChapter {
     if (this.event(step).e === "mesh") return "";
     const {chi, components} = this.run.complex(this.list[step].event);
     const exact = this.run.exact();
-    return ` The restricted facets: χ = ${chi} in ${Lesson.countText(components, "component")}; the surface: χ = ` +
-        `${exact.chi} in ${exact.components}.`;
+    return ` The restricted facets: χ = ${chi} in ${Lesson.countText(components, "component")}` +
+        (this.run.isChecked ? `; the surface: χ = ${exact.chi} in ${exact.components}.` : ".");
   }
 
   exercises() {
     const {run} = this;
+    if (!run.isChecked) return [];
     const insertions = () =>
         run.events.slice(0, run.homeomorphicAt() + 1).filter((event) => event.e === "insert").length;
     return [{

@@ -19,8 +19,9 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
       }
       if (event.e === "sample") this.askCells(i - 1, event, random);
     });
-    // With the mesh that stage 2 begins with.
-    if (run.events[last - 1].e === "certify") this.list.push({kind: "verdict", event: run.meshAt, certify: last - 1});
+    // With the mesh that stage 2 begins with, or the last that was compared.
+    const event = run.hasStage2 ? run.meshAt : [...this.comparisons.keys()].pop();
+    if (run.events[last - 1].e === "certify") this.list.push({kind: "verdict", event, certify: last - 1});
   }
 
   // All components that are wrong, or were; and, to begin with, a few that are right.
@@ -143,12 +144,26 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
     const when = this.round(step) ? `After ${Lesson.countText(this.round(step), "round")}` : "Before the first round";
     return `${when} ${at.countRight()} of ${at.event.components.length} components are right. Component ${component}: ${
                Lesson.RepairChapter.says[kind]}` +
-        (this.run.events[event].components[component].done && kind !== "exact" ? " A mesh before had it right." : "");
+        this.whyDone(event, component);
+  }
+
+  // Why repair does no more for a component that is wrong.
+  whyDone(event, component) {
+    const {is, done} = this.run.events[event].components[component];
+    if (!done || Lesson.Comparison.isRight(is)) return "";
+    const before = [...this.comparisons].filter(([at]) => at < event);
+    const wasRight = before.some(([, at]) => Lesson.Comparison.isRight(at.component(component).is));
+    return wasRight ? " A mesh before had it right, and gives it." : " It is given up.";
   }
 
   verdict() {
     const {end} = this.run;
-    return `Stage 2 keeps the topology. The certificate of the mesh that leaves the program: ${end.verdict}` +
+    const last = [...this.comparisons.values()].pop();
+    const isMixed = last.countRight() < last.event.components.length;
+    return (isMixed ? "Each component comes from the last mesh that has it right, if one has. " : "") +
+        `${
+               this.run.hasStage2 ? "Stage 2 keeps the topology. " :
+                                    ""}The certificate of the mesh that leaves the program: ${end.verdict}` +
         `${end.proven ? ", proven" : ""}, after ${Lesson.countText(end.repair_rounds, "round")} of repair.`;
   }
 
@@ -156,7 +171,7 @@ Lesson.RepairChapter = class extends Lesson.SpaceChapter {
     const coming = this.list[step + 1];
     if (!coming) return null;
     const sentence = coming.shown ? "Which cells are sampled anew?" :
-        coming.kind === "verdict" ? "Stage 2, and the certificate of its mesh." :
+        coming.kind === "verdict" ? `${this.run.hasStage2 ? "Stage 2, and the" : "The"} certificate of its mesh.` :
                                     `Component ${coming.component} of the surface: is its piece the same?`;
     return {kind: coming.kind, sentence};
   }
@@ -227,7 +242,7 @@ Lesson.RepairChapter.says = {
   partial: "χ and curves are equal, but the piece is far from a part of it. Wrong.",
   displaced: "χ and curves are equal, but one handle too many makes up for one that is missing elsewhere. Wrong.",
   mixed: "χ and curves are equal, but vertices of it belong to another piece: they are joined. Wrong.",
-  with_strays: "its piece is right, but others lie there, too.",
+  with_strays: "its piece is right; others lie there, too, and will be left out.",
 };
 
 Lesson.RepairChapter.kinds = {

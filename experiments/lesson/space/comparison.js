@@ -22,6 +22,9 @@ Lesson.Comparison = class {
     });
   }
 
+  // Whether a mesh can give the component: pieces beside the one that is right are left out.
+  static isRight(is) { return is === "exact" || is === "with_strays"; }
+
   component(c) { return this.event.components[c]; }
 
   trianglesOf(piece) { return this.event.triangles.filter((t) => this.pieceOf[t[0]] === piece); }

@@ -9,10 +9,10 @@ Lesson.preparations = [
     Lesson.chapters.push(
         new Lesson.OverviewChapter(run), new Lesson.CellChapter(),
         ...(run.rays.length ? [new Lesson.RaysChapter(run)] : []), new Lesson.DelaunayChapter(run),
-        new Lesson.RestrictedChapter(run), new Lesson.RecoverChapter(run), new Lesson.PolesChapter(run),
-        new Lesson.RefineChapter(run));
+        new Lesson.RestrictedChapter(run), new Lesson.RecoverChapter(run),
+        ...(run.hasStage2 ? [new Lesson.PolesChapter(run), new Lesson.RefineChapter(run)] : []));
     const noise = Lesson.data.runs[1] && new Lesson.SpaceRun(Lesson.data.runs[1]);
-    if (noise) Lesson.chapters.push(new Lesson.GuardsChapter(noise));
+    if (noise?.hasStage2) Lesson.chapters.push(new Lesson.GuardsChapter(noise));
     // Few cells of a smooth surface have saddles; of noise, many.
     const swept =
         [run, noise].find((other) => other?.cells.some(({pieces}) => pieces.some((chi) => chi !== 1))) ?? noise ?? run;

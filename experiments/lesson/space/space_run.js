@@ -11,20 +11,25 @@ Lesson.SpaceRun = class {
     this.box = [[0, 0, 0], last];
     this.camera = new Lesson.Camera(Lesson.boxOf(volume.points?.length ? volume.points : this.box));
     this.meshAt = events.findIndex((event) => event.e === "mesh");
+    // A run that keeps its tetrahedra to the end (full3d), or was stopped before, has no mesh of triangles alone.
+    this.hasStage2 = this.meshAt >= 0;
+    this.endOfStage1 = this.hasStage2 ? this.meshAt : events.length;
     this.replay = new Lesson.Replay(events, 0, 200);
     // Stage 2 stands on the mesh that it begins with, so that nobody has to go through stage 1 to get to it.
-    this.replayOfStage2 = this.meshAt < 0 ? this.replay : new Lesson.Replay(events, this.meshAt, 1500);
+    this.replayOfStage2 = this.hasStage2 ? new Lesson.Replay(events, this.meshAt, 1500) : this.replay;
     // The search for a state goes its own way, while the reader goes his.
     this.searching = new Lesson.Replay(events);
     this.shown = new Lesson.RunItems();
-    this.limits = {...limits, ...(this.meshAt >= 0 ? events[this.meshAt].limits : {})};
+    this.limits = {...limits, ...(this.hasStage2 ? events[this.meshAt].limits : {})};
     this.end = events[events.length - 1];
+    // Without the certificate, and where the run was stopped, nobody has looked for the exact topology.
+    this.isChecked = (this.end.isosurface ?? []).length > 0;
   }
 
   // The replay after an event; the last event that is no state of its own shows the one before.
   at(event) {
     const n = Math.max(0, event);
-    return (this.meshAt >= 0 && n >= this.meshAt ? this.replayOfStage2 : this.replay).goTo(n);
+    return (n >= this.endOfStage1 ? this.replayOfStage2 : this.replay).goTo(n);
   }
 
   // What the restricted facets are after an event of stage 1, as BuildTriMesh would take them.
@@ -58,7 +63,7 @@ Lesson.SpaceRun = class {
     while (this.firstRight === undefined) {
       if (performance.now() >= until) return false;
       const i = this.searched++;
-      if (i >= this.meshAt) {
+      if (i >= this.endOfStage1 || !this.isChecked) {
         this.firstRight = -1;
       } else if (this.events[i].e === "initial" || this.events[i].e === "insert") {
         const found = this.complex(i, this.searching);

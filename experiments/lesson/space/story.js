@@ -66,6 +66,7 @@ Lesson.spaceStory = (() => {
       case "shape":
         return e.why === "folds"  ? "Edges across folds are flipped to run along them (not in the paper)." :
                e.why === "angles" ? "Vertices move to where the angles around them are larger (not in the paper)." :
+               e.why === "rest"   ? "Steps for what is promised, which are not told one by one (not in the paper)." :
                                     "Badly shaped triangles are improved (not in the paper).";
       case "refined":
         return "No triangle is left that can be refined.";
@@ -103,6 +104,7 @@ Lesson.spaceStory = (() => {
       case "shape":
         return e.why === "folds"  ? "Edges across folds were flipped to run along them." :
                e.why === "angles" ? "Vertices were moved to where the angles around them are larger." :
+               e.why === "rest"   ? "The mesh that leaves the program, after steps that are not told one by one." :
                                     "Flips, moves and merges have improved small angles.";
       case "certify":
         return `Certificate: topology ${e.homeomorphic ? "equal" : "different"}, ${

@@ -188,6 +188,7 @@ void TraceWriter::round_ends(const ObservedComparison& comparison) {
 void TraceWriter::meshed(const SurfaceMesh& mesh, const Criteria& limits) {
   limits_ = limits;
   has_restarted_ = false;
+  told_ = mesh;
   sink_(
       {{"e", "mesh"},
        {"points", array_of(mesh.points)},
@@ -262,10 +263,20 @@ void TraceWriter::refined(const RefinementMesh& mesh) {
     add_mesh(mesh, event);
   }
   sink_(event);
+  told_ = {};
+  for (const auto& triangle : mesh.triangles) told_.triangles.push_back(triangle.corners);
+  for (const auto& vertex : mesh.vertices) told_.points.push_back(vertex.point);
 }
 
 void TraceWriter::reshaped(const SurfaceMesh& mesh) {
   sink_({{"e", "shape"}, {"points", array_of(mesh.points)}, {"triangles", mesh.triangles}});
+  told_ = mesh;
+}
+
+// A run without stage 2 has told of no mesh, and does not end with one.
+void TraceWriter::finished(const SurfaceMesh& mesh) {
+  if (told_.triangles.empty() || (mesh.points == told_.points && mesh.triangles == told_.triangles)) return;
+  sink_({{"e", "shape"}, {"why", "rest"}, {"points", array_of(mesh.points)}, {"triangles", mesh.triangles}});
 }
 
 void TraceWriter::certified(const PromiseFigures& figures, const Promise& promise) {

@@ -12,7 +12,8 @@
 //   restart   all changes since `mesh` are taken back
 //   refined   vertices, triangles (counts), and the mesh itself after a restart
 //   shape     the mesh after steps of another kind; why: "folds" where stage 2 has flipped edges across folds,
-//             "angles" where it has moved vertices at its end
+//             "angles" where it has moved vertices at its end, "rest" for the mesh that leaves the program after steps
+//             that no event tells of
 //   certify   what was found of the mesh that leaves the program, and the bounds
 //
 // New tetrahedra are not written: they are the star of v over the rim of what is gone. Their signs, `above`, stand in
@@ -28,6 +29,7 @@
 
 #include "experiments/lesson/trace/repair_events.h"
 #include "surface/base/observer.h"
+#include "surface/mesh/surface_mesh.h"
 #include "surface/refine/refine_options.h"
 
 namespace deliso {
@@ -55,6 +57,7 @@ class TraceWriter : public Observer {
   void restarted() override;
   void refined(const RefinementMesh& mesh) override;
   void reshaped(const SurfaceMesh& mesh) override;
+  void finished(const SurfaceMesh& mesh) override;
   void certified(const PromiseFigures& figures, const Promise& promise) override;
 
  private:
@@ -71,6 +74,7 @@ class TraceWriter : public Observer {
   TraceEvent pending_;              // what violation() and cavity() have told of the insertion under way
   std::vector<bool> rim_had_hits_;  // of rim()[i]
   Criteria limits_;                 // of stage 2
+  SurfaceMesh told_;                // the latest mesh of stage 2 that an event has told of: points and triangles
   bool has_restarted_ = false;
   bool has_compared_ = false;  // the mesh that the next round begins with is written
 };

@@ -114,6 +114,7 @@ std::string sentence_of(const TraceEvent& event) {
   if (kind == "restart") return "Triangles came to meet: everything since BuildTriMesh is taken back.";
   if (kind == "refined") return "RefineGeom has ended.";
   if (kind == "shape" && event.contains("why")) {
+    if (event.at("why") == "rest") return "Steps that are not told one by one; they are not in the paper.";
     return event.at("why") == "folds"
                ? "Edges across folds were flipped to run along them; this is not in the paper."
                : "Vertices were moved to where the angles around them are larger; this is not in the paper.";

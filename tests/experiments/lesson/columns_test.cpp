@@ -233,6 +233,10 @@ TEST(LessonColumns, TheDataOfARunHaveItsWholeTrace) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     number_by_mesh(events[i]);
     if (events[i].contains("at")) continue;  // changes of shape
+    const Json& kind = run.events[i].at("e");
+    // Whatever stands on circumcenters of stage 1 needs every digit of its points.
+    const char* const key = kind == "initial" ? "points" : kind == "insert" ? "p" : "e";
+    EXPECT_EQ(events[i].at(key), run.events[i].at(key));
     EXPECT_TRUE(is_near(run.events[i], events[i])) << i << ": " << run.events[i] << " became " << events[i];
   }
 }

@@ -130,6 +130,19 @@ INSTANTIATE_TEST_SUITE_P(Fields, Trace,
                                            TracedField{"plane", 8, 0.123457}, TracedField{"noise", 8, 127.5}),
                          [](const auto& field) { return std::string(field.param.name); });
 
+// Decimation, for one, is not followed step by step.
+TEST(TraceOfAStatedError, EndsWithTheMeshOfTheRun) {
+  std::string trace;
+  CheckedWriter writer(trace);
+  MeshingOptions options;
+  options.parameters.size.max_error = 0.1;
+  options.observer = &writer;
+  const MeshingResult result = mesh_isosurface(generate_field("torus", 10, 1), 0.7, options);
+  EXPECT_EQ(writer.replay.mesh_points.size(), result.mesh.points.size());
+  EXPECT_EQ(writer.replay.triangles.size(), result.mesh.triangles.size());
+  EXPECT_NE(trace.find("\"rest\""), std::string::npos) << "another field is needed";
+}
+
 TEST(TraceOfALargeRun, IsRefusedWhereSlabsBegin) {
   const ScalarGrid grid = generate_field("gyroid", 80, 1);
   std::string trace;
