@@ -68,7 +68,7 @@ void judge_rounding(const TriangleMesh& mesh, const MeshOutput& output, double p
     moved = std::max(moved, distance(rounded.points[v], mesh.points[v]) / output.voxel());
   const std::int64_t crossing = found.crossing_pairs;
   const bool crosses = crossing > 0 && crossing > self_intersections(mesh).crossing_pairs;
-  const std::int64_t flat = std::max(count_without_area(rounded), found.zero_area_triangles);
+  const std::int64_t flat = found.zero_area_triangles;
   const bool is_flat = flat > count_without_area(mesh);
   const double allowed = kMostForRounding * std::min(Promise().max_residual, promised_distance);
   if (together == 0 && !crosses && !is_flat && moved <= allowed) return;

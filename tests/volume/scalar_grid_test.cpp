@@ -126,8 +126,12 @@ TEST(ScalarGrid, RefusesGeometryBeyondWhatDoublesCanTell) {
     expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1}, {0, 0, bad}); }, {"origin", "spacing"});
     expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {1, 1, 1e-3}, {0, 0, bad / 1000}); }, {"origin"});
   }
-  const ScalarGrid far({2, 2, 2}, samples, {1e-100, 1e100, 1}, {1e-90, -1e110, 1e12});
-  EXPECT_EQ(far.box().low, (Vec3{1e-90, -1e110, 1e12}));
+  // Distances are measured in the smallest spacing.
+  expect_input_error([&] { ScalarGrid({2, 2, 2}, samples, {100, 1, 1}, {9e13, 0, 0}); }, {"origin", "smallest"});
+  for (const double unit : {1e-100, 1.0, 1e97}) {
+    const Vec3 origin{1e10 * unit, -1e12 * unit, 0};
+    EXPECT_EQ(ScalarGrid({2, 2, 2}, samples, {unit, 100 * unit, 1.5 * unit}, origin).box().low, origin);
+  }
 }
 
 TEST(IsovalueRange, RefusesSamplesTooLargeOrTooCloseToComputeWith) {

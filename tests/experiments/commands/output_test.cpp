@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -193,16 +194,17 @@ TEST_F(Output, MeshesThatRoundingSpoilsAreNotCalledProven) {
   }
 }
 
-// Samples over 24 decades: corners that single precision, or a tilted map to the world, brings into one line.
+// Samples over 24 decades: corners that single precision brings into one line. A tilted map to the world does so only
+// once it is undone, which is not what is written.
 TEST_F(Output, TrianglesThatRoundingLeavesWithoutAreaAreNotCalledProven) {
-  for (const auto& [volume, name] :
-       {std::pair{"flat_when_rounded.nrrd", "flat.stl"}, std::pair{"flat_in_world.nrrd", "flat.ply"}}) {
+  for (const auto& [volume, name, code] :
+       {std::tuple{"flat_when_rounded.nrrd", "flat.stl", 1}, std::tuple{"flat_in_world.nrrd", "flat.ply", 0}}) {
     SCOPED_TRACE(name);
     const std::string path = std::string(DELISO_SOURCE_DIR) + "/tests/regression/" + volume, written = folder_ / name;
     const ProgramResult result = run_deliso({"mesh", path, "--isovalue", "0", "-o", written});
     EXPECT_EQ(result.exit_code, run_deliso({"verify", written, path, "--isovalue", "0"}).exit_code) << result.err;
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_NE(result.err.find("no area"), std::string::npos) << result.err;
+    EXPECT_EQ(result.exit_code, code);
+    EXPECT_EQ(result.err.find("no area") != std::string::npos, code == 1) << result.err;
   }
 }
 
