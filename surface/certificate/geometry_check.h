@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "surface/base/exact_surface.h"
-#include "surface/certificate/missed_places.h"
+#include "surface/certificate/cells/missed_places.h"
 #include "surface/certificate/promise.h"
 #include "surface/mesh/mesh_topology.h"
 #include "surface/mesh/surface_mesh.h"

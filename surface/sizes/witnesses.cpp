@@ -7,7 +7,7 @@
 
 #include "raycast/voxel_intersection.h"
 #include "surface/base/parallel_blocks.h"
-#include "surface/certificate/missed_places.h"
+#include "surface/certificate/cells/missed_places.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 

@@ -1,5 +1,5 @@
 // What of the isosurface a mesh misses within cells, against a search of all triangles for the points of a finer grid.
-#include "surface/certificate/missed_places.h"
+#include "surface/certificate/cells/missed_places.h"
 
 #include <gtest/gtest.h>
 

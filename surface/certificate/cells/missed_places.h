@@ -1,7 +1,8 @@
 // Where the isosurface is farther from a mesh than is promised, within voxel cells too: by a proof, no places are left
 // out but such as are farther by less than a fortieth of the distance.
 //
-// A box within a cell is settled when one triangle is near all of a convex body that holds the isosurface there. And
+// A box within a cell is settled when one triangle is near all of a convex body that holds the isosurface there, or
+// several together are (covering_triangles.h). And
 // where all corners of a box are on one side, no isosurface is in it, since the field is linear along each axis there.
 // Boxes that neither settles are divided (branch and bound).
 #pragma once

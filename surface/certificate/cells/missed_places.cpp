@@ -1,4 +1,4 @@
-#include "surface/certificate/missed_places.h"
+#include "surface/certificate/cells/missed_places.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,8 @@
 #include "delaunay/base/box3.h"
 #include "raycast/voxel_intersection.h"
 #include "surface/base/parallel_blocks.h"
+#include "surface/certificate/cells/covering_triangles.h"
+#include "surface/certificate/cells/surface_hull.h"
 #include "surface/mesh/triangle_distance.h"
 #include "surface/search/box_tree.h"
 
@@ -18,72 +20,18 @@ namespace {
 
 constexpr std::size_t kCellsAtOnce = 1024;
 
-Vec3 corner_of(const Box3& box, unsigned i) {
-  return {((i & 1u) != 0 ? box.high : box.low).x, ((i & 2u) != 0 ? box.high : box.low).y,
-          ((i & 4u) != 0 ? box.high : box.low).z};
-}
-
-// A box within a cell, and its values there, less the isovalue.
-struct PartOfCell {
-  Box3 box;
-  CellCorners values;
-};
-
-// The corners of a convex body that holds the isosurface of a part: the field is a linear function there, give or take
-// at most what its mixed terms are at the corners, so it holds where the linear function is that small.
-class SurfaceHull {
- public:
-  explicit SurfaceHull(const PartOfCell& part) {
-    // As a sum of products of the coordinates along some axes, each from -1 to 1.
-    CellCorners terms = part.values;
-    for (std::size_t axis = 1; axis < 8; axis *= 2) {
-      for (std::size_t i = 0; i < 8; ++i) {
-        if ((i & axis) != 0) continue;
-        const double low = terms[i], high = terms[i | axis];
-        terms[i] = (low + high) / 2;
-        terms[i | axis] = (high - low) / 2;
-      }
-    }
-    double most = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]);
-    constexpr double kRounding = 0x1p-48;  // of sums of eight values
-    double all = 0;
-    for (const double value : part.values) all += std::abs(value);
-    most += kRounding * all;
-    CellCorners linear{};
-    for (unsigned i = 0; i < 8; ++i) {
-      linear[i] = terms[0] + ((i & 1u) != 0 ? terms[1] : -terms[1]) + ((i & 2u) != 0 ? terms[2] : -terms[2]) +
-                  ((i & 4u) != 0 ? terms[4] : -terms[4]);
-      if (std::abs(linear[i]) <= most) add(corner_of(part.box, i));
-    }
-    for (unsigned from = 0; from < 8; ++from) {
-      for (unsigned axis = 1; axis < 8; axis *= 2) {
-        if ((from & axis) != 0) continue;
-        for (const double level : {-most, most}) {
-          const double below = linear[from] - level, above = linear[from | axis] - level;
-          if ((below < 0) == (above < 0)) continue;
-          const Vec3 a = corner_of(part.box, from), b = corner_of(part.box, from | axis);
-          add(a + (below / (below - above)) * (b - a));
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] std::size_t count() const { return count_; }
-  Vec3& operator[](std::size_t i) { return corners_.at(i); }
-
- private:
-  void add(const Vec3& p) { corners_.at(count_++) = p; }
-
-  std::array<Vec3, 32> corners_;
-  std::size_t count_ = 0;
-};
-
 // The search of cells, one after the other.
 class CellSearch {
  public:
-  CellSearch(const SurfaceMesh& mesh, std::span<const Box3> boxes, const BoxTree& tree, const ExactSurface& surface,
-             double most)
-      : mesh_(mesh), boxes_(boxes), tree_(tree), surface_(surface), isosurface_(surface.isosurface), most_(most) {}
+  CellSearch(const SurfaceMesh& mesh, std::span<const Box3> boxes, const BoxTree& tree,
+             const CoveringTriangles& covering, const ExactSurface& surface, double most)
+      : mesh_(mesh),
+        boxes_(boxes),
+        tree_(tree),
+        covering_(covering),
+        surface_(surface),
+        isosurface_(surface.isosurface),
+        most_(most) {}
 
   [[nodiscard]] std::optional<Vec3> missed_in(const CellIndex& cell) {
     field_ = relative_to(isosurface_.grid().cell(cell[0], cell[1], cell[2]), isosurface_.isovalue());
@@ -123,15 +71,19 @@ class CellSearch {
     for (const std::uint32_t t : near_.at(depth - 1)) {
       if (squared_gap(in_mesh, boxes_[t]) <= most_ * most_) near.push_back(t);
     }
+    SurfaceHull hull(part);
+    for (Vec3& p : hull) p = place(p);
+    const Vec3 sides = in_mesh.size();
+    const Vec3& rise = hull.rise();
+    if (covering_.cover(hull, {-rise.x / sides.x, -rise.y / sides.y, -rise.z / sides.z}, near)) return;
     bool is_partly_near = false;
-    if (is_near_one(part, near, is_partly_near)) return;
+    if (is_near_one(hull, near, is_partly_near)) return;
     // A component that is left out has no mesh near.
     const double times = near.empty() && !surface_.is_dropped.empty() ? 1 : kLeast;
     const bool is_last = times * in_mesh.diagonal() <= most_ || depth + 1 == kMostDepth;
     if (is_last || !is_partly_near) take_from(part, near);
     if (is_last || missed_) return;
     // Along its longer sides.
-    const Vec3 sides = in_mesh.size();
     const double longest = std::max({sides.x, sides.y, sides.z});
     Vec3 center = (box.low + box.high) / 2;
     unsigned whole = 0;
@@ -157,19 +109,30 @@ class CellSearch {
     return sum;
   }
 
+  // Whether all of a box is as near another as is looked for, along each axis.
+  [[nodiscard]] bool reaches_around(const Box3& box, const Box3& inner) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (inner.low[axis] < box.low[axis] - most_ || inner.high[axis] > box.high[axis] + most_) return false;
+    }
+    return true;
+  }
+
   // Whether all of the isosurface in a part is near one of the triangles, which then comes first: it is likely to be
   // near the next part, too. The distance from a triangle is a convex function, so it is largest at corners.
   // `is_partly_near`: whether the first corner is near any.
-  bool is_near_one(const PartOfCell& part, std::vector<std::uint32_t>& triangles, bool& is_partly_near) const {
-    SurfaceHull hull(part);
-    if (hull.count() == 0) return false;  // of values too large to be added
-    for (std::size_t i = 0; i < hull.count(); ++i) hull[i] = place(hull[i]);
+  bool is_near_one(const SurfaceHull& hull, std::vector<std::uint32_t>& triangles, bool& is_partly_near) const {
+    if (hull.count() == 0) return false;
+    Box3 around;
+    for (const Vec3& p : hull) around.extend(p);
     for (std::uint32_t& t : triangles) {
+      // Most triangles are smaller than that.
+      const bool may_be_near = reaches_around(boxes_[t], around);
+      if (!may_be_near && is_partly_near) continue;
       std::size_t i = 0;
       const auto is_near = [&](const Vec3& p) {
         return squared_distance(p, boxes_[t].clamp(p)) <= most_ * most_ && squared_distance_of(p, t) <= most_ * most_;
       };
-      while (i < hull.count() && is_near(hull[i])) ++i;
+      while (i < (may_be_near ? hull.count() : 1) && is_near(hull.begin()[i])) ++i;
       is_partly_near = is_partly_near || i > 0;
       if (i < hull.count()) continue;
       std::swap(t, triangles.front());
@@ -205,6 +168,7 @@ class CellSearch {
   const SurfaceMesh& mesh_;
   std::span<const Box3> boxes_;  // of the triangles
   const BoxTree& tree_;
+  const CoveringTriangles& covering_;
   const ExactSurface& surface_;
   const Isosurface& isosurface_;
   double most_;
@@ -243,6 +207,7 @@ std::vector<MissedPlace> missed_places(const SurfaceMesh& mesh, const ExactSurfa
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) boxes[t].extend(mesh.points[v]);
   }
+  const CoveringTriangles covering(mesh, most);
   const BoxTree tree(boxes, surface.threads);
   const Dims& dims = surface.grid().dims();
   const std::size_t blocks = (cells.size() + kCellsAtOnce - 1) / kCellsAtOnce;
@@ -250,7 +215,7 @@ std::vector<MissedPlace> missed_places(const SurfaceMesh& mesh, const ExactSurfa
   for_each_block(
       cells.size(), surface.threads,
       [&](std::size_t first, std::size_t last) {
-        CellSearch search(mesh, boxes, tree, surface, most);
+        CellSearch search(mesh, boxes, tree, covering, surface, most);
         for (std::size_t i = first; i < last && !surface.is_over(); ++i) {
           const EdgeCrossing lowest{cells[i], 0, 0, 0};
           const auto missed = search.missed_in(sample_of(lowest, dims));
