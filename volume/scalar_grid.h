@@ -34,8 +34,8 @@ decltype(auto) visit_samples(const Samples& samples, Function&& f);
 class ScalarGrid {
  public:
   // Throws InputError when a dimension is below 2, the sample count does not fit dims, a spacing is not positive or
-  // outside 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot resolve 1e-4 of a spacing, or
-  // a sample is NaN or infinite (naming the first).
+  // outside 1e-100 to 1e100, the box lies so far from the origin that coordinates cannot resolve 1e-4 of the smallest
+  // spacing, or a sample is NaN or infinite (naming the first).
   ScalarGrid(Dims dims, Samples samples, Vec3 spacing = {1, 1, 1}, Vec3 origin = {0, 0, 0});
 
   [[nodiscard]] const Dims& dims() const { return dims_; }

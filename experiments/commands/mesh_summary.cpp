@@ -20,14 +20,14 @@ namespace deliso {
 namespace {
 
 // An isovalue close to a sample value, as 60.01 among integers, leaves walls and tips as thin as the rest of the gap.
-// The middle of the gap has the same samples inside. Of masks another remark tells.
+// The middle of the gap has the same samples inside.
 void remark_gap(const MeshingResult& result, const ScalarGrid& grid, double isovalue) {
   constexpr double kMany = 0.05, kClose = 0.05;  // of the crossings; of the gap. Values without steps have 2 % there.
   if (result.share_near_samples < kMany || result.isovalue_used != isovalue) return;
   const auto [lower, higher] = samples_around(grid, isovalue);
   const double gap = higher - lower;
   if (!std::isfinite(gap)) return;  // closed along the box, all may be inside
-  if (std::pair(lower, higher) == grid.range() || std::min(isovalue - lower, higher - isovalue) >= kClose * gap) return;
+  if (std::min(isovalue - lower, higher - isovalue) >= kClose * gap) return;
   std::cerr
       << "deliso: " << number_text(std::round(100 * result.share_near_samples))
       << " % of the crossings with grid edges are within a hundredth of a voxel of a sample, which takes long and "

@@ -1,8 +1,8 @@
 // How far the mesh of a run lies from its isosurface, both ways, and whether its vertices lie on it: the mesher's own
 // answer, by the sides of points, to what the verification measures by distances.
 //
-// A point is within D of the isosurface when two points at distance D on either side of it, one in some direction and
-// one against it, lie on different sides of the isosurface. That costs two values of the field.
+// A point is within D of the isosurface when another at distance D from it lies on the other side of the isosurface
+// (point_nearness.h). Large triangles are divided until all of them is shown to be near (triangle_nearness.h).
 #pragma once
 
 #include <array>

@@ -11,13 +11,15 @@ namespace deliso {
 
 namespace {
 
-// A convex polygon: what two faces of each axis leave of a triangle has at most nine corners.
+// A convex polygon: what two faces of each axis leave of a triangle has at most nine corners, but for rounding.
 struct ConvexPolygon {
   std::array<Vec3, 9> corners;
   std::size_t count = 0;
+  bool is_whole = true;  // no corner had to be left out
 
   void add(const Vec3& p) {
-    if (count < corners.size()) corners.at(count++) = p;
+    is_whole = is_whole && count < corners.size();
+    if (is_whole) corners.at(count++) = p;
   }
 };
 
@@ -47,6 +49,7 @@ class SideOfParts {
   // Whether all of a polygon (in cells) is on the side of all before it; cut by the faces across this axis and the
   // next ones.
   bool holds(ConvexPolygon polygon, std::size_t axis) {
+    if (!polygon.is_whole) return false;
     if (polygon.count < 3) return true;
     if (axis == 3) return holds_in_cell(polygon);
     double low = polygon.corners[0][axis], high = low;

@@ -1,5 +1,6 @@
 // Which component of the isosurface a point or an arc on a grid face belongs to.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -235,39 +236,6 @@ FaceArcs face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex&
     const std::uint32_t from = crossing_on(index, place.cell, arcs.from[i]);
     const std::uint32_t to = crossing_on(index, place.cell, arcs.to[i]);
     result.arcs[i] = {{from, to}, corner, static_cast<std::uint8_t>(axis)};
-  }
-  return result;
-}
-
-std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
-  std::vector<FaceArc> result;
-  const Dims& dims = grid.dims();
-  const auto add_word = [&](std::int32_t w, std::int32_t j, std::int32_t k) {
-    // Bit b of mixed[axis]: the face across `axis` at the word's b-th sample has corners on both sides.
-    const bool has_y = j + 1 < dims[1];
-    const bool has_z = k + 1 < dims[2];
-    const auto crossed = [&](std::int32_t dj, std::int32_t dk) { return index.crossed(w, j + dj, k + dk); };
-    const auto here = crossed(0, 0);
-    const auto up_y = has_y ? crossed(1, 0) : here;
-    const auto up_z = has_z ? crossed(0, 1) : here;
-    const std::uint64_t cells = index.cells_in_word(w);
-    const std::array<std::uint64_t, 3> mixed{has_y && has_z ? here[1] | here[2] | up_y[2] | up_z[1] : 0,
-                                             has_z ? (here[0] | here[2] | up_z[0]) & cells : 0,
-                                             has_y ? (here[0] | here[1] | up_y[0]) & cells : 0};
-    for (std::uint64_t left = mixed[0] | mixed[1] | mixed[2]; left != 0; left &= left - 1) {
-      const int bit = std::countr_zero(left);
-      for (int axis = 0; axis < 3; ++axis) {
-        if ((mixed[static_cast<std::size_t>(axis)] >> bit & 1u) == 0) continue;
-        const CellIndex corner{w * CrossingIndex::kWordBits + bit, j, k};
-        const FaceArcs arcs = face_arcs(grid, isovalue, index, corner, axis);
-        result.insert(result.end(), arcs.arcs.begin(), arcs.arcs.begin() + arcs.count);
-      }
-    }
-  };
-  for (std::int32_t k = 0; k < dims[2]; ++k) {
-    for (std::int32_t j = 0; j < dims[1]; ++j) {
-      for (std::int32_t w = 0; w < index.words_per_row(); ++w) add_word(w, j, k);
-    }
   }
   return result;
 }

@@ -58,7 +58,7 @@ struct RegularTopology {
 };
 RegularTopology regular_topology(const ScalarGrid& grid, double isovalue, int threads = 1);
 
-// The exact component on which a point of the surface lies, given in index space and rounded. Points within 1e-9 of a
+// The exact component on which a point of the surface lies, given in index space and rounded. Points within 1e-13 of a
 // crossed grid edge, or of a grid face that the surface meets, are looked up on it; others in the slice of their cell.
 // Nothing when no cell at the point meets the surface. Constant time.
 std::optional<std::uint32_t> component_of(const ScalarGrid& grid, double isovalue, const IsosurfaceTopology& topology,
@@ -78,8 +78,5 @@ struct FaceArcs {
 };
 FaceArcs face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index, const CellIndex& corner,
                    int axis);
-
-// The arcs on all grid faces, in order of (corner, axis), corners x fastest.
-std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index);
 
 }  // namespace deliso

@@ -79,6 +79,25 @@ TEST(EdgeParameter, IsAFractionAlsoOfHugeAndOfUnevenSegments) {
     EXPECT_TRUE(0 < t && t < 1);
 }
 
+std::vector<FaceArc> all_face_arcs(const ScalarGrid& grid, double isovalue, const CrossingIndex& index) {
+  std::vector<FaceArc> all;
+  const Dims& dims = grid.dims();
+  for (std::int32_t k = 0; k < dims[2]; ++k) {
+    for (std::int32_t j = 0; j < dims[1]; ++j) {
+      for (std::int32_t i = 0; i < dims[0]; ++i) {
+        const CellIndex corner{i, j, k};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+          if (corner[u] + 1 == dims[u] || corner[v] + 1 == dims[v]) continue;
+          const FaceArcs arcs = face_arcs(grid, isovalue, index, corner, static_cast<int>(axis));
+          all.insert(all.end(), arcs.arcs.begin(), arcs.arcs.begin() + arcs.count);
+        }
+      }
+    }
+  }
+  return all;
+}
+
 TEST(FaceArcs, ADisksBoundaryIsMadeOfThem) {
   Rng rng(27);
   for (int i = 0; i < 200; ++i) {
