@@ -99,6 +99,8 @@ void ScalarGrid::check_places() const {
     if (!(spacing_[axis] > 0)) throw InputError("the spacing is " + text(spacing_) + ": each must be positive");
     if (!(spacing_[axis] >= kSmallest && spacing_[axis] <= kLargest))
       throw InputError("the spacing is " + text(spacing_) + ": each must be from 1e-100 to 1e100");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     const double farthest = std::max(std::abs(box().low[axis]), std::abs(box().high[axis]));
     if (!(farthest <= kFarthest * smallest))
       throw InputError(

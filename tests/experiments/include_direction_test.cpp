@@ -41,7 +41,7 @@ const std::map<std::string, Floors> kFloors = {
      {{"surface/base", "surface/library/deliso"},
       {"surface/mesh"},
       {"surface/mesh/io", "surface/search"},
-      {"surface/restricted", "surface/intersection"},
+      {"surface/restricted", "surface/intersection", "surface/certificate/cells"},
       {"surface/extract", "surface/recover"},
       {"surface/certificate", "surface/refine/disk"},
       {"surface/refine/guard", "surface/refine/slabs"},
