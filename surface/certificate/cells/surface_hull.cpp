@@ -15,11 +15,10 @@ SurfaceHull::SurfaceHull(const PartOfCell& part) {
       terms[i | axis] = (high - low) / 2;
     }
   }
-  constexpr double kRounding = 0x1p-48;  // of sums of eight values
+  constexpr double kOfSums = 0x1p-48;  // rounding, of sums of eight values
   double all = 0;
   for (const double value : part.values) all += std::abs(value);
-  const double most =
-      std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]) + kRounding * all;
+  const double most = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + std::abs(terms[7]) + kOfSums * all;
   rise_ = {terms[1], terms[2], terms[4]};
   CellCorners linear{};
   for (unsigned i = 0; i < 8; ++i) {
