@@ -58,7 +58,7 @@ Pipeline::Pipeline(const ScalarGrid& grid, const MeshingOptions& options, Meshin
       parameters_(options.parameters),
       controls_(parameters_.budget, options.stop, options.progress),
       result_(result),
-      rounding_(std::min(options.rounding, kMostForRounding * promised_distance(parameters_))),
+      rounding_(std::min(kMostForRounding * promised_distance(parameters_), options.rounding)),
       promise_{.max_distance = kept_distance(), .within_cells = is_measured_within_cells(parameters_)} {
   promise_.max_residual -= std::min(options.rounding, kMostForRounding * promise_.max_residual);
   controls_.set_observer(options.observer);

@@ -31,7 +31,7 @@ double rounding_of(const MeshOutput& output, const Box3& box);
 
 // Rounding may make triangles cross, or (in STL) vertices coincide, or leave triangles without area, or move a vertex
 // farther off the isosurface than the verification allows, or by more of the promised distance (voxels) than has been
-// kept free for it (kept_for_rounding() in deliso.h). If it does so where it was not so before, the certificate gets a
+// kept free for it (MeshingOptions::rounding). If it does so where it was not so before, the certificate gets a
 // broken promise that says why. Nothing happens where nothing rounds, nor if a coordinate is beyond the range of
 // floats: such a file is not written.
 void judge_rounding(const TriangleMesh& mesh, const MeshOutput& output, double promised_distance,

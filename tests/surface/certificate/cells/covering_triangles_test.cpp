@@ -6,23 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "raycast/voxel_intersection.h"
 #include "surface/certificate/exact_polygonization.h"
-#include "surface/mesh/triangle_distance.h"
+#include "tests/support/mesh_distance.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
 namespace {
-
-double distance_from(const Vec3& p, const SurfaceMesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b, c] : mesh.triangles) {
-    least = std::min(least, squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]));
-  }
-  return std::sqrt(least);
-}
 
 Vec3 point_within(const SurfaceHull& hull, Rng& rng) {
   Vec3 sum;
@@ -68,7 +59,7 @@ TEST(CoveringTriangles, AreNearAllOfTheHullWheneverTheyAreSaidTo) {
           continue;
         }
         ++covered;
-        for (int k = 0; k < 30; ++k) EXPECT_LE(distance_from(point_within(hull, rng), mesh), most);
+        for (int k = 0; k < 30; ++k) EXPECT_LE(testing::distance_to(point_within(hull, rng), mesh), most);
       }
     }
   }

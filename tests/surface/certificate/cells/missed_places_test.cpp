@@ -5,25 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "raycast/voxel_intersection.h"
 #include "surface/certificate/exact_polygonization.h"
-#include "surface/mesh/triangle_distance.h"
+#include "tests/support/mesh_distance.h"
 #include "tests/support/surface_fields.h"
 
 namespace deliso {
 namespace {
 
 using testing::Scene;
-
-double distance_to(const Vec3& p, const SurfaceMesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b, c] : mesh.triangles) {
-    least = std::min(least, squared_distance_to_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]));
-  }
-  return std::sqrt(least);
-}
 
 // The farthest crossing of the isosurface with a grid ten times as fine, in one cell.
 double farthest_in(const Scene& scene, const CellIndex& cell, const SurfaceMesh& mesh) {
@@ -42,7 +33,7 @@ double farthest_in(const Scene& scene, const CellIndex& cell, const SurfaceMesh&
       const double before = relative_value(field, p), behind = relative_value(field, q);
       if ((before >= 0) == (behind >= 0)) continue;
       const Vec3 crossing = p + before / (before - behind) * (q - p);
-      farthest = std::max(farthest, distance_to(scaled(scene.isosurface->step(), low + crossing), mesh));
+      farthest = std::max(farthest, testing::distance_to(scaled(scene.isosurface->step(), low + crossing), mesh));
     }
   }
   return farthest;
@@ -72,7 +63,7 @@ TEST(MissedPlaces, AreFoundInEveryCellThatHasThem) {
           continue;
         }
         ++missed;
-        EXPECT_GT(distance_to(place->position, mesh), most);
+        EXPECT_GT(testing::distance_to(place->position, mesh), most);
         EXPECT_NEAR(scene->isosurface->value(place->position), 0, 1e-9) << cell;
       }
     }
