@@ -1,5 +1,7 @@
-# Tests that take long under sanitizers and run no code there that shorter ones do not: the label `unsanitized`, which the
-# preset asan leaves out. The others begin with them, so that none runs alone at the end. ctest reads this file after the names of the tests; each is a regular expression.
+# What the preset asan runs, read by ctest after the names of the tests. Beginning a program takes as long under sanitizers
+# as a short test: tests go in batches, each a process of its own. Those that take long there and run no code that shorter
+# ones do not are left out (label `unsanitized`); the others begin with them, so that none runs alone at the end. Each of
+# these is a regular expression.
 set(unsanitized
   "/contradiction"
   "/faulty_divided"
@@ -12,6 +14,7 @@ set(unsanitized
   "ANumberOfVerticesIsReached"
   "ASpacingThatWasIgnored"
   "AVerySmallNumberTakes"
+  "AVolumeThatCannotBeLoaded"
   "AgreesWithTheVerificationOnMoved"
   "AnEdgeThatIsLongerThanAskedFor"
   "AnErrorIsKeptWithFewVertices"
@@ -26,6 +29,7 @@ set(unsanitized
   "BuildInSlabs.GivesTheTriangulation"
   "BuildIsDelaunayByBruteForce"
   "BuildIsDelaunayByIntegers"
+  "BuiltinChangesNothing"
   "ClosedSolids.OfASignedDistance"
   "ClosedSolids.OfOnes"
   "ComponentFilter.KeepsTheLargest"
@@ -37,6 +41,7 @@ set(unsanitized
   "EdgesInCellFacesAreSampled"
   "EdgesOfWholeVoxelsAre"
   "EndsWhenVerticesOfOtherComponents"
+  "EqualExperimentsGiveEqual"
   "ErrorsLargerThanWalls"
   "EveryExperimentOfTheProject"
   "EveryFormatThatIsReadIsTold"
@@ -66,8 +71,11 @@ set(unsanitized
   "InsphereHasTheExactSign"
   "IsKeptWithoutFinerCubes"
   "IsTheSameForAnyNumberOfThreads"
+  "IsVerifiedByWhatItsFileSays"
   "IteratedSearch"
   "KeepsNoiseProvenAndNear"
+  "KeptBound"
+  "LabelsComeInOneFile"
   "LeavesAloneWhatItHasLeft"
   "LeavesOutSmallOnes"
   "LeavesTrianglesThatCrossWhenRounded"
@@ -76,6 +84,7 @@ set(unsanitized
   "ManyRandomPointsAreAllStarted"
   "MarchingCubesEmbedding.HoldsInRandomCells"
   "MendsPieces"
+  "MillimetresFollow"
   "MissedPlaces.AreFoundInEvery"
   "NecksAsThinAsRounding"
   "NoPartOfTheSurfaceIsLeftOut"
@@ -87,6 +96,7 @@ set(unsanitized
   "OfNoiseLeaveLittleFar"
   "OfRandomSamplesNeedNoFinerCubes"
   "OtherCompiler"
+  "OtherHeadersSayNothing"
   "OtherPrograms"
   "OthersAfterEveryRemoval"
   "PatchBoxes.ASmallCrowd"
@@ -99,6 +109,7 @@ set(unsanitized
   "SeveralLabelsInAFile"
   "Shape.ReplacesTrianglesThatAreTooFar"
   "SheetsHalfAVoxel"
+  "SmallAnglesAreTold"
   "SpanningTriangles.DoNotStay"
   "StageOneRunsAgain"
   "StageOneRunsAgainWhere"
@@ -118,9 +129,11 @@ set(unsanitized
   "TrianglesThatCrossAreMendedByMoreSamples"
   "TrianglesThatNothingFaces"
   "TwoPassesOverTheLevels"
+  "TwoShardsMerged"
   "VerifyNeedsNoOptionTwice"
   "VerifyTakesItsBoundFromEveryFormat"
   "VertexRemoval.OfManyAtOnce"
+  "WhatIsLeftOutIsTold"
   "at_grid_points"
   "at_the_box_[012]"
   "decades_0"
@@ -136,10 +149,33 @@ set(unsanitized
   "silent_specks"
   "top_integers")
 list(JOIN unsanitized "|" pattern)
+set(tests_of_a_batch 16)
 foreach(program IN ITEMS delaunay volume raycast surface experiments)
+  set(batched)
   foreach(test IN LISTS test_${program}_TESTS)
     if(test MATCHES "${pattern}")
       set_tests_properties("${test}" PROPERTIES LABELS unsanitized COST 10)
+    elseif(batches_of_tests)
+      set_tests_properties("${test}" PROPERTIES LABELS batched)
+      list(APPEND batched "${test}")
     endif()
   endforeach()
+  # Tests that stand together take about as long: each batch gets one in so many.
+  list(TRANSFORM batched REPLACE "^${program}\\." "")
+  list(LENGTH batched count)
+  math(EXPR batches "(${count} + ${tests_of_a_batch} - 1) / ${tests_of_a_batch}")
+  set(n 0)
+  while(n LESS batches)
+    set(filter)
+    set(at ${n})
+    while(at LESS count)
+      list(GET batched ${at} test)
+      list(APPEND filter "${test}")
+      math(EXPR at "${at} + ${batches}")
+    endwhile()
+    list(JOIN filter ":" filter)
+    add_test("batch.${program}.${n}" "${batches_of_tests}/test_${program}" "--gtest_filter=${filter}")
+    set_tests_properties("batch.${program}.${n}" PROPERTIES TIMEOUT 1200)
+    math(EXPR n "${n} + 1")
+  endwhile()
 endforeach()

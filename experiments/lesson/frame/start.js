@@ -8,7 +8,7 @@ const packed = document.getElementById("lesson-data");
 Lesson.data = Lesson.unpack(packed.textContent, Number(packed.dataset.length));
 Lesson.theme.apply();
 for (const prepare of Lesson.preparations ?? []) prepare();
-if (window.location.hash === "#selftest")
+if (/^#selftest(\/short)?$/.test(window.location.hash))
   Lesson.selftest.run(document.getElementById("lesson"));
 else if (Lesson.data.figure)
   Lesson.showFigure(document.getElementById("lesson"), Lesson.data.figure);

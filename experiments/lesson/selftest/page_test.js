@@ -1,7 +1,7 @@
 // The page as its readers use it: by keys, by the pointer, by addresses. Every chapter with steps is played forward,
 // backward and by address, and has to show the same each time.
 (() => {
-  const {test, check, equal} = Lesson.selftest;
+  const {test, check, equal, cases} = Lesson.selftest;
   let page = null;
   const open = () => (page = Lesson.selftest.page());
 
@@ -22,7 +22,7 @@
 
   const stepped = () => Lesson.chapters.filter((chapter) => !chapter.page);
 
-  const kMostSteps = 130;
+  const kMostSteps = cases(130);
 
   // What lies beyond the steps that are played: by address, and again after a walk to the end.
   const checkFarSteps = (chapter, from) => {
@@ -68,7 +68,7 @@
         equal(seen(), forward[step], `${chapter.name}/${step} backward`);
         press("ArrowLeft");
       }
-      for (let k = 0; k < 60; ++k) {
+      for (let k = 0; k < cases(60); ++k) {
         const step = (k * 37) % (last + 1);
         goTo(`#${chapter.name}/${step}`);
         equal(seen(), forward[step], `${chapter.name}/${step} by address`);
@@ -135,7 +135,7 @@
       const {player} = page;
       player.predict.restart();
       press("p");
-      const last = Math.min(player.last(), 40);
+      const last = Math.min(player.last(), cases(40));
       let right = 0, asked = 0;
       for (let step = 0; step < last; ++step) {
         const {kind} = chapter.steps()[step + 1];
@@ -174,7 +174,7 @@
   test("labels do not cover each other", () => {
     open();
     for (const chapter of stepped()) {
-      for (const step of someSteps(chapter, 150)) {
+      for (const step of someSteps(chapter, cases(150))) {
         const scene = chapter.scene(step, {preview: true});
         for (const [width, height] of [[840, 552], [390, 320]]) {
           const view = new Lesson.View(scene.bounds, width, height);
@@ -192,7 +192,7 @@
   test("pictures are SVG files that can be read", () => {
     open();
     for (const chapter of stepped()) {
-      for (const step of someSteps(chapter, 20)) {
+      for (const step of someSteps(chapter, cases(20))) {
         const svg = Lesson.svgOf(chapter.scene(step, {preview: true}), chapter.sentence(step), {dark: step % 2 === 0});
         const parsed = new DOMParser().parseFromString(svg, "image/svg+xml");
         check(!parsed.querySelector("parsererror") && !svg.includes("NaN"), `${chapter.name}/${step}`);

@@ -11,7 +11,7 @@ namespace deliso {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the distance
+constexpr double kDistanceRounding = 1e-9;  // of the distance
 
 }  // namespace
 
@@ -45,7 +45,7 @@ bool CoveringTriangles::cover(const SurfaceHull& hull, const Vec3& falling, std:
     const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double facing = dot(n, normal);
     if (!(facing > kLeastCosine * norm(normal)) || is_open_[t] != 0) return false;
-    const double farthest = (1 - kRounding) * most_ * facing;
+    const double farthest = (1 - kDistanceRounding) * most_ * facing;
     for (const Vec3& p : hull) {
       if (!(std::abs(dot(p - corners[0], normal)) <= farthest)) return false;
     }
@@ -58,7 +58,7 @@ CoveringTriangles::Place CoveringTriangles::place_of(const std::array<Vec3, 3>& 
   bool holds_middle = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 inwards = cross(n, corners[(i + 1) % 3] - corners[i]);
-    const double least = -kRounding * most_ * norm(inwards);
+    const double least = -kDistanceRounding * most_ * norm(inwards);
     const auto is_outside = [&](const Vec3& p) { return dot(inwards, p - corners[i]) < least; };
     if (std::all_of(hull.begin(), hull.end(), is_outside)) return Place::kApart;
     holds_middle = holds_middle && dot(inwards, middle - corners[i]) > 0;

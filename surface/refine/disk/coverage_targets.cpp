@@ -18,10 +18,10 @@ namespace deliso {
 
 namespace {
 
-constexpr double kBlock = 2;        // side of the blocks near coverage targets
-constexpr double kLikelyBlock = 3;  // and of those in which a likely triangle is looked for: hardly any holds none
-constexpr double kFarthest = 6;     // where the nearest triangle is looked for
-constexpr double kLong = 4;         // triangles with such an edge may be off the surface
+constexpr double kBlock = 2;             // side of the blocks near coverage targets
+constexpr double kLikelyBlock = 3;       // and of those in which a likely triangle is looked for: hardly any holds none
+constexpr double kFarthestTriangle = 6;  // where the nearest triangle is looked for
+constexpr double kLong = 4;              // triangles with such an edge may be off the surface
 constexpr double kTimesHeight = 2;
 constexpr double kSmallRadius = kLong / 2;  // of a ball: no edge of its triangle is longer than the diameter
 constexpr double kRounding = 1.01;
@@ -180,9 +180,10 @@ std::vector<Vec3> CoverageTargetSearch::beside_no_triangle(std::span<const Vec3>
 std::vector<MissedTarget> CoverageTargetSearch::with_nearest(std::span<const Vec3> coverage_targets) const {
   std::vector<MissedTarget> found;
   std::vector<Vec3> left(coverage_targets.begin(), coverage_targets.end());
-  for (double reach = std::min(2 * least_, kFarthest); !left.empty(); reach = std::min(2 * reach, kFarthest)) {
+  for (double reach = std::min(2 * least_, kFarthestTriangle); !left.empty();
+       reach = std::min(2 * reach, kFarthestTriangle)) {
     append_nearest(left, reach, found);
-    if (reach == kFarthest) break;
+    if (reach == kFarthestTriangle) break;
   }
   return found;
 }

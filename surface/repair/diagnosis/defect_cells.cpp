@@ -18,7 +18,7 @@ namespace {
 // Defects count within kNear layers of a box; within kVeryNear layers all active cells are taken.
 constexpr std::int32_t kNear = 6;
 constexpr std::int32_t kVeryNear = 3;
-constexpr std::size_t kFewBoxes = 64;  // with more boxes, not all active cells around them are taken
+constexpr std::size_t kFewLikelyBoxes = 64;  // with more boxes, not all active cells around them are taken
 
 class DefectFinder {
  public:
@@ -119,7 +119,7 @@ class DefectFinder {
 
 void DefectFinder::flag_boxes() {
   for (std::uint32_t c = 0; c < boxes_.size(); ++c) {
-    if (done_[c] || boxes_[c].likely.size() > kFewBoxes) continue;
+    if (done_[c] || boxes_[c].likely.size() > kFewLikelyBoxes) continue;
     for (const auto& [x, y, z] : boxes_[c].likely) {
       const CellIndex low = {x.first - kVeryNear, y.first - kVeryNear, z.first - kVeryNear};
       const CellIndex high = {x.last + kVeryNear, y.last + kVeryNear, z.last + kVeryNear};

@@ -7,7 +7,7 @@ namespace {
 // Jumps nearer to each other than this form one range: Euler curves err by a few layers.
 constexpr std::int32_t kCloseLayers = 4;
 // How many layers a change may lie outside of a box and yet be added to its sum.
-constexpr std::int32_t kMargin = 4;
+constexpr std::int32_t kBoxMargin = 4;
 
 std::vector<LayerRange> ranges_of(const std::vector<std::int32_t>& layers) {
   std::vector<LayerRange> ranges;
@@ -32,8 +32,8 @@ std::optional<EulerBoxes> EulerBoxes::around(const std::array<std::vector<std::i
     const std::vector<LayerRange>& ranges = boxes.ranges_[axis];
     Near near;
     for (std::int32_t layer = 0; layer < dims[axis]; ++layer) {
-      while (near.end < ranges.size() && ranges[near.end].first - kMargin <= layer) ++near.end;
-      while (near.begin < near.end && ranges[near.begin].last + kMargin < layer) ++near.begin;
+      while (near.end < ranges.size() && ranges[near.end].first - kBoxMargin <= layer) ++near.end;
+      while (near.begin < near.end && ranges[near.begin].last + kBoxMargin < layer) ++near.begin;
       boxes.near_[axis].push_back(near);
     }
   }

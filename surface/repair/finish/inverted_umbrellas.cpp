@@ -21,7 +21,7 @@ namespace {
 constexpr double kLeastEdge = 1;
 
 // The number of vertices that a thread takes at a time.
-constexpr std::size_t kVerticesAtOnce = 2048;
+constexpr std::size_t kNormalsAtOnce = 2048;
 // The number of consecutive triangles that share a box in searches of the whole mesh: most lie near their predecessors.
 constexpr std::size_t kTrianglesAtOnce = 32;
 
@@ -121,7 +121,7 @@ void InvertedUmbrellas::find_apexes(int threads) {
     if (is_long[v] && !is_open[v] && is_against(v, normals[v])) found.push_back(v);
   };
   for (const std::uint32_t v :
-       collect_in_blocks<std::uint32_t>(normals.size(), threads, append_if_against, kVerticesAtOnce)) {
+       collect_in_blocks<std::uint32_t>(normals.size(), threads, append_if_against, kNormalsAtOnce)) {
     apexes_.push_back({v, {}, {}});
   }
 }

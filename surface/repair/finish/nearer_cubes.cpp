@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostRounds = 8;
 constexpr std::int32_t kMostParts = 4;  // of a cell, because many are too far
-constexpr std::size_t kFew = 20;        // one cell in so many may be
+constexpr std::size_t kFewCells = 20;   // one cell in so many may be
 constexpr std::size_t kMostCrossings = 4096;
 
 // The cells that are to be divided.
@@ -106,7 +106,7 @@ ExactPolygonization nearer_cubes(const std::vector<bool>& components, const Exac
     if (parts >= kMostParts) break;
     DividedCells far(surface);
     add_far_cells(whole.mesh, components, surface, wanted.max_distance, far);
-    if (far.count() * kFew <= cells.count()) break;
+    if (far.count() * kFewCells <= cells.count()) break;
     ++parts;
   }
   return whole;

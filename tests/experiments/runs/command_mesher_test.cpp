@@ -155,11 +155,11 @@ TEST_F(CommandMesher, MistakesInTheCommandAreRefused) {
 // The memory of a program begins with that of the process that starts it; the launcher's does not.
 TEST(ProgramLauncher, TellsThePeakOfTheProgramAlone) {
   ProgramLauncher launcher;
-  std::vector<char> ballast(200'000'000, 1);
+  std::vector<char> ballast(400'000'000, 1);
   const ChildResult result = launcher.run("/bin/sh", {"-c", "echo hello >&2; exit 5"}, 20, nullptr);
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_EQ(result.err, "hello\n");
-  EXPECT_LT(result.peak_memory_bytes, 100'000'000);
+  EXPECT_LT(result.peak_memory_bytes, 300'000'000);  // the tests themselves take 170 MB with sanitizers
   EXPECT_GT(result.peak_memory_bytes, 100'000);
   EXPECT_EQ(ballast.back(), 1);
 }

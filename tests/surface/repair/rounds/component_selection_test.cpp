@@ -93,7 +93,7 @@ void expect_true_components(const AssembledMesh& assembled, const Scene& scene) 
 
 TEST(ComponentSelection, GiveEachComponentAsTheLatestOfTheBestHasIt) {
   std::size_t given_by_earlier = 0, displaced_again = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     SCOPED_TRACE(seed);
     const auto scene = blobs(seed);
     const std::size_t components = scene->topology.components.size();

@@ -18,8 +18,8 @@ namespace {
 
 using testing::field_scene;
 
-constexpr std::int32_t kSize = 11;
-constexpr double kLast = kSize - 1;
+constexpr std::int32_t kSlabSize = 11;
+constexpr double kLast = kSlabSize - 1;
 constexpr double kHeight = 4.3;
 
 // Points in the plane z = kHeight except for last bits: lattice points on one circle, within which flat tetrahedra lie
@@ -42,8 +42,9 @@ std::vector<Vec3> plane_points(Rng& rng) {
 // A volume whose isosurface is that plane.
 ScalarGrid plane_grid() {
   std::vector<float> samples;
-  for (std::int32_t i = 0; i < kSize * kSize * kSize; ++i) samples.push_back(static_cast<float>(i / (kSize * kSize)));
-  return {{kSize, kSize, kSize}, std::move(samples)};
+  for (std::int32_t i = 0; i < kSlabSize * kSlabSize * kSlabSize; ++i)
+    samples.push_back(static_cast<float>(i / (kSlabSize * kSlabSize)));
+  return {{kSlabSize, kSlabSize, kSlabSize}, std::move(samples)};
 }
 
 // Tetrahedra with a corner off the plane get the side on which they lie, flat ones a random side. Returns the number of
