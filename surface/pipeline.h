@@ -81,6 +81,7 @@ class Pipeline {
   bool is_right_within(const SurfaceMesh& mesh, double error);
   void decimate_mesh(SurfaceMesh& mesh, std::span<const Vec3> witnesses, double share);
   void improve_within_promise(SurfaceMesh& mesh, std::span<const Vec3> witnesses);
+  [[nodiscard]] bool is_compared() const;
   void look_in_world(SurfaceMesh& mesh);
   void uncross_by_steps(SurfaceMesh& mesh);
   void find_last_faults(SurfaceMesh& mesh);

@@ -31,14 +31,22 @@ bool Pipeline::merge_in_world(SurfaceMesh& mesh) const {
   return is_changed;
 }
 
-// Rounded to coordinates of the world, vertices may be equal and triangles cross. Repair and RefineGeom have seen to
-// crossing triangles in mesh space.
+// Whether no two triangles cross in mesh space: stage 2 has compared all, each slab those that meet it and the rest
+// what it renewed; and the steps of the stage shape see all triangles near those that they replace. Steps towards
+// stated sizes and finer cubes are not relied on for that.
+bool Pipeline::is_compared() const {
+  const SizeParameters& size = parameters_.size;
+  return repairs(parameters_) && parameters_.algorithm == Algorithm::kTwoStage && !is_sized(parameters_) &&
+         !size.max_edge && result_.repair.components_polygonized == 0 && result_.refine.meeting_pairs == 0;
+}
+
+// Rounded to coordinates of the world, vertices may be equal and triangles cross.
 void Pipeline::look_in_world(SurfaceMesh& mesh) {
   const bool is_exact = is_exact_in_world(*isosurface_);
   if (!is_exact && merge_in_world(mesh)) {
     last_.geometry = check_geometry(mesh, *surface_, promise_);
   }
-  if (!repairs(parameters_) || result_.refine.meeting_pairs > 0 || last_.crossing.crossing_pairs > 0 || !is_exact) {
+  if (!is_compared() || last_.crossing.crossing_pairs > 0 || !is_exact) {
     last_.crossing = crossing_in_world(mesh, *isosurface_, options_.threads);
   }
 }

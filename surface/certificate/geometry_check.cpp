@@ -238,12 +238,13 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
   std::map<std::uint32_t, std::vector<std::size_t>> against;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint32_t component = root(mesh.triangles[t][0]);
-    if (votes[component].sum < 0) against[component].push_back(t);
+    if (votes[component].sum < 0 || votes[component].count == 0) against[component].push_back(t);
   }
   for (const auto& [component, triangles] : against) {
     Votes all;
     for (const std::size_t t : triangles) add(all, facing(surface.isosurface, Corners(mesh, t)));
-    if (all.sum <= 0 && !winds_as_it_should(mesh, triangles, surface.isosurface).value_or(false)) {
+    const bool is_silent_still = votes[component].count == 0;
+    if (all.sum <= 0 && !winds_as_it_should(mesh, triangles, surface.isosurface).value_or(is_silent_still)) {
       check.reversed_vertices.push_back(component);
     }
   }

@@ -81,8 +81,9 @@ void refine_part(RefinementPart& part, Round round, const Task& task, Controls& 
     RefineLoop loop(part, task.isosurface, task.options, counted);
     loop.run(controls, threads.count());
     if (round == Round::kRest) release_free_memory();  // the peak memory may be in the check
-    // Of a run that is stopped nothing is promised, and its time is over.
-    if (!task.options.restart_at_crossings || (restarts == 0 && controls.stopped())) {
+    // Of a run that is stopped nothing is promised, and its time is over. A slab that has used up its share of the
+    // vertices does not stop the run.
+    if (!task.options.restart_at_crossings || (restarts == 0 && controls.stopped() && task.controls.is_over())) {
       stats = counted;
       return;
     }

@@ -146,13 +146,15 @@ std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const
   }
   std::vector<bool> are_against(components);
   for (std::size_t i = 0; i < components; ++i) {
-    are_against[i] = votes[i].up > kMostAgainst * votes[i].down && votes[i].area_down < 0;
+    // No line tells where all of the component lies as near to samples as vertices may be off.
+    const auto& [down, up, area] = votes[i];
+    are_against[i] = (up > kMostAgainst * down || up + down == 0) && area < 0;
   }
   forgive_coarse(mesh, component_of_vertex, probe, are_against);
   std::vector<std::int64_t> sums;
   for (std::size_t i = 0; i < components; ++i) {
     const std::int64_t sum = votes[i].down - votes[i].up;
-    sums.push_back(are_against[i] ? sum : std::max<std::int64_t>(0, sum));
+    sums.push_back(are_against[i] ? std::min<std::int64_t>(-1, sum) : std::max<std::int64_t>(0, sum));
   }
   return sums;
 }

@@ -134,6 +134,20 @@ TEST(Regression, SheetsThatRoundingMakesCrossAreNotCalledProven) {
   EXPECT_EQ(verify_mesh(result.mesh, grid, 0.5).proven, is_apart);
 }
 
+// A slab had used up its share of the vertices, and what it had made was compared with nothing: 18 pairs crossed. The
+// run itself was not stopped, and says what it is.
+TEST(Regression, ASlabWithoutVerticesLeftIsCompared) {
+  const ScalarGrid grid = read_volume(kInputs / "share_of_a_slab.nrrd");
+  MeshingOptions options;
+  options.parameters.size.max_edge = 0.45;
+  options.parameters.shape.rounds = 0;
+  options.parameters.budget.max_vertices = 58095;
+  const MeshingResult result = mesh_isosurface(grid, 0.06, options);
+  ASSERT_LT(result.mesh.points.size(), 58095U);
+  EXPECT_EQ(self_intersections(result.mesh.points, result.mesh.triangles, 1).crossing_pairs, 0);
+  EXPECT_EQ(verify_mesh(result.mesh, grid, result.isovalue_used).proven, is_proven(result.certificate));
+}
+
 class ProvenInput : public ::testing::TestWithParam<Input> {};
 
 TEST_P(ProvenInput, StaysSo) {

@@ -118,6 +118,20 @@ TEST(GeometryCheck, TellsReversedComponents) {
   EXPECT_EQ(check_geometry(mesh, scene->surface(), {}).reversed_components, 1);
 }
 
+// Around a sample this near to the isovalue triangles are smaller than vertices may be off, and none tells.
+TEST(GeometryCheck, TellsReversedComponentsThatAreNearlyNothing) {
+  for (const double radius : {0.1, 2e-3, 1e-3, 1e-4}) {
+    SCOPED_TRACE(radius);
+    std::vector<double> samples(9 * 9 * 9, -1);
+    samples[4 * 81 + 4 * 9 + 4] = radius / (1 - radius);
+    const Scene scene("point", ScalarGrid({9, 9, 9}, std::move(samples)), 0);
+    SurfaceMesh mesh = exact_polygonization(scene.surface()).mesh;
+    EXPECT_EQ(check_geometry(mesh, scene.surface(), {}).reversed_components, 0);
+    for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+    EXPECT_EQ(check_geometry(mesh, scene.surface(), {}).reversed_components, 1);
+  }
+}
+
 // A ball with a hollow shell in it. The triangles of the ball's mesh that are asked first lie on the shell's outer
 // side, which faces the other way; most of the others do not. All of that side, turned around, is reversed.
 TEST(GeometryCheck, ComponentsOfWhichTheFirstTrianglesLieElsewhereAreNotCalledReversed) {
