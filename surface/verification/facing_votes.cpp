@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
 #include <optional>
+#include <set>
+#include <span>
+#include <vector>
 
 #include "surface/certificate/promise.h"
 
@@ -134,6 +140,46 @@ void forgive_coarse(const TriangleMesh& mesh, std::span<const std::uint32_t> com
   for (std::size_t i = 0; i < down.size(); ++i) are_against[i] = are_against[i] && !(down[i] > 0);
 }
 
+// The solid angle of a triangle, as parts of a whole turn, above 0 where it faces away from the point (Van Oosterom and
+// Strackee, The solid angle of a plane triangle, 1983).
+double turn_around(const Vec3& from, const std::array<Vec3, 3>& corners) {
+  const Vec3 a = corners[0] - from, b = corners[1] - from, c = corners[2] - from;
+  const double to_a = norm(a), to_b = norm(b), to_c = norm(c);
+  const double beside = to_a * to_b * to_c + dot(a, b) * to_c + dot(b, c) * to_a + dot(c, a) * to_b;
+  return std::atan2(dot(a, cross(b, c)), beside) / (2 * std::numbers::pi);
+}
+
+// Components that few lines tell of lie beside samples: they wind around these, half around those that they pass by,
+// and by an eighth in a corner of the box. Where that does not say clearly that they face the wrong way, they are
+// right.
+void forgive_around_samples(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+                            const IsosurfaceProbe& probe, std::vector<bool>& are_against) {
+  constexpr std::size_t kMostSamples = 64;
+  constexpr double kLeastTurn = 1.0 / 16;
+  std::vector<std::vector<std::array<Vec3, 3>>> triangles(are_against.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t component = component_of_vertex[a];
+    if (are_against[component]) triangles[component].push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::set<std::array<double, 3>> samples;
+    const std::size_t stride = triangles[i].size() / kMostSamples + 1;
+    for (std::size_t t = 0; t < triangles[i].size(); t += stride) {
+      const Vec3& p = triangles[i][t][0];
+      const Vec3& step = probe.step();
+      samples.insert(
+          {std::round(p.x / step.x) * step.x, std::round(p.y / step.y) * step.y, std::round(p.z / step.z) * step.z});
+    }
+    double agree = 0;
+    for (const auto& [x, y, z] : samples) {
+      double turns = 0;
+      for (const auto& corners : triangles[i]) turns += turn_around({x, y, z}, corners);
+      agree += probe.value({x, y, z}) < 0 ? -turns : turns;
+    }
+    are_against[i] = are_against[i] && agree < -kLeastTurn;
+  }
+}
+
 }  // namespace
 
 std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
@@ -144,12 +190,15 @@ std::vector<std::int64_t> facing_votes(const TriangleMesh& mesh, std::span<const
     for (std::size_t axis = 0; axis < 3; ++axis) add_votes(corners, axis, probe, votes[component_of_vertex[a]]);
     votes[component_of_vertex[a]].area_down += area_down(corners, probe);
   }
-  std::vector<bool> are_against(components);
+  std::vector<bool> are_against(components), are_doubtful(components);
   for (std::size_t i = 0; i < components; ++i) {
-    // No line tells where all of the component lies as near to samples as vertices may be off.
+    // Few lines tell or none where most of the component lies as near to samples as vertices may be off.
     const auto& [down, up, area] = votes[i];
-    are_against[i] = (up > kMostAgainst * down || up + down == 0) && area < 0;
+    are_against[i] = up > kMostAgainst * down && area < 0;
+    are_doubtful[i] = down <= kMostAgainst * up && area < 0;
   }
+  forgive_around_samples(mesh, component_of_vertex, probe, are_doubtful);
+  for (std::size_t i = 0; i < components; ++i) are_against[i] = are_against[i] || are_doubtful[i];
   forgive_coarse(mesh, component_of_vertex, probe, are_against);
   std::vector<std::int64_t> sums;
   for (std::size_t i = 0; i < components; ++i) {

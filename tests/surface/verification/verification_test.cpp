@@ -186,6 +186,22 @@ TEST(Verification, RefusesReversedMeshesBesideSamples) {
   }
 }
 
+// The walls of a closed volume lie beside samples; where a corner is cut off, a few lines tell, one way or another.
+TEST(Verification, RefusesReversedWalls) {
+  for (const bool is_cut : {false, true}) {
+    SCOPED_TRACE(is_cut);
+    const auto box = [&](const Vec3& p) { return is_cut && p == Vec3{0, 0, 0} ? -1.0 : 1.0; };
+    const ScalarGrid grid = testing::sampled({6, 6, 6}, box);
+    MeshingOptions options;
+    options.parameters.boundary = Boundary::kClosed;
+    TriangleMesh mesh = mesh_isosurface(grid, 0, options).mesh;
+    const MeshedField field = meshed_field(grid, 0, {}, true, grid.spacing(), 1);
+    EXPECT_TRUE(verify_mesh(mesh, field.grid, field.isovalue).proven);
+    for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+    EXPECT_FALSE(verify_mesh(mesh, field.grid, field.isovalue).orientation.pass);
+  }
+}
+
 TEST(Verification, SaysWhatIsWrong) {
   const ScalarGrid grid = ball_grid();
   const TriangleMesh mesh = ball_mesh(grid);
