@@ -17,6 +17,11 @@ namespace {
 void check_isovalue_of(const ScalarGrid& grid, double isovalue, const FieldParameters& parameters, bool is_closed) {
   if (!std::isfinite(isovalue)) throw InputError("isovalue " + shortest_text(isovalue) + " is not a finite number");
   if (is_closed ? has_solid(grid, isovalue, inside_of(parameters)) : has_isosurface(grid, isovalue)) return;
+  if (parameters.label && parameters.smooth && grid.range().second <= kLabelIsovalue) {
+    throw InputError("label " + std::to_string(*parameters.label) + " has no surface left: smoothed by " +
+                     shortest_text(*parameters.smooth) + " voxels, 1 within it and 0 elsewhere becomes at most " +
+                     shortest_text(grid.range().second) + ", expected above 0.5; smooth it less, or leave it out");
+  }
   const std::string of_smoothed = parameters.smooth ? " (of the smoothed field)" : "";
   throw InputError("isovalue " + shortest_text(isovalue) +
                    " gives a surface with no point: " + isovalue_range_text(grid, isovalue) + of_smoothed);

@@ -123,6 +123,15 @@ TEST_F(Fields, SeveralLabelsInAFileKeepWhatIsTheirOwn) {
   }
 }
 
+// No isovalue was given, so none is named.
+TEST_F(Fields, ALabelThatSmoothingLeavesNothingOfIsNamed) {
+  write_field<std::int16_t>(volume_, [](int /*i*/, double d) { return d > 6 ? 0 : d > 1 ? 2 : 7; });
+  const ProgramResult result = run_deliso({"mesh", volume_, "--label", "2,7", "--smooth", "2", "-o", mesh_});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(has(result.err, "label 7 has no surface left: smoothed by 2 voxels")) << result.err;
+  EXPECT_FALSE(has(result.err, "isovalue")) << result.err;
+}
+
 TEST_F(Fields, LabelsComeInOneFileOrEachInItsOwn) {
   write_field<std::int16_t>(volume_, [](int i, double d) { return d > 6 ? 0 : i < 8 ? 2 : -5; });
   EXPECT_EQ(info()["volume"]["kind"], "labels");
