@@ -198,7 +198,7 @@ std::optional<bool> winds_as_it_should(const SurfaceMesh& mesh, const std::vecto
 
 // Triangles of a component agree with each other (certificate.h), so a few of them tell which way it faces. Where these
 // are against it all are asked: beside walls thinner than the mesh may be off the first ones may all lie on the other
-// side.
+// side. Where none tells, as of what is nearly nothing, the samples that the component winds around do.
 void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, GeometryCheck& check) {
   constexpr int kEnough = 64;  // triangles that tell
   std::vector<std::uint32_t> parent(mesh.points.size());
@@ -243,8 +243,8 @@ void check_orientation(const SurfaceMesh& mesh, const ExactSurface& surface, Geo
   for (const auto& [component, triangles] : against) {
     Votes all;
     for (const std::size_t t : triangles) add(all, facing(surface.isosurface, Corners(mesh, t)));
-    const bool is_silent_still = votes[component].count == 0;
-    if (all.sum <= 0 && !winds_as_it_should(mesh, triangles, surface.isosurface).value_or(is_silent_still)) {
+    const bool if_unknown = votes[component].count == 0;
+    if (all.sum <= 0 && !winds_as_it_should(mesh, triangles, surface.isosurface).value_or(if_unknown)) {
       check.reversed_vertices.push_back(component);
     }
   }

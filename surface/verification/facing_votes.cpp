@@ -141,7 +141,7 @@ void forgive_coarse(const TriangleMesh& mesh, std::span<const std::uint32_t> com
 }
 
 // The solid angle of a triangle, as parts of a whole turn, above 0 where it faces away from the point (Van Oosterom and
-// Strackee, The solid angle of a plane triangle, 1983).
+// Strackee, The solid angle of a plane triangle, 1983). The mesher has its own: a mistake is not to blind both.
 double turn_around(const Vec3& from, const std::array<Vec3, 3>& corners) {
   const Vec3 a = corners[0] - from, b = corners[1] - from, c = corners[2] - from;
   const double to_a = norm(a), to_b = norm(b), to_c = norm(c);
@@ -154,6 +154,7 @@ double turn_around(const Vec3& from, const std::array<Vec3, 3>& corners) {
 // right.
 void forgive_around_samples(const TriangleMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
                             const IsosurfaceProbe& probe, std::vector<bool>& are_against) {
+  if (std::find(are_against.begin(), are_against.end(), true) == are_against.end()) return;
   constexpr std::size_t kMostSamples = 64;
   constexpr double kLeastTurn = 1.0 / 16;
   std::vector<std::vector<std::array<Vec3, 3>>> triangles(are_against.size());
